@@ -90,9 +90,11 @@ def connect(url="http://127.0.0.1:8080/", session=None, **options):
     if shared and not (shared.get("session") and shared.get("token")):
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
     session = session or shared.get("session")
-    query = urlsplit(url).query
-    has_view = not session and any(name != "token" for name, _ in parse_qsl(query, keep_blank_values=True))
-    return Client(socket_url(url, session), token=shared.get("token"), view=query if has_view else "", **options)
+    parts = urlsplit(url)
+    access = [part for part in parts.query.split("&") if part.startswith("token=")]  # the server's own token
+    has_view = not session and len(access) < len([part for part in parts.query.split("&") if part])
+    address = socket_url(urlunsplit(parts._replace(query="&".join(access))), session)
+    return Client(address, token=shared.get("token"), view=parts.query if has_view else "", **options)
 
 
 def socket_url(url, session=None):
@@ -128,6 +130,7 @@ class Client:
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
         self._live = None  # called with each picture of the stream
+        self._held = None  # a picture that may be the answer to a request, or one of the stream
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
         self._waiting = {}  # for the id of each call in progress: its answer, None until it arrives
@@ -323,11 +326,12 @@ class Client:
             return Image(data=png, format="png", width=width, height=height)
 
         self._live = None
-        self.hello("frames", width=width, height=height)
+        kept = {name: value for name, value in self._hello.items() if name in ("scheme", "encoding")}
+        self.hello("frames", width=width, height=height, **kept)
         handle = display(picture(self.frame(width, height)), display_id=True)
-        size = struct.pack(">II", width, height)
-        # A script may also ask for frames of other sizes. The size is at the beginning of a PNG file.
-        self._live = lambda png: png[16:24] == size and handle.update(picture(png))
+        if handle is None:
+            raise RuntimeError("live() shows its picture in a notebook, and this is none")
+        self._live = lambda png: handle.update(picture(png))
 
     def at(self, x, y, width=None, height=None):
         """Returns what the picture shows at a point, in pixels from the upper left corner."""
@@ -438,8 +442,7 @@ class Client:
             try:
                 async for message in self._socket:
                     picture = self._receive(message)
-                    if picture is not None and self._live and isinstance(message, bytes):
-                        self._live(message)
+                    self._follow(message, picture is not None)
                     if picture is not None and self.show:
                         await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
             except websockets.ConnectionClosed:
@@ -508,6 +511,23 @@ class Client:
                 self.errors.append(message)
             self._change.notify_all()
         return picture
+
+    def _follow(self, message, is_picture):
+        """Shows a picture of the stream by live(). One that arrives while a frame is asked for may be the answer: if so, a
+        done comes next."""
+        held, self._held = self._held, None
+        shown = [] if held is None or (isinstance(message, str) and '"type":"done"' in message[:100]) else [held]
+        if is_picture and isinstance(message, bytes) and message.startswith(PNG):
+            if self._wants_bytes:
+                self._held = message
+            else:
+                shown.append(message)
+        for png in shown:
+            try:
+                if self._live:
+                    self._live(png)
+            except Exception:  # the notebook is gone; the session goes on
+                self._live = None
 
     def _wait_for(self, happened, timeout, what):
         end = time.monotonic() + (self.timeout if timeout is None else timeout)

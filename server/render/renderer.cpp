@@ -82,10 +82,9 @@ void setClearColor(const scene::Style& style) {
     glClearColor(channel(16), channel(8), channel(0), alpha);
 }
 
-/// Removes the slices from the part of the picture that belongs to the parallel coordinates. They extend into it only
-/// if the viewer has moved the camera.
+/// See Scene::clearsCoordinates().
 void clearCoordinates(const scene::Scene& scene) {
-    if (!scene.look.parts.coordinates || scene.look.orbit == scene::CameraOrbit{}) return;
+    if (!scene.clearsCoordinates()) return;
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, scene.viewport.width,
               static_cast<int>(std::lround(scene.coordinates.top() * scene.viewport.height)));

@@ -230,6 +230,8 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
         picker.pickMatrix();
         return picker.picked();
     }
+    const double bottom = scene.viewport.height * (1 - scene.coordinates.top());
+    if (scene.clearsCoordinates() && point.y >= bottom) return std::nullopt;
     picker.pickSlices();
     picker.pickProjection();
     return picker.picked();

@@ -104,6 +104,9 @@ struct Scene : Layout {
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
+    /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates, into
+    /// which they extend only if the viewer has moved the camera.
+    bool clearsCoordinates() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }
     /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];

@@ -166,7 +166,8 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));
     for (auto& setting : settingTexts(settingsOf(state))) {
-        const bool isInitial = std::ranges::find(initial, setting) != initial.end();
+        const bool isSamePoint = setting.first == "point" && state.look.focusPoint == fresh.look.focusPoint;
+        const bool isInitial = isSamePoint || std::ranges::find(initial, setting) != initial.end();
         if (!isInitial || (setting.first == "spacing" && !isSpaced)) query->push_back(std::move(setting));
     }
     return query;

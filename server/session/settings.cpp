@@ -313,8 +313,7 @@ Set settingsOf(const State& state) {
     set.focus = state.slices.focus;
     set.offset = state.slices.offset;
     set.view = look.view;
-    // Focus and offset give the w of the focus point.
-    set.focusPoint = slicing::infoOf(state.object).originInFile + glm::dvec4(look.focusPoint, 0);
+    set.focusPoint = slicing::infoOf(state.object).originInFile + glm::dvec4(look.focusPoint, state.focusW());
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) set.parts[i] = look.parts.*scene::kParts[i].flag;
     set.azimuth = look.orbit.azimuth;
     set.elevation = look.orbit.elevation;

@@ -12,7 +12,9 @@ from pathlib import Path
 
 import numpy
 import pytest
+from array_files import npy
 from harness import DEADLINE, Server, free_port, wait_until
+from png import pixels
 
 PYTHON = Path(__file__).resolve().parents[2] / "protocol/python"
 sys.path.insert(0, str(PYTHON))
@@ -423,11 +425,13 @@ def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):
         with connect(server.url, timeout=DEADLINE) as oval:
             oval.live(320, 200)
             assert name_in(shown.outputs[0]) == "5-cell" and not shown.outputs[0]["update"]
-            oval.frame(64, 48)  # is not shown
+            oval.frame(320, 200, "white")  # an answer is not shown
             oval.set(polytope="24-cell")
             wait_until(lambda: name_in(shown.outputs[-1]) == "24-cell", "the picture of the change")
             assert all(output["update"] for output in shown.outputs[1:])
             assert len({output["transient"]["display_id"] for output in shown.outputs}) == 1
+            grounds = {pixels(base64.b64decode(output["data"]["image/png"]))[1][:3] for output in shown.outputs}
+            assert len(grounds) == 1, "all have the background of the stream"
     finally:
         InteractiveShell.clear_instance()
 
@@ -459,5 +463,7 @@ def test_an_address_opens_its_view(server):
         shown = other.state()
         assert (shown["polytope"], shown["slices"]) == (state["polytope"], state["slices"])
         assert numpy.allclose(shown["orientation"], state["orientation"], rtol=0, atol=1e-12)
+        other.upload("noise", npy(numpy.random.default_rng(1).random((8, 8, 8))), axes="zyx")
+        assert other.state()["polytope"]["name"] == "noise"
     with connect(server.url + "?polytope=25-cell", timeout=DEADLINE) as oval, pytest.raises(Refused, match="24-cell"):
         oval.hello()

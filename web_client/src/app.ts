@@ -177,6 +177,7 @@ export class App {
     private hadTools = true; // whether the tools were open before full screen
 
     start(): void {
+        this.fullScreen.update();
         new PrintView(
             this.client,
             this.stage,
@@ -189,7 +190,7 @@ export class App {
             rotation: this.rotation,
             focusPoint: this.focusPointDrag,
             click: (at, isTap) => void this.click(at, isTap),
-            openMenu: (at) => void this.openElementMenu(at),
+            openMenu: (at) => this.openElementMenu(at),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keydown(event));
@@ -245,7 +246,7 @@ export class App {
     private async connectionOpened(): Promise<void> {
         this.keyRepeat.restart();
         this.latency.restart();
-        this.slider.restart();
+        for (const part of [this.slider, this.orbit, this.focusPoint, this.fieldPanel]) part.restart();
         try {
             await this.restoreView();
             this.requestStream();
@@ -273,7 +274,9 @@ export class App {
             reset: () => void this.send({ type: "reset" }),
             share: () => void this.sharing.copySessionLink(),
             copyViewLink: () => void this.sharing.copyViewLink(),
-            copyPython: () => void this.sharing.copyPython(this.state?.polytope.name ?? "", this.stage.size),
+            copyPython: () => {
+                void this.sharing.copyPython(this.state?.polytope.name ?? "", this.stage.size, this.colorScheme.current);
+            },
             save: () => void this.savePicture(),
             openField: () => this.fieldPanel.open(),
             scheme: this.colorScheme.choice,
@@ -412,6 +415,7 @@ export class App {
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
+        if (document.activeElement === document.body) this.drawing.focus(); // the button may be hidden now
         markFullScreen(isOn);
         this.stage.redraw();
     }
@@ -483,10 +487,10 @@ export class App {
     }
 
     /** Lights the element at a point of the drawing, and offers what can be done with it. */
-    private async openElementMenu(at: Point): Promise<void> {
+    private async openElementMenu(at: Point): Promise<boolean> {
         const layout = this.stage.layout ?? (await this.frameLayout.request());
         const pointed = layout && this.pointing.elementAt(at.x, at.y, layout);
-        if (!pointed) return;
+        if (!pointed) return false;
         const { element, number, slice } = pointed;
         void this.send({ type: "set", highlight: { element, number } });
         const command = (label: string, line: string): MenuItem => ({
@@ -501,6 +505,7 @@ export class App {
             { label: "Export it…", act: () => this.openExport({ element, number }) },
             command("Remove its highlight", "highlight none"),
         ]);
+        return true;
     }
 
     private openCommandLine(): void {

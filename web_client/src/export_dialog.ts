@@ -30,6 +30,7 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
+    private bodyOfOthers: string | undefined; // the chosen body, while an element without a volume is to be exported
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page; `warn` shows what a saved file lacks. */
@@ -189,7 +190,14 @@ export class ExportDialog {
     /** Offers no solid of a face, an edge or a vertex, which has no volume. */
     private showBodies(): void {
         const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
-        if (isFlat) this.field("body").value = "skeleton";
+        const body = this.field("body");
+        if (isFlat) {
+            this.bodyOfOthers ??= body.value;
+            body.value = "skeleton";
+        } else if (this.bodyOfOthers !== undefined) {
+            body.value = this.bodyOfOthers;
+            this.bodyOfOthers = undefined;
+        }
         const solid = this.form.querySelector<HTMLInputElement>('[name=body][value="solid"]')!;
         solid.disabled = solid.parentElement!.hidden = isFlat;
     }

@@ -124,6 +124,10 @@ export class FieldPanel {
         this.pair();
     }
 
+    restart(): void {
+        this.fog.restart();
+    }
+
     update(state: State): void {
         this.state = state;
         if (this.sent && state.revision >= this.sent.revision) this.sent = undefined;

@@ -38,6 +38,10 @@ export class FocusPoint {
         this.origin = originInFile(state);
     }
 
+    restart(): void {
+        this.lastChange.restart();
+    }
+
     /** Begins a gesture: the moves up to the next call are one undo step. */
     begin(): void {
         this.continues = false;

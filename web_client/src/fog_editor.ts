@@ -56,6 +56,10 @@ export class FogEditor {
         for (const end of ["pointerup", "pointercancel"]) this.curve.addEventListener(end, () => this.release());
     }
 
+    restart(): void {
+        this.lastChange.restart();
+    }
+
     update(state: State): void {
         this.state = state;
         this.show.disabled = state.fog === undefined;

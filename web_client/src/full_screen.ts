@@ -24,7 +24,8 @@ export class FullScreen {
         else await document.documentElement.requestFullscreen({ navigationUI: "hide" });
     }
 
-    private update(): void {
+    /** Finds whether the page is in full screen; it may be so from the beginning. */
+    update(): void {
         const { isOn } = this;
         if (isOn === this.wasOn) return;
         this.wasOn = isOn;

@@ -23,15 +23,16 @@ export interface GestureTargets {
     focusPoint: FocusPointDrag;
     /** A click, or the tap of a finger, at a point of the drawing. */
     click(at: Point, isTap: boolean): void;
-    /** A click with the right button, or a long press of a finger, at a point of the drawing. */
-    openMenu(at: Point): void;
+    /** A click with the right button, or a long press of a finger, at a point. Resolves to whether a menu has opened. */
+    openMenu(at: Point): Promise<boolean>;
 }
 
 export function listenForGestures(drawing: HTMLElement, targets: GestureTargets): void {
     const { orbit, rotation, focusPoint } = targets;
     const fingers = new Map<number, PointerEvent>();
     let longPress: ReturnType<typeof setTimeout> | undefined;
-    let isLongPress = false; // whether the last touch has opened the menu
+    let isLongPress = false; // whether the last touch was long enough to open the menu
+    let isMenuOpen = false; // whether it has opened the menu
     let isClick = false; // whether the pointer has not moved since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
@@ -70,13 +71,13 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         movesPoint = isClick && !isRolling && focusPoint.begin(placeOf(event));
         fingersChanged();
         clearTimeout(longPress);
-        isLongPress = false;
+        isLongPress = isMenuOpen = false;
         if (event.pointerType !== "touch" || !isClick) return;
         longPress = setTimeout(() => {
             if (!isClick) return;
             isClick = false;
             isLongPress = true;
-            targets.openMenu(placeOf(event));
+            void targets.openMenu(placeOf(event)).then((hasOpened) => (isMenuOpen = hasOpened));
         }, kLongPress);
     });
     // Otherwise the mouse events that follow a touch would take the focus from the menu.
@@ -84,7 +85,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         passive: false,
     });
     drawing.addEventListener("pointerup", (event) => {
-        if (isClick && event.button === kButtons.right) targets.openMenu(placeOf(event));
+        if (isClick && event.button === kButtons.right) void targets.openMenu(placeOf(event));
     });
     // Some systems open the menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -93,7 +94,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
-        if (!before || isLongPress) return; // the menu is open
+        if (!before || isMenuOpen) return;
         const slop = event.pointerType === "mouse" ? kSlop.mouse : kSlop.touch;
         const distance = Math.hypot(event.clientX - before.clientX, event.clientY - before.clientY);
         if (isClick && distance < slop) return;

@@ -12,6 +12,11 @@ export class LastChange {
         this.revision = revision;
     }
 
+    /** Forgets the revisions, because a new connection may be to a session whose revisions start again. */
+    restart(): void {
+        this.revision = this.seen = 0;
+    }
+
     /** Whether this state, the newest one, is from before the last change. */
     isAfter({ revision }: State): boolean {
         if (revision < this.seen) this.revision = 0; // the revisions of another session

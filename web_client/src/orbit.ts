@@ -72,6 +72,10 @@ export class OrbitControl {
         if (from) this.setOrbit(this.limited(from, this.stage.orbit));
     }
 
+    restart(): void {
+        this.lastChange.restart();
+    }
+
     /** Performs an action of the key table; returns false if it is not one of the camera. */
     perform(action: string): boolean {
         const move = this.actions[action];

@@ -27,7 +27,7 @@ export class PrintView {
 
     /** When the server draws the pictures, gets one on white before the browser prints. */
     private keydown(event: KeyboardEvent): void {
-        const isPrinting = event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
+        const isPrinting = !event.repeat && event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
         if (!isPrinting || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;
         event.preventDefault();
         void this.printFrame();

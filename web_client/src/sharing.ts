@@ -1,6 +1,6 @@
 // Links and scripts that open the session, or its view, elsewhere.
 
-import type { Client, RequestError } from "@oval4d/protocol";
+import type { Client, RequestError, Scheme, Viewport } from "@oval4d/protocol";
 
 import { fileName } from "./download";
 import { shareLink, viewLink } from "./link";
@@ -28,21 +28,22 @@ export class Sharing {
         }
     }
 
-    /** Copies a Python script that opens the present view and saves its picture. */
-    async copyPython(objectName: string, { width, height }: { width: number; height: number }): Promise<void> {
+    /** Copies a Python script that opens the present view and saves its picture, for a page with this color scheme. */
+    async copyPython(objectName: string, { width, height }: Viewport, scheme: Scheme): Promise<void> {
         try {
-            const link = JSON.stringify(await this.linkForScript());
+            const { link, joins } = await this.linkForScript();
             const picture = JSON.stringify(fileName([objectName], "png"));
             const lines = [
                 "from oval4d_client import connect  # pip install ./protocol/python",
                 "",
-                `with connect(${link}) as oval:`,
-                "    oval.hello()",
+                `with connect(${JSON.stringify(link)}) as oval:`,
+                `    oval.hello(${scheme === "light" ? 'scheme="light"' : ""})`,
                 `    with open(${picture}, "wb") as file:`,
                 `        file.write(oval.frame(${width}, ${height}))`,
                 "",
             ];
-            await this.copy("Python script", lines.join("\n"), "It opens this view and saves its picture");
+            const effect = joins ? "Anyone who runs it joins this session" : "It opens this view and saves its picture";
+            await this.copy("Python script", lines.join("\n"), effect);
         } catch (error) {
             this.notice.show((error as Error).message);
         }
@@ -54,13 +55,14 @@ export class Sharing {
     }
 
     /** The link that opens the view or, if the object is from a file, which only this session has, the session's. */
-    private async linkForScript(): Promise<string> {
+    private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {
-            return viewLink((await this.client.request({ type: "get", what: "address" })).query);
+            const { query } = await this.client.request({ type: "get", what: "address" });
+            return { link: viewLink(query), joins: false };
         } catch (error) {
             const { credentials } = this.client;
             if ((error as RequestError).code !== "unknown_polytope" || !credentials) throw error;
-            return shareLink(credentials);
+            return { link: shareLink(credentials), joins: true };
         }
     }
 

@@ -31,7 +31,7 @@ export function drawOverlay(
 }
 
 /** The height of the upper edge of the parallel coordinates, from the bottom: CoordinatesLayout::top() of the server. */
-function topOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
+export function topOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
 }
 

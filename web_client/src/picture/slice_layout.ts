@@ -7,6 +7,7 @@ import { type Hit, hitAt, kReach } from "./hit_test";
 import { Lens } from "./lens";
 import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
+import { topOfCoordinates } from "./overlay";
 
 export class SliceLayout {
     private readonly lens = new Lens();
@@ -34,6 +35,7 @@ export class SliceLayout {
      */
     sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
         this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        if (this.isCovered(y, size)) return undefined;
         let [found, nearest]: [Slice | undefined, number] = [undefined, Infinity];
         for (const slice of this.picture.slices) {
             const center = slice.drawn ? this.lens.project(slice.position) : undefined;
@@ -53,12 +55,19 @@ export class SliceLayout {
         const panel = this.panelAt(x, y, size);
         if (panel) return hitInPanel(panel, matrix!, scene, size, [x, y], kReach * ratio);
         this.lens.set(scene.camera, size, this.orbit, orbit);
+        if (this.isCovered(y, size)) return undefined;
         return hitAt(this.picture, this.lens, x, y, ratio);
     }
 
     /** The vertex whose parallel coordinates are at a point of the picture, in pixels. */
     columnAt(x: number, y: number, size: Viewport): number | undefined {
         return this.panelAt(x, y, size) ? undefined : columnAt(this.picture, size, x, y);
+    }
+
+    /** Whether the coordinates cover the slices at this height, seen with the lens as it is set. */
+    private isCovered(y: number, size: Viewport): boolean {
+        const { scene } = this.picture;
+        return scene.shown.coordinates && this.lens.isMoved && y >= size.height - topOfCoordinates(scene, size);
     }
 
     /** The panel of the matrix at a point of the picture, in pixels. */
