@@ -117,8 +117,8 @@ class Exporter {
         }
         if (groups.empty() && element_) refuseFlatElement();
         if (groups.empty()) refuseEmpty();
-        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty"));
-        if (!thin.empty()) warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin"));
+        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty", origin().w));
+        if (!thin.empty()) warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin", origin().w));
         if (request_.label != Label::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);

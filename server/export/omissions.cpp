@@ -7,8 +7,8 @@
 
 namespace oval4d::exports {
 
-std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<const int> slices,
-                              std::string_view reason) {
+std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<const int> slices, std::string_view reason,
+                              double origin) {
     constexpr std::size_t kListed = 12;
     const bool isOne = planes.count == 1;
     std::string out = isOne ? "the slice" : std::to_string(slices.size()) + " of " + std::to_string(planes.count);
@@ -17,7 +17,7 @@ std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<con
     out += std::string(reason) + " and left out: w = ";
     for (std::size_t i = 0; i < std::min(slices.size(), kListed); ++i) {
         std::array<char, 32> number{};
-        std::snprintf(number.data(), number.size(), "%.6g", planes.w(slices[i]) + 0.0);  // 0, not -0
+        std::snprintf(number.data(), number.size(), "%.6g", planes.w(slices[i]) + origin + 0.0);  // 0, not -0
         out += (i > 0 ? ", " : "") + std::string(number.data());
     }
     if (slices.size() > kListed) out += " and " + std::to_string(slices.size() - kListed) + " more";

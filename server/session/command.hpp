@@ -114,7 +114,8 @@ struct Reset {};
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-/// Shows the view that the query of an address describes. What the query does not contain stays as it is.
+/// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are; an
+/// object or rotations begin in the initial orientation.
 struct OpenAddress {
     std::string query;  ///< see parseQuery()
 };

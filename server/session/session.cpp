@@ -149,7 +149,17 @@ class Applier {
                          "in the query of an address, two hexadecimal digits must follow each %, as in 5%25"};
         }
         std::erase_if(*query, [](const auto& parameter) { return isOfConnection(parameter.first); });
-        auto next = stateFromQuery(*query, limits_, loader_, session_.current);
+        const auto has = [&](std::string_view name) {
+            return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
+        };
+        State start = session_.current;
+        if (has("rotate") || has("polytope") || has(kFormula)) {
+            // The rotations of an address lead from the initial orientation to its view.
+            start.orientation = {};
+            start.turning = false;
+            start.ongoingTurnToward.reset();
+        }
+        auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
         if (!next) return next.error();
         const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
         if (formula != query->end()) {

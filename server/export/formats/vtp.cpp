@@ -162,8 +162,10 @@ std::string vtp(const SceneInput& source) {
         isField ? addSurface(source, i, data) : addFaces(source, i, data);
         if (data.ends.size() == before) empty.push_back(i);
     }
-    if (!empty.empty())
-        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, "without faces"));
+    if (!empty.empty()) {
+        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, "without faces",
+                                                    slicing::infoOf(source.object).originInFile.w));
+    }
     return vtkFile("PolyData", "", written(data, isField, isField && field->second != nullptr));
 }
 

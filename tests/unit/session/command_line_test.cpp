@@ -181,6 +181,8 @@ TEST(Query, OpensInASessionAsOneStep) {
     EXPECT_EQ(infoOf(session.current).name, "24-cell");
     EXPECT_EQ(session.current.slices.count, 11) << "what the query does not contain stays";
     EXPECT_EQ(session.revision, 2);
+    must(session, OpenAddress{"polytope=24-cell&rotate=xw:0.1+pi/8"});
+    EXPECT_EQ(session.revision, 2) << "the view is shown already: an address does not turn further";
     must(session, OpenAddress{"formula=x^2%2By^2<w&values=x"});
     EXPECT_TRUE(session.loaded.contains("formula")) << "it can be shown again by its name";
     line(session, "undo");
