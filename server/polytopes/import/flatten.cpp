@@ -23,15 +23,17 @@ namespace {
 using geometry::kNone;
 
 // Relative to the size: the largest distance of a vertex from the hyperplane of its cell, and the distance at which the
-// search for better places ends.
+// search for better places ends. Neither is less than a multiple of the rounding errors of the coordinates, which are
+// larger if the polytope is far from the origin.
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
+constexpr double kMaxRounding = 8, kGoalRounding = 2;
 // Two hyperplanes with a larger cosine of the angle between them do not determine the plane in which they meet.
 constexpr double kNearlyParallel = 0.995;
 constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; it has no extent along an axis below this
 
-constexpr int kMaxNewtonRounds = 16;                // of Newton's method
-constexpr std::size_t kMaxGradientSteps = 300;      // of the conjugate gradients in a round
-constexpr std::size_t kMaxEquations = 100'000'000;  // the sum over all steps of the number of equations
+constexpr int kMaxNewtonRounds = 16;            // of Newton's method
+constexpr std::size_t kMaxGradientSteps = 300;  // of the conjugate gradients in a round
+constexpr std::size_t kMaxWork = 150'000'000;   // the sum over all steps of the number of equations and unknowns
 // The equations of a round are solved until the gradient of the error is smaller than at first by this factor, which
 // suffices for a few digits more. If a round makes less progress than that, some unknowns hardly matter for the
 // equations, and the next round solves them more exactly.
@@ -102,7 +104,12 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
 // Methods for Least Squares Problems, 7.4). The equations need not be independent.
 class Flattener {
   public:
-    explicit Flattener(PolygonSoup& soup, double size) : soup_(soup), size_(size) {
+    explicit Flattener(PolygonSoup& soup, double size) : soup_(soup) {
+        double farthest = 0;  // from the origin
+        for (const glm::dvec4& v : soup.vertices) farthest = std::max(farthest, glm::length(v));
+        const double rounding = std::numeric_limits<double>::epsilon() * farthest;
+        maxDeviation_ = std::max(kMaxDeviation * size, kMaxRounding * rounding);
+        goalDeviation_ = std::max(kGoalDeviation * size, kGoalRounding * rounding);
         collectCells();
         fitAll();
         collectFaces();
@@ -112,12 +119,12 @@ class Flattener {
     double deviation() const { return farthest_ == kNone ? 0 : flats_[farthest_].deviation; }
     /// The cell of the flat with the largest deviation.
     std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : flats_[farthest_].cell; }
-    bool isFlat() const { return deviation() <= kMaxDeviation * size_; }
+    bool isFlat() const { return deviation() <= maxDeviation_; }
 
     /// Marks the 2-faces and the cells whose flats are not flat.
     void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
         for (const FittedFlat& flat : flats_) {
-            if (flat.deviation <= kMaxDeviation * size_) continue;
+            if (flat.deviation <= maxDeviation_) continue;
             if (flat.face == kNone) {
                 cells[flat.cell] = true;
             } else {
@@ -131,8 +138,8 @@ class Flattener {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
         std::size_t work = 0;
-        for (int round = 0; round < kMaxNewtonRounds && work < kMaxEquations; ++round) {
-            if (deviation() <= kGoalDeviation * size_) return true;
+        for (int round = 0; round < kMaxNewtonRounds && work < kMaxWork; ++round) {
+            if (deviation() <= goalDeviation_) return true;
             if (deviation() * kGoodProgress > best) tolerance = std::max(tolerance * kTighter, kLeastTolerance);
             best = std::min(best, deviation());
             const Unknowns change = solve(tolerance, work);
@@ -291,8 +298,8 @@ class Flattener {
         Unknowns direction = gradient;
         double square = gradient.squaredLength();
         const double goal = tolerance * tolerance * square;
-        for (std::size_t step = 0; step < kMaxGradientSteps && square > goal && work < kMaxEquations; ++step) {
-            work += error.size();
+        for (std::size_t step = 0; step < kMaxGradientSteps && square > goal && work < kMaxWork; ++step) {
+            work += error.size() + change.moves.size() + change.tilts.size();
             apply(direction, image);
             double steepness = 0;
             for (const double value : image) steepness += value * value;
@@ -309,7 +316,7 @@ class Flattener {
     }
 
     PolygonSoup& soup_;
-    double size_;
+    double maxDeviation_, goalDeviation_;
     std::vector<FittedFlat> flats_;
     std::vector<std::uint32_t> flatOfCell_;  // kNone for a cell of at most four vertices
     geometry::JaggedArray corners_;          // the vertices of each flat

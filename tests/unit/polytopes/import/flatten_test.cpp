@@ -128,6 +128,28 @@ TEST(Flatten, MakesTheSectionsOfNoisyPolytopesClosed) {
     }
 }
 
+// The coordinates of a distant polytope are rounded more coarsely than 1e-12 of its size.
+TEST(Flatten, LeavesDistantPolytopesAsExactAsTheirCoordinatesAre) {
+    std::mt19937 random(52);
+    for (const double distance : {1e2, 1e4, 1e6}) {
+        for (const std::string name : {"8-cell", "120-cell", "rectified 24-cell"}) {
+            const Polytope& exact = named(name);
+            const geometry::Rotation rotation = support::randomRotation(random);
+            Points vertices;
+            for (const glm::dvec4& v : exact.vertices)
+                vertices.push_back(rotation(v) + distance * glm::dvec4(1, -2, 0, 1));
+            const std::string text = write4Off(exact, vertices);
+            for (const auto kind : {geometry::Centering::Kind::origin, geometry::Centering::Kind::object}) {
+                const Imported made =
+                    sound(importPolytope(FileFormat::off4, text, "p", {}, {.kind = kind, .place = {}}));
+                EXPECT_EQ(made.warnings, std::vector<std::string>()) << name << " at " << distance;
+                EXPECT_EQ(countsOf(made.polytope), countsOf(exact));
+                EXPECT_LT(unevenness(made.polytope), std::max(4e-12, 1e-14 * distance));
+            }
+        }
+    }
+}
+
 TEST(Flatten, KeepsTheContent) {
     std::mt19937 random(52);
     for (const char* name : {"8-cell", "24-cell", "5,7-duoprism"}) {
