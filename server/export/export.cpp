@@ -75,7 +75,7 @@ class Exporter {
             case ExportContents::projection:
                 return drawProjection(scene_);
             case ExportContents::matrix:
-                return drawMatrix(scene_);
+                return drawMatrix(scene_, origin());
             case ExportContents::oval:
             case ExportContents::focus:
                 return drawSlices(scene_, object_, budget_);

@@ -85,11 +85,13 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
 }
 
-// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w.
+// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w. Those of a point
+// cloud are slightly larger, because its slices do not contain the points at their upper ends.
 geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
+    const double larger = std::holds_alternative<slicing::CloudPtr>(state.object) ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double shortest = session::kMinSpacing * slicing::infoOf(state.object).circumradius;
-    const double spacing = std::max((most - least) / count, shortest);  // a flat object may have no extent
+    const double spacing = std::max(larger * (most - least) / count, shortest);  // a flat object may have no extent
     const double middle = (least + most) / 2;
     return {-(count - 1) / 2, count, spacing, count % 2 == 1 ? middle : middle - spacing / 2};
 }

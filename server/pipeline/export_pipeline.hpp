@@ -13,8 +13,9 @@ namespace oval4d::pipeline {
 /// and the command line. Errors: `no_body` if there is nothing to export; `too_large` if the file exceeds a limit or
 /// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
 /// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
-/// `out_of_range` for w in `at` that are equal or farther from 0 than session::kMaxOffset circumradii, for more slices
-/// than ExportLimits::slices, and for the size of a drawing that is not from kMinDrawingSize to kMaxDrawingSize.
+/// `out_of_range` for w in `at` that are equal or farther from the object's center than session::kMaxOffset
+/// circumradii, for more slices than ExportLimits::slices, and for the size of a drawing that is not from
+/// kMinDrawingSize to kMaxDrawingSize.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});
 

@@ -119,9 +119,6 @@ std::string labelOf(double w, int decimals, bool focus) {
     return (focus ? "w = " : "") + sign + text;
 }
 
-// Returns the number of decimals with which neighboring labels differ.
-int decimalsFor(double spacing) { return std::clamp(static_cast<int>(std::ceil(-std::log10(spacing))) + 1, 2, 9); }
-
 // Returns the parameter u of slice i: −1 … 1 from the first to the last.
 double parameterOf(std::size_t i, std::size_t count) {
     return count == 1 ? 0 : 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1;
@@ -230,6 +227,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
     const ViewSpace space(oval);
+    const int decimals = geometry::labelDecimals(planes);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -238,8 +236,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
         placement.focus = placement.index == focus;
         placement.drawn = look.view == View::oval || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
-        placement.label =
-            !look.parts.labels ? "" : labelOf(originW + placement.w, decimalsFor(planes.spacing), placement.focus);
+        placement.label = look.parts.labels ? labelOf(originW + placement.w, decimals, placement.focus) : "";
         const double away = space.depth(placement.position) / space.distance;
         placement.labelSize = placement.focus ? 1.15 : std::clamp(std::pow(away, -0.25), 0.62, 1.0);
     }
@@ -271,11 +268,11 @@ bool overlap(const Box& a, const Box& b) {
 class Labels {
   public:
     // `radius` is that of the slices with their balls.
-    Labels(const Oval& oval, double radius, double spacing, double originW, std::vector<SlicePlacement>& placements)
+    Labels(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements)
         : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
         // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
-        const double w = std::max(std::abs(originW + placements.front().w), std::abs(originW + placements.back().w));
-        const int decimals = decimalsFor(spacing);
+        double w = 0;
+        for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
         const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
         width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
     }
@@ -526,7 +523,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
-    Labels labels(oval, reach, planes.spacing, content.originW, out.placements);
+    Labels labels(oval, reach, geometry::labelDecimals(planes), content.originW, out.placements);
     const Rect inside = roomInside(room, bounds, labels);
     if (projected && !alone) {
         const double scale = scaleFor(bounds, inside);

@@ -177,3 +177,39 @@ async def test_wrong_members_are_refused(server, members, code):
         with pytest.raises(Refused) as refused:
             await client.request("get", what="file", format="stl", **members)
         assert refused.value.code == code
+
+
+async def test_slices_that_fit_a_cloud_contain_all_of_its_points(server):
+    points = [[0.1 * i, 0.2, 0, 0.7 * (i - 3)] for i in range(10)]
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="row", format="cloud", data="\n".join(" ".join(map(str, p)) for p in points))
+        for angle in (0, 0.4):
+            await client.request("rotate", planes=["yw"], angles=[angle])
+            for count in (1, 3, 10):
+                done = await client.request("get", what="file", format="csv", of="oval", fit=count)
+                rows = rows_of(client.messages[client.messages.index(done) - 1])
+                assert len(rows) == count and sum(row["vertices"] for row in rows) == len(points)
+
+
+def test_labels_of_chosen_slices_differ(server):
+    drawing = fetch(server, "svg", "polytope=24-cell&at=0.001,0.002,-1&labels=on").body.decode()
+    labels = re.findall(r">(?:w = )?(-?\d+\.\d+)</text>", drawing)
+    assert sorted(labels) == sorted(["0.0010", "0.0020", "-1.0000"])
+
+
+async def test_the_numbers_at_a_matrix_are_those_of_the_file(server):
+    def numbers(drawing):
+        group = drawing[drawing.index('id="numbers"'):]
+        return [float(text) for text in re.findall(r">([-\d.]+)</text>", group)]
+
+    near = [[sign * (i == axis) for i in range(4)] for axis in range(4) for sign in (1, -1)]
+    async with Client(server, stream="none") as client:
+        async def drawn(center):
+            data = "\n".join(" ".join(str(p + c) for p, c in zip(point, center)) for point in near)
+            await client.request("load", name="cross", format="points", data=data, center="object")
+            done = await client.request("get", what="file", format="svg", of="matrix")
+            return numbers(client.messages[client.messages.index(done) - 1].decode())
+
+        for center in ([0, 0, 0, 0], [40, 0, -3, 1e6], [1e9, 0, 0, 0]):
+            expected = 2 * [c + value for c in center for value in (-1, -0.5, 0, 0.5, 1)]  # in the rows and the columns
+            assert sorted(await drawn(center)) == sorted(expected)

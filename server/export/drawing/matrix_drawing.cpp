@@ -27,7 +27,7 @@ double numberStep(double reach) {
 }
 
 /// Returns `multiple` steps with as many decimals as the step has.
-std::string numberText(int multiple, double step) {
+std::string numberText(double multiple, double step) {
     if (multiple == 0) return "0";
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
     std::array<char, 32> text{};
@@ -37,8 +37,8 @@ std::string numberText(int multiple, double step) {
 
 class SectionDrawer {
   public:
-    explicit SectionDrawer(const scene::Scene& scene)
-        : scene_(scene), scale_(kPanel / 2 / (scene::MatrixLayout::kReach * scene.circumradius)) {}
+    SectionDrawer(const scene::Scene& scene, const glm::dvec4& origin)
+        : scene_(scene), origin_(origin), scale_(kPanel / 2 / (scene::MatrixLayout::kReach * scene.circumradius)) {}
 
     ShapeGroup draw(std::size_t section, bool transposed) {
         const slicing::PlanarSection& from = scene_.sectionMatrix.sections[section];
@@ -79,9 +79,9 @@ class SectionDrawer {
     }
 
     /// Draws numbers and marks at the outer edges of the outermost panels: at the left of each row, and below each
-    /// column.
+    /// column. Numbers with many characters are smaller, so that they have room.
     ShapeGroup drawNumbers() const {
-        constexpr double kMark = 3, kDigits = 0.73 * kNumberSize;
+        constexpr double kMark = 3, kCharacters = 4, kWidth = 0.6;  // of a character, in text sizes
         const double reach = scene::MatrixLayout::kReach * scene_.circumradius, step = numberStep(reach);
         const double half = kPanel / 2;
         ShapeGroup numbers{"numbers", {}};
@@ -92,14 +92,18 @@ class SectionDrawer {
         };
         for (int axis = 0; axis < 4; ++axis) {
             const glm::dvec2 below = centerOf(axis == 3 ? 2 : 3, axis), beside = centerOf(axis, axis == 0 ? 1 : 0);
-            for (int k = -static_cast<int>(reach / step); k * step <= reach; ++k) {
-                const double at = scale_ * k * step;
-                const std::string text = numberText(k, step);
+            const double first = std::ceil((origin_[axis] - reach) / step);
+            for (int i = 0; i <= 2 * reach / step; ++i) {
+                const double at = scale_ * ((first + i) * step - origin_[axis]);
+                if (at > scale_ * reach) break;
+                const std::string text = numberText(first + i, step);
+                const auto characters = static_cast<double>(text.size());
+                const double size = kNumberSize * std::min(1.0, kCharacters / characters), digits = 0.73 * size;
                 const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
-                add(under, {0, 1}, {under + glm::dvec2(0, kMark + 1 + kDigits), kNumberSize, colorOfAxis(axis), text});
-                const double width = 0.3 * kNumberSize * static_cast<double>(text.size());  // half of it
+                add(under, {0, 1}, {under + glm::dvec2(0, kMark + 1 + digits), size, colorOfAxis(axis), text});
+                const double halfWidth = kWidth * size * characters / 2;
                 add(left, {-1, 0},
-                    {left + glm::dvec2(-kMark - 1 - width, kDigits / 2), kNumberSize, colorOfAxis(axis), text});
+                    {left + glm::dvec2(-kMark - 1 - halfWidth, digits / 2), size, colorOfAxis(axis), text});
             }
         }
         return numbers;
@@ -147,14 +151,15 @@ class SectionDrawer {
     }
 
     const scene::Scene& scene_;
+    const glm::dvec4 origin_;
     const double scale_;
 };
 
 }  // namespace
 
-Drawing drawMatrix(const scene::Scene& scene) {
+Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin) {
     Drawing drawing{"Planar sections: " + scene.title, kDrawingWidth, kDrawingWidth, {}};
-    SectionDrawer drawer(scene);
+    SectionDrawer drawer(scene, origin);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {
         for (const bool transposed : {false, true}) drawing.groups.push_back(drawer.draw(i, transposed));
     }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
-#include <vector>
 
 namespace oval4d::exports {
 
@@ -17,15 +16,6 @@ void appendShortest(std::string& out, Number number) {
     std::array<char, 32> digits{};
     const auto [end, fault] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
     out.append(digits.data(), end);
-}
-
-// Returns the distance between neighboring hyperplanes, or the least of these distances.
-double leastDistance(const geometry::Hyperplanes& planes) {
-    double least = planes.spacing;
-    std::vector<double> sorted = planes.listed;
-    std::ranges::sort(sorted);
-    for (std::size_t i = 1; i < sorted.size(); ++i) least = std::min(least, sorted[i] - sorted[i - 1]);
-    return least;
 }
 
 }  // namespace
@@ -43,7 +33,7 @@ void append(std::string& out, const glm::dvec3& point) {
 
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin) {
     const double w = origin + planes.w(i);
-    const int decimals = static_cast<int>(std::clamp(std::ceil(-std::log10(leastDistance(planes))) + 1, 2.0, 9.0));
+    const int decimals = geometry::labelDecimals(planes);
     std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%.*f", decimals, std::abs(w));
     const bool zero = std::abs(w) < 0.5 * std::pow(10, -decimals);
