@@ -43,17 +43,21 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
     const bool isLight = wanted == Background::automatic && key.scheme == scene::Scheme::light;
     const Background seen = isLight ? Background::light : wanted;
     std::optional<session::State> changed;  // a copy, which most pictures do not need
-    if (seen != own) {
+    if (seen != own || wanted != own) {
         changed = snapshot.state;
-        changed->look.background = seen;
+        changed->look.background = wanted;
     }
+    SharedBytes stateText;  // says `auto`, even if this is light for this client
+    if (key.stream == Stream::frames) {
+        stateText = !key.background
+                        ? snapshot.stateTextFor(key.scheme)
+                        : SharedBytes(wire::stateMessage(changed ? *changed : snapshot.state, snapshot.section,
+                                                         snapshot.revision, {}, snapshot.quality, key.scheme));
+    }
+    if (changed) changed->look.background = seen;
     const session::State& state = changed ? *changed : snapshot.state;
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        SharedBytes stateText = snapshot.stateTextFor(key.scheme);
-        if (key.background)
-            stateText =
-                SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {}, snapshot.quality));
         pipeline.drawPng(state, stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
         return {SharedBytes(std::move(png)), true};
     }
