@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { openWithScript, presented, ready } from "./support/browser.mjs";
 import { drawBy } from "./support/drawing.mjs";
 import { covered, decode, pixelAt } from "./support/pixels.mjs";
+import { startServer } from "./support/server.mjs";
 import { test } from "./support/suite.mjs";
 
 const kWhite = [255, 255, 255];
@@ -40,8 +41,10 @@ test("print: the picture alone, on white, with its title and its values", async 
     await close();
 });
 
-test("print: Ctrl-P prints a picture of the server on white, too", async () => {
+test("print: Ctrl-P prints a picture of the server on white, too, within its limits", async () => {
+    const server = await startServer({ options: ["--max-pixels", "1200000"] });
     const { page, errors, close } = await openWithScript({
+        url: server.url,
         before: () => (window.print = () => void window.dispatchEvent(new Event("beforeprint"))),
     });
     await drawBy(page, "frames");
@@ -52,8 +55,11 @@ test("print: Ctrl-P prints a picture of the server on white, too", async () => {
         return [...canvas.getContext("2d").getImageData(2, canvas.height - 2, 1, 1).data];
     });
     assert.deepEqual(corner, [...kWhite, 255]);
+    const pixels = await page.locator("#print canvas").evaluate(({ width, height }) => width * height);
+    assert.ok(pixels > 1_190_000 && pixels <= 1_200_000, `${pixels}`);
     assert.deepEqual(errors, []);
     await close();
+    await server.stop();
 });
 
 /** Records the sizes of the texts that the page draws on its canvases, in pixels. */

@@ -38,10 +38,10 @@ export class PrintView {
             const request = { what: "frame", background: "white", ...this.stage.printSize } as const;
             const png = await this.client.request({ type: "get", ...request });
             this.frame = await createImageBitmap(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
-            window.print();
         } catch (error) {
-            this.failed(error as Error);
+            this.failed(error as Error); // then the picture is printed as it is shown
         }
+        window.print();
     }
 
     private prepare(): void {

@@ -34,6 +34,15 @@ const kMaxPrintSide = 4096; // larger canvases are not drawn everywhere
 const kLeastText = 9; // CSS pixels
 const kLeastTextInFullScreen = 0.02; // of the screen's height, legible from the back of a room
 
+/** Returns the largest factor by which a picture can be enlarged within the limits. */
+function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
+    return Math.min(
+        Math.sqrt(Math.min(maxPixels, limits.max_pixels ?? Infinity) / (width * height)),
+        Math.min(maxSide, limits.max_width ?? Infinity) / width,
+        Math.min(maxSide, limits.max_height ?? Infinity) / height,
+    );
+}
+
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
     size: Viewport = { width: 1280, height: 720 }; // device pixels
@@ -131,11 +140,15 @@ export class Stage {
         if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size, this.leastText);
     }
 
-    /** The size of the picture for printing, in pixels; its shape is that of the picture on the page. */
+    /**
+     * The size of the picture for printing, in pixels; its shape is that of the picture on the page. The size of the
+     * server's pictures is within its limits.
+     */
     get printSize(): Viewport {
         const { width, height } = this.size;
-        const scale = Math.min(Math.sqrt(kPrintPixels / (width * height)), kMaxPrintSide / Math.max(width, height));
-        return { width: Math.round(width * Math.max(1, scale)), height: Math.round(height * Math.max(1, scale)) };
+        const within = this.currentMode === "frames" ? this.limits : {};
+        const scale = Math.max(1, largestScale(this.size, within, kPrintPixels, kMaxPrintSide));
+        return { width: Math.floor(width * scale), height: Math.floor(height * scale) };
     }
 
     /** Draws the picture for printing to a canvas: on white, or as it is shown if the server has drawn it. */
@@ -182,15 +195,9 @@ export class Stage {
     private updateSize(): void {
         const { clientWidth, clientHeight } = this.root;
         if (clientWidth === 0 || clientHeight === 0) return;
-        const { min_side: minSide = 1, max_width: maxWidth = Infinity, max_height: maxHeight = Infinity } = this.limits;
-        const maxPixels = Math.min(kMaxPixels, this.limits.max_pixels ?? Infinity);
-        const ratio = Math.min(
-            devicePixelRatio,
-            Math.sqrt(maxPixels / (clientWidth * clientHeight)),
-            maxWidth / clientWidth,
-            maxHeight / clientHeight,
-        );
-        const side = (length: number): number => Math.max(minSide, Math.floor(length * ratio));
+        const shown = { width: clientWidth, height: clientHeight };
+        const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
+        const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
