@@ -110,23 +110,26 @@ test("accessibility: the name of a control contains its visible label", async ()
     const { page, close } = await openWithScript();
     const session = await page.context().newCDPSession(page);
     const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
-    /** The text of a button without its key, which is not part of the name. */
-    const labelOf = (button) => {
-        const keys = [...button.querySelectorAll("kbd[aria-hidden=true]")];
+    /** The texts of the buttons without their keys, which are not part of the names; undefined for what is not seen. */
+    const labelsOf = (buttons) => {
+        const keys = [...document.querySelectorAll("button kbd[aria-hidden=true]")];
         for (const key of keys) key.style.display = "none";
-        const label = button.innerText;
+        const labels = buttons.map((button) => (button.checkVisibility() ? button.innerText : undefined));
         for (const key of keys) key.style.removeProperty("display");
-        return label;
+        return labels;
     };
     /** The buttons whose accessible name does not contain their label, like axe's label-content-name-mismatch. */
     const mismatches = async () => {
         const { root } = await session.send("DOM.getDocument");
         const { nodeIds } = await session.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector: "button" });
+        const labels = await page.locator("button").evaluateAll(labelsOf);
+        assert.equal(labels.length, nodeIds.length);
         const found = [];
         for (const [i, nodeId] of nodeIds.entries()) {
+            const text = labels[i];
+            if (text === undefined) continue;
             const { nodes } = await session.send("Accessibility.getPartialAXTree", { nodeId, fetchRelatives: false });
             if (nodes[0].ignored) continue;
-            const text = await page.locator("button").nth(i).evaluate(labelOf);
             const name = nodes[0].name.value;
             if (!normalized(name).includes(normalized(text))) found.push(`${text}: ${name}`);
         }

@@ -27,10 +27,11 @@ const kShown = {
 async function outcome(script, { action }, act) {
     // What changes the projection can be pressed only while there is one.
     const projection = ["cells", "back", "sections"].includes(action) ? "perspective" : "off";
-    await script.request({ type: "set", polytope: "16-cell", view: "oval", projection, turning: false });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", alpha: 0.3, beta: 0.2, shown: kShown });
-    await script.request({ type: "set", slices: { count: 21, spacing: 0.14, focus: 2 } });
+    await script.request({
+        ...{ type: "set", polytope: "16-cell", view: "oval", projection, turning: false, alpha: 0.3, beta: 0.2 },
+        ...{ shown: kShown, slices: { count: 21, spacing: 0.14, focus: 2 } },
+    });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
     const { revision } = await script.state();

@@ -225,6 +225,20 @@ test("picture: the comparison distinguishes two different states", async () => {
     await close();
 });
 
+for (const [kind, formula] of [["a polytope"], ["a field", "x^2 + y^2 - z^2 < w"]]) {
+    test(`picture: the page restores its own picture after that of the server: ${kind}`, async () => {
+        const { page, script, close } = await openWithScript();
+        if (formula) await script.request({ type: "load", name: "formula", format: "formula", data: formula });
+        const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        await presented(page, revision);
+        const own = await picture(page);
+        await drawBy(page, "frames");
+        await drawBy(page, "geometry");
+        assert.ok(compare(await picture(page), own).mean < 0.1);
+        await close();
+    });
+}
+
 test("picture: nothing is drawn unless something changes", async () => {
     const { page, close } = await openPage();
     const rest = page.evaluate(async () => {

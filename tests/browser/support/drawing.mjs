@@ -22,11 +22,9 @@ export function assertSimilar(first, second, { mean, far }) {
     assert.ok(difference.far < far, `${(100 * difference.far).toFixed(2)} % of the pixels differ much`);
 }
 
-/** Asserts that the page and the server draw the same picture, and that the page restores its own. */
+/** Asserts that the page and the server draw the same picture. Leaves that of the server. */
 export async function assertStreamsAgree(page, limits) {
     const geometry = await picture(page);
     await drawBy(page, "frames");
     assertSimilar(geometry, await picture(page), limits);
-    await drawBy(page, "geometry");
-    assert.ok(compare(await picture(page), geometry).mean < 0.1, "switching back restores the first picture");
 }
