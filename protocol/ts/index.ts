@@ -1,5 +1,6 @@
 // A small client of oval4d for web pages and scripts.
 //
+//     import { Client } from "oval4d-client";
 //     import WebSocket from "ws"; // for Node before 22; newer versions and browsers have a built-in WebSocket
 //     const client = new Client({
 //         url: "http://localhost:8080/",
@@ -10,7 +11,7 @@
 //     });
 //     client.connect();
 //
-// Needs cbor-x from npm, and a bundler or a runtime that supports TypeScript.
+// `npm install PATH/protocol/ts` builds and installs it as the package oval4d-client, with its types.
 
 export * from "./messages";
 export { Client, RequestError } from "./client";

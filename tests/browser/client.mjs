@@ -1,5 +1,11 @@
 // The client of protocol/ts, used by a script.
 import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { cp, mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { promisify } from "node:util";
 
 import WebSocket from "ws";
 
@@ -8,7 +14,7 @@ import { common, named, openPage, scriptFor } from "./support/browser.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startProxy } from "./support/proxy.mjs";
 import { joinSession } from "./support/script.mjs";
-import { atEnd, test } from "./support/suite.mjs";
+import { afterTest, atEnd, test } from "./support/suite.mjs";
 import { within } from "./support/hang_limit.mjs";
 
 /** A client, and a function that returns a promise of its next event. */
@@ -108,4 +114,55 @@ test("client: a script and a page in one session see each other's changes", asyn
     await named(page, "600-cell");
     script.leave();
     await close();
+});
+
+test("client: the npm package works in a script, and has types", async () => {
+    const root = fileURLToPath(new URL("../../", import.meta.url));
+    const folder = await mkdtemp(join(tmpdir(), "oval4d-"));
+    afterTest(() => rm(folder, { recursive: true }));
+    const [library, user] = [join(folder, "protocol/ts"), join(folder, "user")];
+    const isSource = (path) => !/\/(node_modules|dist)$/.test(path);
+    await cp(join(root, "protocol"), join(folder, "protocol"), { recursive: true, filter: isSource });
+    // These packages are here already, so that npm need not fetch them.
+    await mkdir(join(library, "node_modules"));
+    const packages = { esbuild: "tests/browser", "cbor-x": "tests/browser", typescript: "web_client" };
+    for (const [name, from] of Object.entries(packages)) {
+        await symlink(join(root, from, "node_modules", name), join(library, "node_modules", name));
+    }
+    await mkdir(user);
+    const run = (program, ...given) => promisify(execFile)(program, given, { cwd: user });
+    await writeFile(join(user, "package.json"), '{ "private": true, "type": "module" }');
+    await run("npm", "install", "--offline", "--no-audit", "--no-fund", library);
+    await symlink(join(root, "tests/browser/node_modules/ws"), join(user, "node_modules/ws"));
+
+    const script = `
+        import { Client } from "oval4d-client";
+        import WebSocket from "ws";
+        const client = new Client({ url: process.argv[2], webSocket: WebSocket, stream: "geometry", onStatus, onSlices });
+        async function onStatus({ kind }) {
+            if (kind === "open") await client.request({ type: "set", polytope: "16-cell", slices: { count: 7 } });
+        }
+        function onSlices({ revision, slices }) {
+            client.shown(revision);
+            if (revision === 0) return;
+            console.log(slices.length);
+            client.close();
+        }
+        client.connect();
+    `;
+    await writeFile(join(user, "script.js"), script);
+    const { stdout } = await run("node", "script.js", (await common()).url);
+    assert.equal(stdout, "7\n");
+
+    const typed = `
+        import { Client, type State } from "oval4d-client";
+        const client = new Client({ url: "http://localhost:8080/" });
+        const { shown }: State = await client.request({ type: "get", what: "state" });
+        export const part: keyof typeof shown = "balls";
+        // @ts-expect-error because no part has this name
+        export const none: keyof typeof shown = "corners";
+    `;
+    await writeFile(join(user, "typed.ts"), typed);
+    const tsc = join(root, "web_client/node_modules/typescript/bin/tsc");
+    await run("node", tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "typed.ts");
 });

@@ -60,9 +60,10 @@ test("loading: an object far from the origin turns about its center, or about th
     assert.deepEqual(polytope.center, [0, 0, 0, 5e6]);
     await page.waitForFunction(() => document.querySelector("[data-state-field=w]").textContent === "5000000.00");
     assert.match(await report(page), /far from the origin/);
-    await page.click("#loading .report button");
+    await page.locator("#loading .report button").press("Enter");
     await script.until((one) => one.polytope.center === undefined, "the same about the origin");
     await page.waitForSelector("#loading", { state: "hidden" });
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is not lost with the button");
     assert.deepEqual(errors, []);
     await close();
 });

@@ -288,6 +288,11 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     assert.equal(await page.locator("#export-highlight").textContent(), `cell ${cell}`);
     await page.keyboard.press("Escape");
     await page.waitForSelector("#drawing:focus");
+    await page.keyboard.press("x");
+    await page.waitForSelector("#export[open]");
+    assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "focus", "the usual choice is back");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
     await open();
     await menu.getByText("Hide its kind of cell").click();
     await script.until(({ hidden }) => hidden.length === 1, "hidden cells");

@@ -71,7 +71,9 @@ async def test_each_client_sees_its_scheme_until_the_session_has_a_background(se
 
 async def test_one_picture_may_have_another_background(server):
     async with Client(server, stream="none", scheme="light", **SIZE) as client:
-        assert corner(await client.request_frame()) == rgb(GROUNDS["light"])
+        for choice in ({}, {"background": "auto"}):
+            own = await client.request_frame(**choice)
+            assert corner(own) == rgb(GROUNDS["light"]) and state_in(own)["background"] == "auto"
         white = await client.request_frame(background="white")
         assert corner(white) == rgb(GROUNDS["white"]) and state_in(white)["background"] == "white"
         assert corner(await client.request_frame(background="transparent"))[3] == 0

@@ -31,6 +31,7 @@ export class ExportDialog {
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
     private bodyOfOthers: string | undefined; // the chosen body, while an element without a volume is to be exported
+    private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page; `warn` shows what a saved file lacks. */
@@ -46,11 +47,12 @@ export class ExportDialog {
             event.preventDefault();
             void this.downloadFile();
         });
-        byId("export").addEventListener("close", () => this.abandonRequest());
+        byId("export").addEventListener("close", () => this.closed());
     }
 
-    /** Opens the dialog; with `of`, that is chosen as the contents of the file. */
+    /** Opens the dialog; with `of`, that is chosen as the contents of the file until the dialog closes. */
     open(state: State, of?: string): void {
+        this.isForElement = of !== undefined;
         if (of !== undefined) {
             const format = this.format.of.includes(of) ? this.format : kAllFormats.find((one) => one.of.includes(of));
             this.field("format").value = format!.name;
@@ -134,7 +136,7 @@ export class ExportDialog {
         }
         this.abandonRequest();
         this.showOptions();
-        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...this.formValues() });
+        this.storeChoices();
     }
 
     /** Selects the preset that equals the current size, if any. */
@@ -144,6 +146,22 @@ export class ExportDialog {
         for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=preset]")) {
             radio.checked = size === (radio.value || `${width}x${height}`);
         }
+    }
+
+    /** Keeps the choices for later visits, but not those that only an element needs. */
+    private storeChoices(): void {
+        const { format, of, body, ...others } = this.formValues();
+        const kept = this.isForElement ? others : { ...others, format, of, body: this.bodyOfOthers ?? body };
+        const given = Object.entries(kept).filter(([, value]) => value !== undefined);
+        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...Object.fromEntries(given) });
+    }
+
+    private closed(): void {
+        this.abandonRequest();
+        if (!this.isForElement) return;
+        this.form.reset();
+        this.bodyOfOthers = undefined;
+        this.restoreChoices();
     }
 
     /** Restores the previous choices. */

@@ -98,6 +98,7 @@ export class FileLoading {
         if (polytope.name !== object.name || !polytope.center) return [];
         const button = element("button", { type: "button" }, "Turn about the origin of the file");
         button.addEventListener("click", () => {
+            byId("drawing").focus(); // the button goes away
             this.queue = this.queue.then(() => this.loadAgain({ ...object, center: "origin" }));
         });
         return [button];

@@ -1,0 +1,37 @@
+// Builds the npm package: dist/index.js, and the types beside it. npm runs this when it installs the folder, without the
+// packages that only the build needs; these are installed first.
+import { execFileSync } from "node:child_process";
+import { existsSync } from "node:fs";
+import { readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+
+const here = fileURLToPath(new URL(".", import.meta.url));
+const run = (program, ...given) => execFileSync(program, given, { cwd: here, stdio: "inherit" });
+
+if (!existsSync(new URL("node_modules/typescript", import.meta.url))) {
+    run("npm", "ci", "--prefix", here, "--ignore-scripts", "--no-audit", "--no-fund");
+}
+await rm(new URL("dist", import.meta.url), { recursive: true, force: true });
+const { build } = await import("esbuild");
+await build({
+    absWorkingDir: here,
+    entryPoints: ["index.ts"],
+    outdir: "dist",
+    bundle: true,
+    packages: "external",
+    format: "esm",
+    target: "es2022",
+    logLevel: "warning",
+});
+run(process.execPath, "node_modules/typescript/bin/tsc", "-p", ".");
+
+// In the types, files have names that Node.js finds, and the names of the parts of a picture take the place of the schema
+// that has them, because the package does not contain it.
+const schema = JSON.parse(await readFile(new URL("../schema/parts.schema.json", import.meta.url), "utf8"));
+const parts = Object.keys(schema.properties).map((name) => JSON.stringify(name));
+const types = new URL("dist/ts/", import.meta.url);
+for (const name of await readdir(types)) {
+    const text = await readFile(new URL(name, types), "utf8");
+    const named = text.replace(/from "(\.\/\w+)"/g, 'from "$1.js"');
+    await writeFile(new URL(name, types), named.replace(/keyof \(typeof import\(".*parts\.schema\.json"\)\)\["properties"\]/, parts.join(" | ")));
+}
