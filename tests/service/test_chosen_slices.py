@@ -199,8 +199,14 @@ def test_labels_of_chosen_slices_differ(server):
 
 async def test_the_numbers_at_a_matrix_are_those_of_the_file(server):
     def numbers(drawing):
-        group = drawing[drawing.index('id="numbers"'):]
-        return [float(text) for text in re.findall(r">([-\d.]+)</text>", group)]
+        """Returns the numbers at the axes, to which the one below the name of the axis is added."""
+        texts = re.findall(r">([^<]+)</text>", drawing[drawing.index('id="names"'):])
+        first = next(i for i, text in enumerate(texts) if re.fullmatch(r"-?[\d.]+", text))
+        names, values = " ".join(texts[:first]), texts[first:]
+        assert all(len(text) <= 5 for text in values), "there is room for short numbers"
+        offsets = [float(offset or 0) for offset in re.findall(r"[xyzw](?: ([-+][\d.]+))?", names)]
+        each = len(values) // 4
+        return [float(text) + offsets[i // each] for i, text in enumerate(values)]
 
     near = [[sign * (i == axis) for i in range(4)] for axis in range(4) for sign in (1, -1)]
     async with Client(server, stream="none") as client:

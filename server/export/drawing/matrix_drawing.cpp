@@ -11,7 +11,8 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
-constexpr double kNumberRoom = 14;  // to the left of the matrix and below it
+constexpr double kNumberRoom = 14;       // to the left of the matrix and below it
+constexpr double kNumberCharacters = 4;  // the number of characters of kNumberSize for which there is room
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
 
@@ -38,7 +39,11 @@ std::string numberText(double multiple, double step) {
 class SectionDrawer {
   public:
     SectionDrawer(const scene::Scene& scene, const glm::dvec4& origin)
-        : scene_(scene), origin_(origin), scale_(kPanel / 2 / (scene::MatrixLayout::kReach * scene.circumradius)) {}
+        : scene_(scene),
+          origin_(origin),
+          reach_(scene::MatrixLayout::kReach * scene.circumradius),
+          step_(numberStep(reach_)),
+          scale_(kPanel / 2 / reach_) {}
 
     ShapeGroup draw(std::size_t section, bool transposed) {
         const slicing::PlanarSection& from = scene_.sectionMatrix.sections[section];
@@ -79,10 +84,9 @@ class SectionDrawer {
     }
 
     /// Draws numbers and marks at the outer edges of the outermost panels: at the left of each row, and below each
-    /// column. Numbers with many characters are smaller, so that they have room.
+    /// column. Numbers with more than kNumberCharacters characters are smaller.
     ShapeGroup drawNumbers() const {
-        constexpr double kMark = 3, kCharacters = 4, kWidth = 0.6;  // of a character, in text sizes
-        const double reach = scene::MatrixLayout::kReach * scene_.circumradius, step = numberStep(reach);
+        constexpr double kMark = 3, kWidth = 0.6;  // of a character, in text sizes
         const double half = kPanel / 2;
         ShapeGroup numbers{"numbers", {}};
         const auto add = [&](const glm::dvec2& mark, const glm::dvec2& outward, const TextLine& text) {
@@ -92,13 +96,13 @@ class SectionDrawer {
         };
         for (int axis = 0; axis < 4; ++axis) {
             const glm::dvec2 below = centerOf(axis == 3 ? 2 : 3, axis), beside = centerOf(axis, axis == 0 ? 1 : 0);
-            const double first = std::ceil((origin_[axis] - reach) / step);
-            for (int i = 0; i <= 2 * reach / step; ++i) {
-                const double at = scale_ * ((first + i) * step - origin_[axis]);
-                if (at > scale_ * reach) break;
-                const std::string text = numberText(first + i, step);
+            const double first = std::ceil((origin_[axis] - reach_) / step_);
+            for (int i = 0; i <= 2 * reach_ / step_; ++i) {
+                const double at = scale_ * ((first + i) * step_ - origin_[axis]);
+                if (at > half) break;
+                const std::string text = numberText(first + i - offset(axis), step_);
                 const auto characters = static_cast<double>(text.size());
-                const double size = kNumberSize * std::min(1.0, kCharacters / characters), digits = 0.73 * size;
+                const double size = kNumberSize * std::min(1.0, kNumberCharacters / characters), digits = 0.73 * size;
                 const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
                 add(under, {0, 1}, {under + glm::dvec2(0, kMark + 1 + digits), size, colorOfAxis(axis), text});
                 const double halfWidth = kWidth * size * characters / 2;
@@ -109,15 +113,27 @@ class SectionDrawer {
         return numbers;
     }
 
-    TextLine nameOf(int axis) const {
-        const glm::dvec2 center = centerOf(axis, axis);
-        return {{center.x, center.y + 0.35 * kName}, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])};
+    /// Draws the name of an axis and, below it, what is to be added to its numbers.
+    void drawName(int axis, std::vector<Shape>& shapes) const {
+        const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
+        shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
+        if (offset(axis) == 0) return;
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%+.15g", offset(axis) * step_);
+        shapes.emplace_back(
+            TextLine{below + glm::dvec2(0, 2 * kNumberSize), kNumberSize, colorOfAxis(axis), text.data()});
     }
 
   private:
     static glm::dvec2 centerOf(int row, int column) {
         return kDrawingMargin + glm::dvec2(kNumberRoom, 0) + (kPanel + kPanelGap) * glm::dvec2(column, row) +
                kPanel / 2;
+    }
+
+    // Returns the number of steps that are subtracted from the numbers of an axis, so that they are short.
+    double offset(int axis) const {
+        const double middle = std::round(origin_[axis] / step_);
+        return static_cast<double>(numberText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;
     }
 
     scene::Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
@@ -152,7 +168,7 @@ class SectionDrawer {
 
     const scene::Scene& scene_;
     const glm::dvec4 origin_;
-    const double scale_;
+    const double reach_, step_, scale_;
 };
 
 }  // namespace
@@ -164,7 +180,7 @@ Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin) {
         for (const bool transposed : {false, true}) drawing.groups.push_back(drawer.draw(i, transposed));
     }
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
-    for (int axis = 0; axis < 4; ++axis) names.shapes.emplace_back(drawer.nameOf(axis));
+    for (int axis = 0; axis < 4; ++axis) drawer.drawName(axis, names.shapes);
     drawing.groups.push_back(drawer.drawNumbers());
     return drawing;
 }
