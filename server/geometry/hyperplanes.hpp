@@ -23,7 +23,4 @@ struct Hyperplanes {
     bool operator==(const geometry::Hyperplanes&) const = default;
 };
 
-/// Returns the number of decimals, from 2 to 9, with which the w of neighboring hyperplanes are told apart.
-int labelDecimals(const Hyperplanes& planes);
-
 }  // namespace oval4d::geometry

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -12,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "scene/slice_label.hpp"
 #include "scene/style.hpp"
 
 namespace oval4d::scene {
@@ -109,14 +109,6 @@ void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesL
     out.rowStep = 2.25 * out.amplitude;
     out.left = (aspect - (out.columnStep * (out.perRow - 1) + 3 * out.lineStep + out.lineWidth)) / 2;
     out.zero = kMargin + (out.named ? 1.3 * style().textHeight : 0) + out.amplitude + (out.rows - 1) * out.rowStep;
-}
-
-std::string labelOf(double w, int decimals, bool focus) {
-    char text[48];
-    const double shown = std::abs(w) < 0.5 * std::pow(10, -decimals) ? 0 : std::abs(w);
-    std::snprintf(text, sizeof text, "%.*f", shown == 0 ? 0 : decimals, shown);
-    const std::string sign = shown == 0 || w > 0 ? "" : "\u2212";
-    return (focus ? "w = " : "") + sign + text;
 }
 
 // Returns the parameter u of slice i: −1 … 1 from the first to the last.
@@ -222,12 +214,11 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 }
 
 // Places the slices along the oval, and sets the text and size of their labels.
-void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, const Oval& oval, const Look& look,
-                 std::vector<SlicePlacement>& placements) {
+void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, int decimals, const Oval& oval,
+                 const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
     const ViewSpace space(oval);
-    const int decimals = geometry::labelDecimals(planes);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -236,7 +227,9 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
         placement.focus = placement.index == focus;
         placement.drawn = look.view == View::oval || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
-        placement.label = look.parts.labels ? labelOf(originW + placement.w, decimals, placement.focus) : "";
+        placement.label.clear();
+        if (look.parts.labels)
+            placement.label = (placement.focus ? "w = " : "") + labelNumber(originW + placement.w, decimals);
         const double away = space.depth(placement.position) / space.distance;
         placement.labelSize = placement.focus ? 1.15 : std::clamp(std::pow(away, -0.25), 0.62, 1.0);
     }
@@ -513,7 +506,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     out.sliceRadius =
         single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
-    placeSlices(planes, focus, content.originW, oval, look, out.placements);
+    const int decimals = labelDecimals(planes);
+    placeSlices(planes, focus, content.originW, decimals, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
     Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
     const bool projected = look.projection.kind != ProjectionKind::off;
@@ -523,7 +517,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
-    Labels labels(oval, reach, geometry::labelDecimals(planes), content.originW, out.placements);
+    Labels labels(oval, reach, decimals, content.originW, out.placements);
     const Rect inside = roomInside(room, bounds, labels);
     if (projected && !alone) {
         const double scale = scaleFor(bounds, inside);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "scene/slice_label.hpp"
 
 namespace oval4d::exports {
 
@@ -32,12 +32,7 @@ void append(std::string& out, const glm::dvec3& point) {
 }
 
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin) {
-    const double w = origin + planes.w(i);
-    const int decimals = geometry::labelDecimals(planes);
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", decimals, std::abs(w));
-    const bool zero = std::abs(w) < 0.5 * std::pow(10, -decimals);
-    return "w = " + std::string(zero ? "0" : (w < 0 ? "\u2212" : "") + std::string(text.data()));
+    return "w = " + scene::labelNumber(origin + planes.w(i), scene::labelDecimals(planes));
 }
 
 std::string xmlCharacters(std::string_view text) {

@@ -453,11 +453,6 @@ TEST(Labels, tellNeighborsApart) {
         }
         EXPECT_EQ(labels.size(), labeled);
     }
-    geometry::Hyperplanes listed{0, 3, 0.1, 0, {0.002, -1, 0.001}};
-    EXPECT_EQ(geometry::labelDecimals(listed), 4);
-    listed.listed = {3};
-    listed.count = 1;
-    EXPECT_EQ(geometry::labelDecimals(listed), 2);
 }
 
 }  // namespace
