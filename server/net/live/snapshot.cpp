@@ -39,23 +39,16 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn) {
     using scene::Background;
-    const Background own = snapshot.state.look.background, wanted = key.background.value_or(own);
-    const bool isLight = wanted == Background::automatic && key.scheme == scene::Scheme::light;
-    const Background seen = isLight ? Background::light : wanted;
-    std::optional<session::State> changed;  // a copy, which most pictures do not need
-    if (seen != own || wanted != own) {
-        changed = snapshot.state;
-        changed->look.background = wanted;
-    }
-    SharedBytes stateText;  // says `auto`, even if this is light for this client
+    session::State state = snapshot.state;
+    if (key.background) state.look.background = *key.background;
+    SharedBytes stateText;  // with the background that was asked for, even if it is automatic
     if (key.stream == Stream::frames) {
-        stateText = !key.background
-                        ? snapshot.stateTextFor(key.scheme)
-                        : SharedBytes(wire::stateMessage(changed ? *changed : snapshot.state, snapshot.section,
-                                                         snapshot.revision, {}, snapshot.quality, key.scheme));
+        stateText = key.background ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
+                                                                    snapshot.quality, key.scheme))
+                                   : snapshot.stateTextFor(key.scheme);
     }
-    if (changed) changed->look.background = seen;
-    const session::State& state = changed ? *changed : snapshot.state;
+    const bool isLight = key.scheme == scene::Scheme::light;
+    if (isLight && state.look.background == Background::automatic) state.look.background = Background::light;
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
