@@ -23,10 +23,9 @@ namespace {
 using geometry::kNone;
 
 // Relative to the size: the largest distance of a vertex from the hyperplane of its cell, and the distance at which the
-// search for better places ends. Neither is less than a multiple of the rounding errors of the coordinates, which are
-// larger if the polytope is far from the origin.
+// search for better places ends; and the least values of these distances, relative to doubleRounding().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
-constexpr double kMaxRounding = 8, kGoalRounding = 2;
+constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
 // Two hyperplanes with a larger cosine of the angle between them do not determine the plane in which they meet.
 constexpr double kNearlyParallel = 0.995;
 constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; it has no extent along an axis below this
@@ -104,10 +103,8 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
 // Methods for Least Squares Problems, 7.4). The equations need not be independent.
 class Flattener {
   public:
-    explicit Flattener(PolygonSoup& soup, double size) : soup_(soup) {
-        double farthest = 0;  // from the origin
-        for (const glm::dvec4& v : soup.vertices) farthest = std::max(farthest, glm::length(v));
-        const double rounding = std::numeric_limits<double>::epsilon() * farthest;
+    Flattener(PolygonSoup& soup, double size) : soup_(soup) {
+        const double rounding = doubleRounding(soup.vertices);
         maxDeviation_ = std::max(kMaxDeviation * size, kMaxRounding * rounding);
         goalDeviation_ = std::max(kGoalDeviation * size, kGoalRounding * rounding);
         collectCells();

@@ -19,11 +19,10 @@ struct Flattening {
 };
 
 /// Moves the vertices so that those of each cell lie in one hyperplane, and those of each 2-face in one plane, to
-/// within 10⁻¹² of `size`, halfDiagonal() of the vertices, or to within a few rounding errors of the coordinates if
-/// these are larger; changes nothing if they do so already. Coordinates in files
-/// are rounded, and a hyperplane that nearly contains a rounded cell would otherwise cut it in pieces that do not fit
-/// together. The moves are about as small as possible: if the file is a rounded polytope, they are about as large as
-/// the rounding.
+/// within 10⁻¹² of `size`, halfDiagonal() of the vertices, or to within twice doubleRounding() of them if that is
+/// larger; changes nothing if they do so already. Coordinates in files are rounded, and a hyperplane that nearly
+/// contains a rounded cell would otherwise cut it in pieces that do not fit together. The moves are about as small as
+/// possible: if the file is a rounded polytope, they are about as large as the rounding.
 ///
 /// If a vertex would have to be moved by more than `maxDistance`, or if there are no such places for the vertices,
 /// moves none. Then the 2-faces that are not flat are divided into triangles, and the cells that are not flat into

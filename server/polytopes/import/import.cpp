@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -36,13 +35,6 @@ void checkCells(const PolygonSoup& soup) {
                 "cell " + std::to_string(soup.cellSourcePositions[c].number) + " lists one of its 2-faces twice");
         }
     }
-}
-
-// Returns the largest rounding error of a point whose coordinates are doubles.
-double doubleRounding(std::span<const glm::dvec4> points) {
-    double largest = 0;
-    for (const glm::dvec4& p : points) largest = std::max(largest, glm::length(p));
-    return 4 * std::numeric_limits<double>::epsilon() * largest;
 }
 
 // Moves the origin of the coordinates to the center, which is returned.

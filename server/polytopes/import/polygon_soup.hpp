@@ -34,6 +34,9 @@ inline constexpr double kFlatInFile = 5e-3;
 /// are relative to this size.
 double halfDiagonal(std::span<const glm::dvec4> points);
 
+/// Returns a bound on the rounding errors of points whose coordinates are doubles. It is larger far from the origin.
+double doubleRounding(std::span<const glm::dvec4> points);
+
 /// Throws a FileError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
 /// hyperplane, to within kFlatInFile times halfDiagonal(). Also throws a FileError if all vertices lie in one
 /// hyperplane, to within 10⁻⁶ of halfDiagonal().
