@@ -1,10 +1,10 @@
 // A connection to one session. If it breaks, the client reconnects automatically and uses the token to return to the
 // session. The client reports the status of the connection.
 
-import { Arena } from "./arena";
-import { decodeCbor, decodeText, isFile, isPng } from "./decode";
-import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, ExportedFile, FileOptions, Keymap } from "./messages";
-import type { Message, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages";
+import { Arena } from "./arena.js";
+import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
+import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, ExportedFile, FileOptions, Keymap } from "./messages.js";
+import type { Message, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages.js";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {

@@ -3,10 +3,10 @@
 
 import * as cborX from "cbor-x/decode-no-eval";
 
-import type { Arena, Numbers } from "./arena";
-import { partsOf, rowsOf, type Columns, type PartColumns } from "./columns";
-import type { Elements, Fog, Integers, Message, ObjectProjection, ProjectionLook } from "./messages";
-import type { Slice, Slices, Surface } from "./messages";
+import type { Arena, Numbers } from "./arena.js";
+import { partsOf, rowsOf, type Columns, type PartColumns } from "./columns.js";
+import type { Elements, Fog, Integers, Message, ObjectProjection, ProjectionLook } from "./messages.js";
+import type { Slice, Slices, Surface } from "./messages.js";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 

@@ -13,7 +13,7 @@
 //
 // `npm install PATH/protocol/ts` builds and installs it as the package oval4d-client, with its types.
 
-export * from "./messages";
-export { Client, RequestError } from "./client";
-export type { Credentials, Options, Status } from "./client";
-export { pngText } from "./decode";
+export * from "./messages.js";
+export { Client, RequestError } from "./client.js";
+export type { Credentials, Options, Status } from "./client.js";
+export { pngText } from "./decode.js";
