@@ -150,10 +150,10 @@ export class ExportDialog {
 
     /** Keeps the choices for later visits, but not those that only an element needs. */
     private storeChoices(): void {
-        const { format, of, body, ...others } = this.formValues();
-        const kept = this.isForElement ? others : { ...others, format, of, body: this.bodyOfOthers ?? body };
-        const given = Object.entries(kept).filter(([, value]) => value !== undefined);
-        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...Object.fromEntries(given) });
+        const choices = this.formValues();
+        if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
+        else if (this.bodyOfOthers !== undefined) choices["body"] = this.bodyOfOthers;
+        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...choices });
     }
 
     private closed(): void {
