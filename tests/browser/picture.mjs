@@ -225,11 +225,18 @@ test("picture: the comparison distinguishes two different states", async () => {
     await close();
 });
 
-for (const [kind, formula] of [["a polytope"], ["a field", "x^2 + y^2 - z^2 < w"]]) {
+const fog = [{ value: -1, opacity: 0.9 }, { value: 1, opacity: 0 }];
+for (const { kind, formula, settings } of [
+    { kind: "a polytope", settings: { polytope: "24-cell", projection: "perspective" } },
+    { kind: "a star", settings: { polytope: "great stellated 120-cell" } },
+    { kind: "a field", formula: "x^2 + y^2 - z^2 < w", settings: { levels: [-0.5, 0.5] } },
+    { kind: "fog", formula: "x^2 + y^2 - z^2 < w", settings: { fog } },
+]) {
     test(`picture: the page restores its own picture after that of the server: ${kind}`, async () => {
         const { page, script, close } = await openWithScript();
         if (formula) await script.request({ type: "load", name: "formula", format: "formula", data: formula });
-        const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        const { revision } = await script.request({ type: "set", ...settings });
         await presented(page, revision);
         const own = await picture(page);
         await drawBy(page, "frames");
