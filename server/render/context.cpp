@@ -4,8 +4,6 @@
 #include <string>
 
 #include "render/gl.hpp"
-// After gl.hpp, which enables the prototypes of the core profile.
-#include <GL/osmesa.h>
 
 namespace oval4d::render {
 
@@ -32,6 +30,7 @@ Context::Context() : native_(std::make_unique<Native>()) {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               3,
                               0};
+    loadGl();
     native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
     if (native_->context == nullptr) throw std::runtime_error("OSMesa cannot create an OpenGL 3.3 core context");
     makeCurrent();
