@@ -2,6 +2,7 @@
 // Helpers shared by the tests of exports: a check of meshes that does not use the code under test, and objects to
 // export.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,7 +12,6 @@
 #include <stop_token>
 #include <string>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -23,6 +23,7 @@
 #include "export/export.hpp"
 #include "export/mesh/mesh.hpp"
 #include "scene/composer.hpp"
+#include "unit/slicing/directed_edges.hpp"
 #include "unit/slicing/support.hpp"
 
 namespace oval4d::support {
@@ -43,33 +44,12 @@ inline void expectPrintable(const Mesh& mesh) {
         const Key key{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         same.push_back(points.try_emplace(key, points.size()).first->second);
     }
-    // Each edge occurs once in each direction, and the triangles around a point form one ring.
-    const auto edge = [](std::uint32_t from, std::uint32_t to) { return (std::uint64_t{from} << 32U) | to; };
-    std::unordered_map<std::uint64_t, std::uint32_t> next;  // from a neighbor of a point to the next neighbor around it
-    next.reserve(3 * mesh.triangles.size());
-    std::vector<std::size_t> sides(points.size());
-    std::vector<std::uint32_t> neighbor(points.size());
+    std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const auto& t : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            const auto a = same[t[i]];
-            const auto b = same[t[(i + 1) % 3]];
-            ASSERT_NE(a, b);
-            ASSERT_TRUE(next.try_emplace(edge(a, b), same[t[(i + 2) % 3]]).second);
-            ++sides[a];
-            neighbor[a] = b;
-        }
+        const auto& corners = triangles.emplace_back(std::array{same[t[0]], same[t[1]], same[t[2]]});
+        for (std::size_t i = 0; i < 3; ++i) ASSERT_NE(corners[i], corners[(i + 1) % 3]);
     }
-    for (const auto& t : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) ASSERT_TRUE(next.contains(edge(same[t[(i + 1) % 3]], same[t[i]])));
-    }
-    for (std::uint32_t a = 0; a < points.size(); ++a) {
-        if (sides[a] == 0) continue;
-        std::size_t steps = 1;
-        for (auto b = next.at(edge(a, neighbor[a])); b != neighbor[a]; b = next.at(edge(a, b))) {
-            ASSERT_LE(++steps, sides[a]);
-        }
-        ASSERT_EQ(steps, sides[a]);
-    }
+    ASSERT_TRUE(DirectedEdges(triangles).isManifold());
     double volume = 0;
     for (const auto& t : mesh.triangles) {
         volume += glm::dot(mesh.points[t[0]], glm::cross(mesh.points[t[1]], mesh.points[t[2]])) / 6;

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +18,7 @@
 #include "geometry/rotation.hpp"
 #include "slicing/surface_detail.hpp"
 #include "slicing/surfaces/slice_surface.hpp"
+#include "unit/slicing/directed_edges.hpp"
 
 namespace oval4d::slicing {
 
@@ -87,37 +88,35 @@ struct Measure {
 
 inline Measure measure(const SliceSurface& surface, std::size_t level) {
     Measure result;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
     // Each point refers to a point of the same component with a smaller number, or to itself.
-    std::map<std::uint32_t, std::uint32_t> points;
+    constexpr std::uint32_t kUnused = ~0U;
+    std::vector<std::uint32_t> points(surface.points.size(), kUnused);
     const auto rootOf = [&](std::uint32_t point) {
-        while (points.at(point) != point) point = points.at(point) = points.at(points.at(point));
+        while (points[point] != point) point = points[point] = points[points[point]];
         return point;
     };
-    long triangles = 0;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         if (surface.level(t) != level) continue;
-        ++triangles;
-        const auto& corners = surface.triangles[t];
+        const auto& corners = triangles.emplace_back(surface.triangles[t]);
         const glm::dvec3 a(surface.points[corners[0]]), b(surface.points[corners[1]]), c(surface.points[corners[2]]);
         const double volume = glm::dot(a, glm::cross(b, c)) / 6;
         result.volume += volume;
         result.moment += volume * (a + b + c) / 4.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            ++edges[{corners[i], corners[(i + 1) % 3]}];
-            points.try_emplace(corners[i], corners[i]);
-        }
+        for (const std::uint32_t corner : corners) points[corner] = std::min(points[corner], corner);
         for (std::size_t i = 0; i < 2; ++i) {
             const auto [low, high] = std::minmax({rootOf(corners[i]), rootOf(corners[i + 1])});
             points[high] = low;
         }
     }
-    for (const auto& [edge, count] : edges) {
-        const auto opposite = edges.find({edge.second, edge.first});
-        if (count != 1 || opposite == edges.end() || opposite->second != 1) ++result.unpaired;
+    const support::DirectedEdges edges(triangles);
+    result.unpaired = edges.unpaired();
+    long used = 0;
+    for (std::uint32_t point = 0; point < points.size(); ++point) {
+        used += points[point] != kUnused ? 1 : 0;
+        result.components += points[point] == point ? 1 : 0;
     }
-    for (const auto& [point, next] : points) result.components += point == next ? 1 : 0;
-    result.euler = static_cast<long>(points.size()) - static_cast<long>(edges.size()) / 2 + triangles;
+    result.euler = used - static_cast<long>(edges.different()) / 2 + static_cast<long>(triangles.size());
     return result;
 }
 

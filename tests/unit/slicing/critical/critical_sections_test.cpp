@@ -110,12 +110,17 @@ TEST(CriticalSections, EachLevelHasItsOwn) {
     }
 }
 
-TEST(CriticalSections, OutsideOfABallIsACavity) {
+// The field is above 0 between the balls of radii 0.5 and 1.
+TEST(CriticalSections, ShellAroundABallHasACavity) {
     SKIP_IF_SANITIZED();
-    const FieldPtr ball = formulaObject("x^2 + y^2 + z^2 + w^2 - 1");
-    const SectionTopology cube{1, 0, 2}, hollow{1, 1, 4};
-    expectSections(criticalOf(ball, {{0}, fields::Inside::above}),
-                   {{-1, cavity, cube, hollow}, {1, cavity, hollow, cube}}, 2e-5);
+    const FieldPtr shell = formulaObject("(1 - (x^2 + y^2 + z^2 + w^2)) * (x^2 + y^2 + z^2 + w^2 - 0.25)");
+    const SectionTopology hollow{1, 1, 4};
+    expectSections(criticalOf(shell, {{0}, fields::Inside::above}),
+                   {{-1, appearance, kNothing, kBall},
+                    {-0.5, cavity, kBall, hollow},
+                    {0.5, cavity, hollow, kBall},
+                    {1, disappearance, kBall, kNothing}},
+                   2e-5);
 }
 
 // The distance of the ring's points from the plane xy is at most b + r, and at least b − r.
@@ -136,7 +141,7 @@ TEST(CriticalSections, RotatedTiger) {
     SKIP_IF_SANITIZED();
     std::mt19937 random(2);
     const FieldPtr tiger = formulaObject(kTigerAlongW);
-    for (int trial = 0; trial < 4; ++trial) {
+    for (int trial = 0; trial < 3; ++trial) {
         const geometry::Rotation orientation = support::randomRotation(random);
         const glm::dmat4 matrix = orientation.matrix();
         const double u = std::hypot(matrix[0][3], matrix[1][3]), v = std::hypot(matrix[2][3], matrix[3][3]);
@@ -190,11 +195,9 @@ TEST(CriticalSections, HeatKernelsMerge) {
 TEST(CriticalSections, DomainsEndsAreNotCritical) {
     SKIP_IF_SANITIZED();
     std::mt19937 random(3);
-    for (const std::string_view constant : {"-1", "1"}) {
-        const FieldPtr field = formulaObject(constant);
-        for (const geometry::Rotation& orientation : {geometry::Rotation(), support::randomRotation(random)})
-            EXPECT_TRUE(criticalOf(field, {}, orientation).all.empty()) << constant;
-    }
+    const geometry::Rotation orientation = support::randomRotation(random);
+    for (const std::string_view constant : {"-1", "1"})
+        EXPECT_TRUE(criticalOf(formulaObject(constant), {}, orientation).all.empty()) << constant;
 }
 
 TEST(CriticalSections, OppositeOrientationsAgree) {

@@ -1,7 +1,6 @@
 #include "slicing/exact/exact_slicer.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "slicing/field_slicer.hpp"
 #include "slicing/surfaces/surface_measurements.hpp"
 #include "unit/polytopes/support.hpp"
+#include "unit/slicing/directed_edges.hpp"
 #include "unit/slicing/field_support.hpp"
 
 namespace oval4d::slicing {
@@ -46,44 +46,6 @@ ExactSurface exactSlice(ExactSlicer& slicer, double w, double level, Inside insi
     const auto done = slicer.slice(w, {.level = level, .inside = inside}, surface);
     EXPECT_TRUE(done);
     return surface;
-}
-
-// The number of directed edges minus that of their opposites, summed over all edges.
-std::size_t unmatchedEdges(const ExactSurface& surface) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-    for (const auto& t : surface.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            EXPECT_NE(a, b);
-            edges[std::minmax(a, b)] += a < b ? 1 : -1;
-        }
-    }
-    return static_cast<std::size_t>(std::ranges::count_if(edges, [](const auto& edge) { return edge.second != 0; }));
-}
-
-// Whether the triangles around each point form one ring, and each directed edge occurs once.
-bool isManifold(const ExactSurface& surface) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> next;  // around the first point
-    std::map<std::uint32_t, std::pair<std::size_t, std::uint32_t>> fans;    // their sizes, and a neighbor
-    for (const auto& t : surface.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!next.try_emplace({t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) return false;
-            auto& [size, neighbor] = fans[t[i]];
-            ++size;
-            neighbor = t[(i + 1) % 3];
-        }
-    }
-    for (const auto& [point, fan] : fans) {
-        std::size_t steps = 0;
-        std::uint32_t at = fan.second;
-        do {
-            const auto found = next.find({point, at});
-            if (found == next.end()) return false;
-            at = found->second;
-        } while (++steps < fan.first && at != fan.second);
-        if (steps != fan.first || at != fan.second) return false;
-    }
-    return true;
 }
 
 // The part of a simplex in which a linear function is below the level. An edge between a corner `below` and one above
@@ -194,7 +156,7 @@ TEST(ExactSlicer, VolumesAddUpToThatOfTheBody) {
             for (const double side : {-1.0, 1.0}) {
                 const ExactSurface surface =
                     exactSlice(slicer, middle + side * half / std::numbers::sqrt3, level, inside);
-                EXPECT_EQ(unmatchedEdges(surface), 0U);
+                EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
                 sum += half * measureSurface(surface).volume;
             }
         }
@@ -221,9 +183,9 @@ TEST(ExactSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
                 const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
                 const ExactSurface surface = exactSlice(slicer, w, level, inside);
                 triangles += surface.triangles.size();
-                EXPECT_EQ(unmatchedEdges(surface), 0U) << "trial " << trial;
+                EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U) << "trial " << trial;
                 if (!holes) {
-                    EXPECT_TRUE(isManifold(surface)) << "trial " << trial;
+                    EXPECT_TRUE(support::DirectedEdges(surface.triangles).isManifold()) << "trial " << trial;
                     EXPECT_EQ(measureSurface(surface).euler % 2, 0);
                 }
                 EXPECT_GE(measureSurface(surface).volume, 0);
@@ -294,7 +256,7 @@ TEST(ExactSlicer, HolesHaveCaps) {
     field.array = function;
     ExactSlicer slicer(field, {});
     const ExactSurface surface = exactSlice(slicer, 0.25, 0);
-    EXPECT_EQ(unmatchedEdges(surface), 0U);
+    EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
     EXPECT_EQ(surface.firstCap, 0U);
     const auto measured = measureSurface(surface);
     EXPECT_EQ(measured.components, 1U);
@@ -390,7 +352,7 @@ TEST(ExactSlicer, IsBoundedAndCancelable) {
     ASSERT_FALSE(done);
     EXPECT_EQ(asked, 2);
     EXPECT_TRUE(slicer.slice(0, {}, surface));  // works again
-    EXPECT_EQ(unmatchedEdges(surface), 0U);
+    EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
 }
 
 }  // namespace
