@@ -50,13 +50,13 @@ async def test_the_changes_of_a_field(server):
 
 @pytest.mark.release_only
 async def test_the_changes_follow_orientation_levels_and_inside(server):
-    async with field_client(server, BALL) as client:
-        await client.request("set", levels=[-0.75], inside="above")  # x² + … − 1 = −0.75: the radius is 0.5
+    async with field_client(server, "1 - (x^2 + y^2 + z^2 + w^2)") as client:
+        await client.request("set", levels=[0.75], inside="above")  # the ball of radius 0.5
         await client.request("rotate", planes=["xw"], angles=[0.3])
         message = await critical_of(client)
         assert message["most_w"] == pytest.approx(2 * (math.cos(0.3) + math.sin(0.3)))
         assert [s["w"] for s in message["sections"]] == pytest.approx([-0.5, 0.5], abs=1e-4)
-        assert [s["change"] for s in message["sections"]] == ["cavity", "cavity"]
+        assert [s["change"] for s in message["sections"]] == ["appears", "vanishes"]
 
 
 async def test_the_changes_of_a_polytope_are_its_vertices(server):
