@@ -57,9 +57,8 @@ bool mayUseThreads() {
     return threads == nullptr || std::atoi(threads) > 1;
 }
 
-/// Returns whether only OpenGL can draw the slices: those with fog, and those with the faces of an object that need not
-/// be convex.
-bool needsOpenGl(const scene::Scene& scene) { return scene.crossing && (!scene.fog.empty() || scene.surfaces.empty()); }
+/// Returns whether only OpenGL can draw the slices: those with fog.
+bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
 /// Returns the part of the picture that contains the projection of the whole object.
 PixelArea areaOfProjection(const scene::Scene& scene) {
@@ -115,7 +114,7 @@ struct Renderer::Impl {
     void flushShapes();
     void drawConvexSlices(const scene::Scene& scene);
     std::size_t addConvexSlices(const scene::Scene& scene);
-    void addSurfaces(const scene::Scene& scene);
+    void addLayers(const scene::Scene& scene);
     void drawLayers(const scene::Scene& scene);
     void drawProjection(DepthRange depths);
     void prepareFog(const scene::Scene& scene, DepthRange depths);
@@ -188,14 +187,14 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     shapeRasterizer.setDepthArea(areaOfProjection(scene));
     shapeRasterizer.add(shapes, 0, nearer, Depth::unused);
     const auto& [solid, translucent, depths] = projectionLayers;
-    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written_with_coverage);
-    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested_with_coverage);
+    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written);
+    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested);
     return nearer;
 }
 
-// Prepares surfaces and the projection of the whole object to be drawn to the picture in memory, in the order of
-// drawLayers().
-void Renderer::Impl::addSurfaces(const scene::Scene& scene) {
+// Prepares slices that need not be convex, surfaces and the projection of the whole object to be drawn to the picture
+// in memory, in the order of drawLayers().
+void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using Depth = ShapeRasterizer::Depth;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceParts;
@@ -219,6 +218,7 @@ void Renderer::Impl::addSurfaces(const scene::Scene& scene) {
     const auto add = [this](const ShapeBatch& batch, Depth depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
+    add(layers.faces, Depth::written);
     for (const SurfacePart* part : {&near, &far})
         shapeRasterizer.add(part->rasterizer, opaque(*part).first(part->batch.fringesBegin()), Blending::none);
     for (const SurfacePart* part : {&near, &far})
@@ -363,7 +363,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
         if (scene.crossing) {
-            impl_->addSurfaces(scene);
+            impl_->addLayers(scene);
         } else {
             notAdded = impl_->addConvexSlices(scene);
         }

@@ -1,6 +1,6 @@
 #pragma once
-// Draws scenes. Convex slices, surfaces, and the projection of the whole object are drawn without OpenGL if the
-// processor supports it; everything else is drawn with OSMesa.
+// Draws scenes. Slices without fog, and the projection of the whole object, are drawn without OpenGL if the processor
+// supports it; everything else is drawn with OSMesa.
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +17,7 @@ namespace oval4d::render {
 /// empty, the path set at build time.
 std::string fontFile();
 
-/// How convex slices, surfaces, and the projection of the whole object that is shown with them are drawn.
+/// How slices without fog, and the projection of the whole object that is shown with them, are drawn.
 enum class ShapeDrawing : std::uint8_t {
     fastest,  ///< by a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
     open_gl,

@@ -92,8 +92,13 @@ const views = [
     { name: "colored by kind", settings: { polytope: "truncated tesseract", color: "kind" } },
     { name: "with a kind hidden", settings: { polytope: "truncated tesseract", hidden: [1] } },
     { name: "with a kind faded", settings: { polytope: "cantellated 5-cell", color: "w", faded: [0, 1] } },
-    { name: "a star", settings: { polytope: "great stellated 120-cell" }, mean: 1.6, far: 0.015 },
-    { name: "a star alone", settings: { polytope: "small stellated 120-cell", view: "single" }, mean: 1.6, far: 0.015 },
+    { name: "a star", settings: { polytope: "great stellated 120-cell" }, mean: 1.2 },
+    { name: "a star alone", settings: { polytope: "small stellated 120-cell", view: "single" } },
+    {
+        name: "a star and its projection",
+        settings: { polytope: "small stellated 120-cell", projection: "perspective" },
+        ...{ mean: 2.4, far: 0.02 },
+    },
     { name: "a perspective projection", settings: { polytope: "24-cell", projection: "perspective" } },
     {
         name: "an orthogonal projection with many bars behind one another",

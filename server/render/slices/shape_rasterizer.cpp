@@ -12,6 +12,7 @@
 
 #include "render/color.hpp"
 #include "render/slices/avx2.hpp"
+#include "render/slices/depth_buffer.hpp"
 
 namespace oval4d::render {
 
@@ -124,20 +125,18 @@ OVAL4D_AVX2 void fillFace(const Canvas& canvas, const Rows& rows, const Paint& p
     }
 }
 
-// With Depth::written_with_coverage, these bits of a nearness hold the covered part of the pixel, from 0 to 255. They
-// are the lowest bits of a float, so that the nearness is still precise to 1/30,000.
-constexpr int kCoverageBits = 255;
-
-// Returns the covered parts of eight pixels, from 0 to 1.
-OVAL4D_AVX2 inline __m256 coverageIn(__m256 nearness) {
-    const __m256i bits = _mm256_and_si256(_mm256_castps_si256(nearness), _mm256_set1_epi32(kCoverageBits));
+// Returns the parts of eight pixels that solid shapes leave uncovered, from 0 to 1.
+OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
+    const __m256i mask = _mm256_set1_epi32(kCoverageBits);
+    const __m256i bits = _mm256_andnot_si256(_mm256_castps_si256(depths), mask);
     return _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / kCoverageBits));
 }
 
-// Returns nearnesses that hold covered parts.
-OVAL4D_AVX2 inline __m256 withCoverage(__m256 nearness, __m256 coverage) {
-    const __m256i bits = _mm256_cvtps_epi32(_mm256_mul_ps(coverage, _mm256_set1_ps(kCoverageBits)));
+// Returns the values of the depth buffer for eight pixels of which these parts are uncovered.
+OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
+    const __m256i bits =
+        _mm256_sub_epi32(mask, _mm256_cvtps_epi32(_mm256_mul_ps(uncovered, _mm256_set1_ps(kCoverageBits))));
     return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
 }
 
@@ -191,25 +190,14 @@ OVAL4D_AVX2 void fillShape(const Canvas& canvas, const Rows& rows, const Paint& 
                 const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
                 float* const place = canvas.nearness + row + at;
                 const __m256 old = _mm256_loadu_ps(place), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
-                if constexpr (depth == Depth::tested_with_coverage) {
-                    const __m256 rest = _mm256_sub_ps(one, coverageIn(old));
-                    alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(rest, one, isNearer));
-                    inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
-                } else {
-                    inside = _mm256_and_ps(inside, isNearer);
-                }
+                const __m256 uncovered = uncoveredParts(old), rest = _mm256_fnmadd_ps(alpha, uncovered, uncovered);
+                alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(uncovered, one, isNearer));
+                inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
                 if (_mm256_testz_ps(inside, inside) != 0) continue;
                 alpha = _mm256_and_ps(alpha, inside);
-                if constexpr (depth == Depth::written || depth == Depth::written_with_coverage) {
-                    const __m256 hides =
-                        _mm256_and_ps(inside, _mm256_cmp_ps(alpha, _mm256_mul_ps(alphaScale, half), _CMP_GE_OQ));
-                    __m256 written = nearness;
-                    if constexpr (depth == Depth::written_with_coverage) {
-                        const __m256 rest =
-                            _mm256_mul_ps(_mm256_sub_ps(one, alpha), _mm256_sub_ps(one, coverageIn(old)));
-                        written = withCoverage(nearness, _mm256_sub_ps(one, rest));
-                    }
-                    _mm256_storeu_ps(place, _mm256_blendv_ps(old, written, hides));
+                if constexpr (depth == Depth::written) {
+                    const __m256 written = withUncoveredParts(_mm256_max_ps(nearness, old), rest);
+                    _mm256_storeu_ps(place, _mm256_blendv_ps(old, written, inside));
                 }
             }
 
@@ -307,9 +295,7 @@ template <Form form>
 OVAL4D_AVX2 void fill(const Canvas& canvas, const Rows& rows, const Paint& paint, Depth depth) {
     if (depth == Depth::unused) return fillShape<form, Depth::unused>(canvas, rows, paint);
     if (depth == Depth::tested) return fillShape<form, Depth::tested>(canvas, rows, paint);
-    if (depth == Depth::written) return fillShape<form, Depth::written>(canvas, rows, paint);
-    if (depth == Depth::tested_with_coverage) return fillShape<form, Depth::tested_with_coverage>(canvas, rows, paint);
-    fillShape<form, Depth::written_with_coverage>(canvas, rows, paint);
+    fillShape<form, Depth::written>(canvas, rows, paint);
 }
 
 OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
@@ -336,6 +322,7 @@ OVAL4D_AVX2 void drawFace(const Canvas& canvas, std::span<const Corner> corners,
     Paint paint = paintOf(look, pixelSize);
     if (depth == Depth::unused) return fillFace(canvas, rows, paint);
     paint.nearness = nearnessOf(corners, area);
+    if (depth == Depth::written) paint.bulge = 0;
     fill<Form::face>(canvas, rows, paint, depth);
 }
 

@@ -29,14 +29,11 @@ class ShapeRasterizer {
   public:
     /// How shapes use the depth buffer.
     enum class Depth : std::uint8_t {
-        unused,   ///< neither read nor written
-        tested,   ///< read: pixels where something nearer has been written do not change
-        written,  ///< read, and written where the shape covers at least half of a pixel
-        /// Like `written`; the depth buffer also remembers which part of each pixel is covered.
-        written_with_coverage,
-        /// Like `tested`; where shapes that were drawn with `written_with_coverage` are nearer, but cover only a part
-        /// of a pixel, the rest of the pixel changes. Otherwise, the background would show along their edges.
-        tested_with_coverage,
+        unused,  ///< neither read nor written
+        /// Read: where shapes that were drawn with `written` are nearer, only the part of each pixel changes that they
+        /// leave uncovered. Faces count as one pixel closer to the eye.
+        tested,
+        written,  ///< read likewise, and written; faces have their own depth
     };
     /// The minimum width of a picture.
     static constexpr int kMinWidth = 8;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/slices/avx2.hpp"
+#include "render/slices/depth_buffer.hpp"
 
 namespace oval4d::render {
 
@@ -269,16 +270,22 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
             value = _mm256_fmadd_ps(alongX, _mm256_set1_ps(static_cast<float>(left) - s.originX[i]), value);
             const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(y) * canvas.width;
             std::uint32_t* const pixels = canvas.pixels + start;
-            float* const depths = canvas.nearness + start;
+            float* const depths = canvas.depths + start;
             for (int k = left; k < right; ++k, value = _mm256_add_ps(value, alongX)) {
                 const __m256 at = _mm256_min_ps(_mm256_max_ps(value, least), most);
                 const float nearness = _mm256_cvtss_f32(at);
-                if (!(nearness > depths[k])) continue;
-                const __m128 color = _mm256_extractf128_ps(at, 1);
+                const bool isNearer = nearness > depths[k];
+                __m128 color = _mm256_extractf128_ps(at, 1);
                 if constexpr (blending == Blending::none) {
-                    depths[k] = nearness;
+                    if (!isNearer) continue;
+                    depths[k] = coveredAt(nearness);
                     pixels[k] = pixelOf(color);
                 } else {
+                    if (!isNearer) {
+                        const float uncovered = uncoveredPart(depths[k]);
+                        if (!(uncovered > 0)) continue;
+                        color = _mm_mul_ps(color, _mm_set1_ps(uncovered));
+                    }
                     const __m128 old =
                         _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<std::int32_t>(pixels[k]))));
                     const __m128 alpha = _mm_permute_ps(color, 0xff);

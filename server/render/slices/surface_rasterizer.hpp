@@ -16,7 +16,7 @@ struct SurfaceCanvas {
     int width, height;      ///< those of the picture, in pixels
     int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
     std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
-    float* nearness;        ///< the depth buffer: per pixel, 1 / (distance from the eye along the view axis)
+    float* depths;          ///< the depth buffer: see kCoverageBits
 };
 
 /// Rasterizes the triangles of a SurfaceBatch like SurfaceProgram. Surfaces consist of many triangles with a few pixels
@@ -25,10 +25,12 @@ struct SurfaceCanvas {
 /// edge have no common pixels and leave no gap. Reuses its memory for the next picture. Requires AVX2 and FMA.
 class SurfaceRasterizer {
   public:
-    /// How triangles are drawn at pixels where nothing nearer has been drawn.
+    /// How triangles are drawn at pixels where nothing solid is nearer.
     enum class Blending : std::uint8_t {
-        none,   ///< the triangle replaces the pixel, and hides what is drawn later and farther away
-        alpha,  ///< the triangle is blended with the pixel; the depth buffer does not change
+        none,  ///< the triangle replaces the pixel, and hides what is drawn later and farther away
+        /// The triangle is blended with the pixel; the depth buffer does not change. Where solid shapes are nearer,
+        /// only the part of the pixel changes that they leave uncovered.
+        alpha,
     };
 
     /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. Light is

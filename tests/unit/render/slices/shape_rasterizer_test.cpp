@@ -89,6 +89,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "24-cell",
                 {.parts = kSections, .orbit = {}, .projection = {.kind = ProjectionKind::orthogonal}},
                 {640, 360},
+                0.04},
+        Example{"crossing", "great stellated 120-cell", {}, {640, 360}, 0.02},
+        Example{"crossing_faces", "grand 600-cell", {.parts = kOnlyFaces, .orbit = {}}, {640, 360}, 1e-3},
+        Example{"crossing_and_projection",
+                "small stellated 120-cell",
+                {.parts = {}, .orbit = {}, .projection = {.kind = ProjectionKind::perspective}},
+                {640, 360},
                 0.04}));
 
 /// A picture of 64 × 64 pixels, in which a unit at the distance 10 is 32 pixels, and whose center is a corner of
@@ -134,6 +141,20 @@ TEST_F(Depths, NearerShapesHideFartherOnesThatAreDrawnLater) {
     EXPECT_LT(drawnAt(32, 32)[2], drawnAt(32, 32)[0]);
     EXPECT_GT(drawnAt(32, 32 + 15)[2], 80) << "beside the smaller ball";
     EXPECT_EQ(drawnAt(32, 32 + 15)[0], drawnAt(32, 32 - 16)[0]) << "no edge of the smaller ball is left";
+}
+
+TEST_F(Depths, WhatIsFartherShowsThroughTheRestOfThePixelsAtAnEdge) {
+    // A face with slanted, soft edges, and one behind it with the same color, drawn later, that fills the picture.
+    // Where the nearer face covers the part c of a pixel, at most c (1 − c) ≤ 1/4 of the background may be left.
+    solid.addFace(
+        std::vector<glm::vec3>{{-0.5F, -0.6F, -10}, {0.6F, -0.5F, -10}, {0.5F, 0.6F, -10}, {-0.6F, 0.5F, -10}},
+        {0, 0, 1}, kBlue, 1, true);
+    translucent.addFace(std::vector<glm::vec3>{{-2, -2, -11}, {2, -2, -11}, {2, 2, -11}, {-2, 2, -11}}, {0, 0, 1},
+                        kBlue, 1, false);
+    const int face = drawnAt(0, 0)[2];
+    EXPECT_EQ(drawnAt(32, 32)[2], face);
+    for (int x = 20; x < 44; ++x)
+        for (int y = 8; y < 20; ++y) EXPECT_GT(drawnAt(x, y)[2], 0.74 * face) << "at (" << x << ", " << y << ")";
 }
 
 TEST_F(Depths, PointsThatAreNotFiniteDrawNothingOutsideThePicture) {
