@@ -18,6 +18,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/focus_lines.hpp"
+
 namespace oval4d::exports {
 
 namespace {
@@ -28,7 +30,6 @@ using slicing::SliceSet;
 constexpr double kNearest = 1e-3;
 constexpr double kDigitHeight = 0.73;            // of the font, as a fraction of its size
 constexpr std::size_t kTypicalShapeBytes = 150;  // of a file
-constexpr double kFocusReach = 0.12;             // half the length of the lines of the focus point, in circumradii
 
 /// Returns the text in ASCII, which is all that the fonts of PDF files have in common.
 std::string asciiOf(const std::string& label) {
@@ -284,22 +285,15 @@ ShapeGroup drawAxes(const scene::Scene& scene, const Paper& paper) {
 
 /// Draws the focus point in the focus slice: a line along each axis through it.
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, const Paper& paper) {
-    const glm::dmat4 view = scene.camera.view();
-    const double reach = kFocusReach * scene.circumradius;
     ShapeGroup point{"focus-point", {}};
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 step(0);
-        step[axis] = reach;
-        std::array<glm::dvec3, 2> ends;
-        for (const int side : {0, 1}) {
-            const glm::dvec3 p = scene.look.focusPoint + (side == 0 ? -step : step);
-            ends.at(side) = glm::dvec3(view * glm::dvec4(placement.position + scene.scale * p, 1));
-        }
+    const std::array<scene::ViewLine, 3> lines = scene::focusLines(scene, placement);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const scene::ViewLine& ends = lines.at(axis);
         if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;
         point.shapes.emplace_back(Line{.from = paper(ends[0]),
                                        .to = paper(ends[1]),
                                        .width = 1,
-                                       .color = scene.style().axes[static_cast<std::size_t>(axis)],
+                                       .color = scene.style().axes.at(axis),
                                        .roundEnds = true});
     }
     return point;

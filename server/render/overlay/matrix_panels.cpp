@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/projection.hpp"
+#include "scene/focus_lines.hpp"
 
 namespace oval4d::render {
 
@@ -18,9 +19,8 @@ using slicing::PlanarSection;
 
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
 constexpr double kNameHeight = 0.3;  // of an axis' name, as a fraction of its panel
-// The lines of the focus point in the focus slice: half their length in circumradii, and their width as a fraction of
-// the picture's height.
-constexpr double kFocusReach = 0.12, kFocusWidth = 0.0028;
+// The width of the lines of the focus point in the focus slice, as a fraction of the picture's height.
+constexpr double kFocusWidth = 0.0028;
 
 // Draws the two panels of one section: one with its first axis to the right, one with its second.
 class SectionPainter {
@@ -125,19 +125,13 @@ class SectionPainter {
 
 // Draws the focus point in the focus slice: a line along each of the axes x, y and z through it.
 void paintFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
-    const glm::dmat4 toView = scene.camera.view();
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
-    for (int axis = 0; axis < 3; ++axis) {
-        std::array<glm::vec3, 2> ends;
-        for (const int side : {0, 1}) {
-            glm::dvec3 point(scene.sectionMatrix.point);
-            point[axis] += (side == 0 ? -1 : 1) * kFocusReach * scene.circumradius;
-            ends.at(side) = glm::vec3(toView * glm::dvec4(placement.position + scene.scale * point, 1));
-        }
-        if (ends[0].z >= 0 || ends[1].z >= 0) continue;
-        overlay.line(projection.pixel(ends[0]), projection.pixel(ends[1]), width,
-                     scene.style().axes[static_cast<std::size_t>(axis)]);
+    const std::array<scene::ViewLine, 3> lines = scene::focusLines(scene, placement);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const glm::vec3 from(lines.at(axis)[0]), to(lines.at(axis)[1]);
+        if (from.z >= 0 || to.z >= 0) continue;
+        overlay.line(projection.pixel(from), projection.pixel(to), width, scene.style().axes.at(axis));
     }
 }
 
