@@ -168,8 +168,10 @@ test("state fields: works with the keyboard alone; leaving a field applies its t
     assert.ok(close((await script.state()).alpha, 20 * kRadian));
     await page.keyboard.press("Enter");
     await page.keyboard.type("25");
+    await script.request({ type: "set", beta: 1 });
+    await page.waitForFunction(() => document.querySelector("[data-state-field=beta]").textContent === "57.3°");
     await page.keyboard.press("Tab");
-    await page.waitForSelector("#state-fields:not(:focus-within)"); // they are one tab stop
+    await page.waitForSelector("#state-fields:not(:focus-within)"); // they are one tab stop, also if a value changes
     await script.until((one) => close(one.alpha, 25 * kRadian), "the angle of the field that was left");
     await page.focus("button:has([data-state-field=beta])");
     await page.keyboard.press("Space");

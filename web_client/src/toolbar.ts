@@ -8,6 +8,9 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     root.setAttribute("role", "toolbar");
     root.setAttribute("aria-label", label);
     const setTabStop = (wanted?: Element): void => {
+        const focused = document.activeElement;
+        // A button that became a text field stays the tab stop while the field has the focus, although it is hidden.
+        if (focused instanceof HTMLInputElement && root.contains(focused)) return;
         const buttons = [...root.querySelectorAll("button")];
         const enabled = buttons.filter(isUsable);
         const stop = enabled.find((button) => button === wanted) ?? enabled.find((button) => button.tabIndex === 0);
