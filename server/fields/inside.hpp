@@ -11,5 +11,6 @@ namespace oval4d::fields {
 enum class Inside : std::uint8_t { below, above };
 inline constexpr auto kInsides =
     std::to_array<text::Choice<Inside>>({{"below", Inside::below}, {"above", Inside::above}});
+constexpr const auto& choicesOf(Inside /*type*/) { return kInsides; }
 
 }  // namespace oval4d::fields

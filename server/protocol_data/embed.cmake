@@ -7,6 +7,7 @@ endforeach()
 file(WRITE ${OUTPUT} "#include \"protocol_data/embedded_files.hpp\"
 
 #include <array>
+#include <cstddef>
 
 namespace oval4d::protocol_data {
 
@@ -17,6 +18,15 @@ struct File {
 constexpr auto kFiles = std::to_array<File>({
 ${entries}});
 }  // namespace
+
+std::span<const std::string_view> embeddedPaths() {
+    static const auto paths = [] {
+        std::array<std::string_view, kFiles.size()> all;
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = kFiles[i].path;
+        return all;
+    }();
+    return paths;
+}
 
 std::string_view embeddedFile(std::string_view path) {
     for (const File& file : kFiles) {

@@ -2,9 +2,13 @@
 // The data files of protocol/ (keymap.json, errors.json, fields.json, export_formats.json, schema/*.json), compiled
 // into the program.
 
+#include <span>
 #include <string_view>
 
 namespace oval4d::protocol_data {
+
+/// Returns the paths of all files.
+std::span<const std::string_view> embeddedPaths();
 
 /// Returns the text of a file by its path relative to protocol/, such as "keymap.json"; empty if there is no such file.
 std::string_view embeddedFile(std::string_view path);

@@ -7,29 +7,13 @@
 
 namespace oval4d::raster {
 
-namespace {
-
-// Reading and writing share this code, so that they always agree. The structured bindings do not compile if a member is
-// added to Look but not here.
-template <typename Archive, typename Look>
-void visitLook(Archive& archive, Look& look) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background] = look;
-    auto& [hidden, faded] = cellTypes;
-    archive(view), archive(parts), archive(orbit), archive(coloring), archive(hidden), archive(faded);
-    archive(projection), archive(highlight), archive(focusPoint);
-    auto& [levels, inside, fog] = field;
-    archive(levels), archive(inside), archive(fog), archive(caps), archive(background);
-}
-
-}  // namespace
-
 void encodeRequest(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                    const RasterizerLimits& limits, std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
     archive(slicing::infoOf(state.source).serial), archive(slicing::infoOf(state.object).serial);
     archive(state.referenceFrame), archive(state.orientation.left()), archive(state.orientation.right());
-    archive(state.slices), visitLook(archive, state.look);
+    archive(state.slices), archive(state.look);
     archive(viewport), archive(quality), archive(limits);
 }
 
@@ -37,7 +21,7 @@ void decodeRequest(std::string_view bytes, DrawRequest& out) {
     serialization::ByteReader archive(bytes);
     glm::dquat left, right;
     archive(out.source), archive(out.object), archive(out.state.referenceFrame), archive(left), archive(right);
-    archive(out.state.slices), visitLook(archive, out.state.look);
+    archive(out.state.slices), archive(out.state.look);
     archive(out.viewport), archive(out.quality), archive(out.limits);
     const auto orientation = geometry::Rotation::fromQuaternions(left, right);
     if (!orientation) throw std::runtime_error("a draw request contains an invalid rotation");

@@ -27,6 +27,7 @@ inline constexpr auto kBackgrounds =
                                              {"light", Background::light},
                                              {"white", Background::white},
                                              {"transparent", Background::transparent}});
+constexpr const auto& choicesOf(Background /*type*/) { return kBackgrounds; }
 
 /// Returns the scheme of the colors on a background, for a viewer who prefers pictures of the scheme `viewer`.
 constexpr Scheme schemeOn(Background background, Scheme viewer = Scheme::dark) {

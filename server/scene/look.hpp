@@ -21,6 +21,7 @@ namespace oval4d::scene {
 enum class View : std::uint8_t { oval, single, matrix };
 inline constexpr auto kViews =
     std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}});
+constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
 /// the cell from which it was cut.
@@ -40,6 +41,7 @@ inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell
                                                                           {"light", Coloring::light},
                                                                           {"growth", Coloring::growth},
                                                                           {"value", Coloring::value}});
+constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
 /// body inside a surface where the domain ends.
@@ -50,6 +52,7 @@ enum class CapStyle : std::uint8_t {
 };
 inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
+constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
 /// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval
 /// or, if only the focus slice is drawn, beside it.
@@ -62,6 +65,7 @@ inline constexpr auto kProjectionKinds =
     std::to_array<text::Choice<ProjectionKind>>({{"off", ProjectionKind::off},
                                                  {"perspective", ProjectionKind::perspective},
                                                  {"orthogonal", ProjectionKind::orthogonal}});
+constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKinds; }
 
 /// How the whole object is projected.
 struct ProjectionSettings {

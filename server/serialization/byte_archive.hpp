@@ -2,8 +2,7 @@
 // Serializes values for messages between processes of the same program on the same machine, in the machine's byte
 // order.
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <cstring>
 #include <span>
 #include <stdexcept>
@@ -12,12 +11,18 @@
 #include <type_traits>
 #include <vector>
 
+#include <boost/pfr.hpp>
+
 namespace oval4d::serialization {
 
 /// Types whose values are copied byte by byte. Classes among them must not contain pointers or references, which the
 /// concept cannot check.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+
+/// Other structs without constructors, of which each member is written.
+template <typename T>
+concept Memberwise = std::is_aggregate_v<T> && !BytewiseCopyable<T>;
 
 /// Appends values to a string of bytes. A string or vector is written as its number of elements, followed by the
 /// elements.
@@ -42,6 +47,10 @@ class ByteWriter {
     template <BytewiseCopyable T>
     void operator()(const std::vector<T>& list) {
         (*this)(std::span<const T>(list));
+    }
+    template <Memberwise T>
+    void operator()(const T& value) {
+        boost::pfr::for_each_field(value, *this);
     }
 
   private:
@@ -71,6 +80,10 @@ class ByteReader {
     void operator()(std::vector<T>& list) {
         list.resize(count(sizeof(T)));
         if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+    }
+    template <Memberwise T>
+    void operator()(T& value) {
+        boost::pfr::for_each_field(value, *this);
     }
 
   private:

@@ -62,6 +62,10 @@ struct State {
     geometry::Hyperplanes hyperplanes() const;
     /// Returns w of the focus slice.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
+    /// Returns the focus point x, y, z, w in the coordinates of the object's file.
+    glm::dvec4 focusPoint() const {
+        return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
+    }
     /// Returns whether the object moves without further commands: continuously, or toward an element.
     bool moves() const { return turning || ongoingTurnToward; }
     bool operator==(const State&) const = default;

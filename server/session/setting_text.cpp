@@ -10,82 +10,35 @@
 
 #include "session/cell_types.hpp"
 #include "session/expression.hpp"
+#include "session/setting_table.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
 
 namespace {
 
-// A pointer to a member of Set.
-using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
-                            std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
-                            std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                            std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*,
-                            std::optional<glm::dvec4> Set::*, std::optional<glm::dvec3> Set::*,
-                            std::optional<std::vector<double>> Set::*, std::optional<fields::Inside> Set::*,
-                            std::optional<scene::CapStyle> Set::*, std::optional<scene::Background> Set::*,
-                            std::optional<std::vector<slicing::FogPoint>> Set::*>;
-/// One setting: its name, and the member of Set that stores it.
-struct Setting {
-    std::string_view name;
-    Member member;
-};
-const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
-                                               {"pace", &Set::pace},
-                                               {"follow", &Set::follow},
-                                               {"boost", &Set::boost},
-                                               {"alpha", &Set::alpha},
-                                               {"beta", &Set::beta},
-                                               {"step", &Set::step},
-                                               {"slices", &Set::count},
-                                               {"spacing", &Set::spacing},
-                                               {"focus", &Set::focus},
-                                               {"offset", &Set::offset},
-                                               {"w", &Set::focusW},
-                                               {"point", &Set::focusPoint},
-                                               {"view", &Set::view},
-                                               {"turning", &Set::turning},
-                                               {"azimuth", &Set::azimuth},
-                                               {"elevation", &Set::elevation},
-                                               {"zoom", &Set::zoom},
-                                               {"color", &Set::coloring},
-                                               {"background", &Set::background},
-                                               {"projection", &Set::projection},
-                                               {"eye", &Set::eye},
-                                               {"levels", &Set::levels},
-                                               {"inside", &Set::inside},
-                                               {"caps", &Set::caps},
-                                               {"fog", &Set::fog},
-                                               {"hidden", &Set::hidden},
-                                               {"faded", &Set::faded},
-                                               {"highlight", &Set::highlight}});
+constexpr std::string_view kPolytope = "polytope";  // the name of Set::object
 
 std::vector<std::string_view> names() {
-    std::vector<std::string_view> all;
-    for (const Setting& setting : kSettings) all.push_back(setting.name);
-    for (const scene::PartRow& part : scene::kParts) all.push_back(part.name);
+    std::vector<std::string_view> all{kPolytope};
+    forEachSetting([&](const auto& setting) { all.push_back(setting.name.text); });
     return all;
 }
 
 Error refusal(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
-bool isAngle(std::optional<double> Set::* member) {
-    constexpr auto kAngles = std::to_array({&Set::alpha, &Set::beta, &Set::step, &Set::azimuth, &Set::elevation});
-    return std::ranges::find(kAngles, member) != kAngles.end();
-}
-
-// Parses `text` as the value of the setting `name`, and stores it in a member of `set`.
+// Parses `text` as the value of the setting `name`.
 struct ValueReader {
-    Set& set;
     std::string_view name, text;
+    bool isAngle = false;  // whether it is an angle, which may have a unit
 
-    Result<std::monostate> operator()(std::optional<double> Set::* member) const {
-        const auto value = isAngle(member) ? evaluateAngle(text) : evaluate(text);
+    Result<std::monostate> operator()(std::optional<double>& into) const {
+        const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
         if (!value) return refusal(value.error().code, std::string(name) + ": " + value.error().message);
-        set.*member = *value;
+        into = *value;
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<int> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<int>& into) const {
         const auto value = evaluate(text);
         if (!value) return refusal(value.error().code, std::string(name) + ": " + value.error().message);
         constexpr double kMaxMagnitude = 1'000'000'000;
@@ -93,11 +46,10 @@ struct ValueReader {
             return refusal(ErrorCode::out_of_range,
                            std::string(name) + " must be a whole number, not " + text::inQuotes(text));
         }
-        set.*member = static_cast<int>(*value);
+        into = static_cast<int>(*value);
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<bool> Set::* member) const { return readFlag(set.*member); }
-    Result<std::monostate> readFlag(std::optional<bool>& into) const {
+    Result<std::monostate> operator()(std::optional<bool>& into) const {
         const bool yes = text == "on" || text == "true" || text == "yes" || text == "1";
         const bool no = text == "off" || text == "false" || text == "no" || text == "0";
         if (!yes && !no)
@@ -106,15 +58,15 @@ struct ValueReader {
         into = yes;
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<glm::dvec4> Set::* member) const {
-        return readVector(4, "four numbers x,y,z,w without blanks, such as 0.1,0,-0.2,0", set.*member);
+    Result<std::monostate> operator()(std::optional<glm::dvec4>& into) const {
+        return readVector(4, "four numbers x,y,z,w without blanks, such as 0.1,0,-0.2,0", into);
     }
-    Result<std::monostate> operator()(std::optional<glm::dvec3> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<glm::dvec3>& into) const {
         if (text == "none") {
-            set.*member = glm::dvec3(0);
+            into = glm::dvec3(0);
             return std::monostate{};
         }
-        return readVector(3, "none or a velocity x,y,z without blanks, such as 0.3,0,0", set.*member);
+        return readVector(3, "none or a velocity x,y,z without blanks, such as 0.3,0,0", into);
     }
     template <typename Vector>
     Result<std::monostate> readVector(std::ptrdiff_t size, std::string_view form, std::optional<Vector>& into) const {
@@ -127,19 +79,19 @@ struct ValueReader {
         for (int axis = 0; axis < size; ++axis) into.emplace(into.value_or(Vector(0)))[axis] = (*list)[axis];
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<std::string> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<std::string>& into) const {
         if (text.empty()) return refusal(ErrorCode::bad_expression, std::string(name) + " must be a name");
-        set.*member = std::string(text);
+        into = std::string(text);
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<std::vector<double>> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<std::vector<double>>& into) const {
         auto list = readNumbers();
         if (!list) return list.error();
-        set.*member = std::move(*list);
+        into = std::move(*list);
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogPoint>> Set::* member) const {
-        std::vector<slicing::FogPoint>& points = (set.*member).emplace();
+    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogPoint>>& into) const {
+        std::vector<slicing::FogPoint>& points = into.emplace();
         if (text == "off") return std::monostate{};
         for (std::string_view rest = text;;) {
             const std::size_t comma = rest.find(',');
@@ -181,35 +133,18 @@ struct ValueReader {
         if (!list) return refusal(list.error().code, std::string(name) + ": " + list.error().message);
         return list;
     }
-    Result<std::monostate> operator()(std::optional<fields::Inside> Set::* member) const {
-        return choose(fields::kInsides, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::View> Set::* member) const {
-        return choose(scene::kViews, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::Coloring> Set::* member) const {
-        return choose(scene::kColorings, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::CapStyle> Set::* member) const {
-        return choose(scene::kCapStyles, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::Background> Set::* member) const {
-        return choose(scene::kBackgrounds, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::ProjectionKind> Set::* member) const {
-        return choose(scene::kProjectionKinds, set.*member);
-    }
-    template <typename Choices, typename Value>
-    Result<std::monostate> choose(const Choices& choices, std::optional<Value>& into) const {
+    template <oval4d::text::HasChoices Enum>
+    Result<std::monostate> operator()(std::optional<Enum>& into) const {
+        const auto& choices = choicesOf(Enum{});
         into = oval4d::text::valueNamed(choices, text);
         if (into) return std::monostate{};
         return refusal(ErrorCode::bad_expression, std::string(name) + " must be " +
                                                       oval4d::text::alternatives(oval4d::text::namesOf(choices)) +
                                                       ", not " + oval4d::text::inQuotes(text));
     }
-    Result<std::monostate> operator()(std::optional<std::optional<slicing::Element>> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<std::optional<slicing::Element>>& into) const {
         if (text == "none") {
-            (set.*member).emplace();
+            into.emplace();
             return std::monostate{};
         }
         const std::size_t colon = text.find(':');
@@ -222,13 +157,13 @@ struct ValueReader {
         if (!kind) return kind.error();
         const auto index = parseElementIndex(text.substr(colon + 1));
         if (!index) return index.error();
-        (set.*member).emplace(slicing::Element{*kind, *index});
+        into.emplace(slicing::Element{*kind, *index});
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<CellTypeList> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<CellTypeList>& into) const {
         auto types = parseCellTypes(text);
         if (!types) return refusal(types.error().code, std::string(name) + ": " + types.error().message);
-        set.*member = std::move(*types);
+        into = std::move(*types);
         return std::monostate{};
     }
 };
@@ -243,64 +178,32 @@ std::string joined(const Range& range, Function&& textOf) {
     return text;
 }
 
-// Returns the text of a member of `set`, which must be present, as ValueReader reads it.
+// Returns the text of a value, as ValueReader reads it.
 struct ValueWriter {
-    const Set& set;
+    bool isAngle = false;
 
-    std::string operator()(std::optional<double> Set::* member) const {
-        return text::shortestDecimal(*(set.*member)) + (isAngle(member) ? "rad" : "");
-    }
-    std::string operator()(std::optional<int> Set::* member) const { return std::to_string(*(set.*member)); }
-    std::string operator()(std::optional<bool> Set::* member) const { return flag(*(set.*member)); }
-    std::string operator()(std::optional<std::string> Set::* member) const { return *(set.*member); }
-    std::string operator()(std::optional<glm::dvec4> Set::* member) const {
-        const glm::dvec4& v = *(set.*member);
-        return numberList(std::array{v.x, v.y, v.z, v.w});
-    }
-    std::string operator()(std::optional<glm::dvec3> Set::* member) const {
-        const glm::dvec3& v = *(set.*member);
-        return numberList(std::array{v.x, v.y, v.z});
-    }
-    std::string operator()(std::optional<std::vector<double>> Set::* member) const {
-        return numberList(*(set.*member));
-    }
-    std::string operator()(std::optional<std::vector<slicing::FogPoint>> Set::* member) const {
-        const auto& points = *(set.*member);
+    std::string operator()(double value) const { return text::shortestDecimal(value) + (isAngle ? "rad" : ""); }
+    std::string operator()(int value) const { return std::to_string(value); }
+    std::string operator()(bool value) const { return value ? "on" : "off"; }
+    std::string operator()(const std::string& name) const { return name; }
+    std::string operator()(const glm::dvec4& v) const { return numberList(std::array{v.x, v.y, v.z, v.w}); }
+    std::string operator()(const glm::dvec3& v) const { return numberList(std::array{v.x, v.y, v.z}); }
+    std::string operator()(const std::vector<double>& numbers) const { return numberList(numbers); }
+    std::string operator()(const std::vector<slicing::FogPoint>& points) const {
         return points.empty() ? "off" : joined(points, fogPoint);
     }
-    std::string operator()(std::optional<CellTypeList> Set::* member) const {
-        const auto& types = *(set.*member);
+    std::string operator()(const CellTypeList& types) const {
         return types.empty() ? "none" : joined(types, [](std::uint32_t type) { return std::to_string(type); });
     }
-    std::string operator()(std::optional<std::optional<slicing::Element>> Set::* member) const {
-        const auto& element = *(set.*member);
+    std::string operator()(const std::optional<slicing::Element>& element) const {
         if (!element) return "none";
-        return std::string(text::nameOf(slicing::kElementKinds, element->kind)) + ':' + std::to_string(element->index);
+        return (*this)(element->kind) + ':' + std::to_string(element->index);
     }
-    std::string operator()(std::optional<fields::Inside> Set::* member) const {
-        return choice(fields::kInsides, set.*member);
-    }
-    std::string operator()(std::optional<scene::View> Set::* member) const {
-        return choice(scene::kViews, set.*member);
-    }
-    std::string operator()(std::optional<scene::Coloring> Set::* member) const {
-        return choice(scene::kColorings, set.*member);
-    }
-    std::string operator()(std::optional<scene::CapStyle> Set::* member) const {
-        return choice(scene::kCapStyles, set.*member);
-    }
-    std::string operator()(std::optional<scene::Background> Set::* member) const {
-        return choice(scene::kBackgrounds, set.*member);
-    }
-    std::string operator()(std::optional<scene::ProjectionKind> Set::* member) const {
-        return choice(scene::kProjectionKinds, set.*member);
+    template <text::HasChoices Enum>
+    std::string operator()(Enum value) const {
+        return std::string(text::nameOf(choicesOf(value), value));
     }
 
-    static std::string flag(bool value) { return value ? "on" : "off"; }
-    template <typename Choices, typename Value>
-    static std::string choice(const Choices& choices, const std::optional<Value>& value) {
-        return std::string(text::nameOf(choices, *value));
-    }
     static std::string fogPoint(const slicing::FogPoint& point) {
         std::string text = text::shortestDecimal(point.value) + ':' + text::shortestDecimal(point.opacity);
         if (!point.color) return text;
@@ -315,12 +218,12 @@ struct ValueWriter {
 }  // namespace
 
 Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set) {
-    for (const Setting& setting : kSettings) {
-        if (setting.name == name) return std::visit(ValueReader{set, name, value}, setting.member);
-    }
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
-        if (scene::kParts[i].name == name) return ValueReader{set, name, value}.readFlag(set.parts[i]);
-    }
+    if (name == kPolytope) return ValueReader{name, value}(set.object);
+    std::optional<Result<std::monostate>> parsed;
+    forEachSetting([&](const auto& setting) {
+        if (setting.name.text == name) parsed = ValueReader{name, value, setting.isAngle()}(setting.ofSet(set));
+    });
+    if (parsed) return *parsed;
     return refusal(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
                                                    text::didYouMean(name, names()) + "; the settings are " +
                                                    settingNames());
@@ -328,16 +231,11 @@ Result<std::monostate> parseSetting(std::string_view name, std::string_view valu
 
 QueryParameters settingTexts(const Set& set) {
     QueryParameters texts;
-    for (const Setting& setting : kSettings) {
-        std::visit(
-            [&](const auto& member) {
-                if (set.*member) texts.emplace_back(setting.name, ValueWriter{set}(member));
-            },
-            setting.member);
-    }
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
-        if (set.parts[i]) texts.emplace_back(scene::kParts[i].name, ValueWriter::flag(*set.parts[i]));
-    }
+    if (set.object) texts.emplace_back(kPolytope, *set.object);
+    forEachSetting([&](const auto& setting) {
+        if (const auto& value = setting.ofSet(set))
+            texts.emplace_back(setting.name.text, ValueWriter{setting.isAngle()}(*value));
+    });
     return texts;
 }
 

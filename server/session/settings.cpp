@@ -14,19 +14,12 @@
 #include "fields/field.hpp"
 #include "session/cell_types.hpp"
 #include "session/object_lookup.hpp"
+#include "session/setting_table.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
 
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
-
-struct Bounds {
-    double least, most;
-    std::string_view unit;
-};
-constexpr std::string_view kRadians = " radians";
 
 // The error for a value that is not within its bounds. Angles are told in radians and in degrees. Numbers are rounded,
 // unless the value would then seem to be within the bounds.
@@ -53,8 +46,6 @@ Result<std::monostate> put(std::string_view name, std::optional<double> value, B
     into = *value;
     return std::monostate{};
 }
-
-void put(std::optional<bool> value, bool& into) { into = value.value_or(into); }
 
 // Error: `out_of_range`.
 Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
@@ -264,25 +255,16 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         if (auto valid = checkTurn(*set.lastTurn); !valid) return valid;
         state.lastTurn = set.lastTurn;
     }
-    constexpr double kLeastStep = 1e-9;
-    for (auto&& done :
-         {put("alpha", set.alpha, {-kTwoPi, kTwoPi, kRadians}, state.alpha),
-          put("beta", set.beta, {-kTwoPi, kTwoPi, kRadians}, state.beta),
-          put("the step", set.step, {kLeastStep, kTwoPi, kRadians}, state.step), setSlices(state, set, limits),
-          put("the camera's azimuth", set.azimuth, {-kMaxOrbitAngle, kMaxOrbitAngle, kRadians},
-              state.look.orbit.azimuth),
-          put("the camera's elevation", set.elevation, {-kMaxOrbitAngle, kMaxOrbitAngle, kRadians},
-              state.look.orbit.elevation),
-          put("the camera's zoom", set.zoom, {kMinZoom, kMaxZoom, ""}, state.look.orbit.zoom),
-          put("the eye", set.eye, {kMinEye, kMaxEye, " circumradii"}, state.look.projection.eye)}) {
-        if (!done) return done;
-    }
-    state.look.view = set.view.value_or(state.look.view);
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) put(set.parts[i], state.look.parts.*scene::kParts[i].flag);
-    state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
-    state.look.coloring = set.coloring.value_or(state.look.coloring);
-    state.look.caps = set.caps.value_or(state.look.caps);
-    state.look.background = set.background.value_or(state.look.background);
+    if (auto done = setSlices(state, set, limits); !done) return done;
+    Result<std::monostate> plain = std::monostate{};
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::hasBounds) {
+            if (plain) plain = put(setting.rule.what, setting.ofSet(set), setting.rule.bounds, setting.ofState(state));
+        } else if constexpr (!Row::hasOwnRule) {
+            setting.ofState(state) = setting.ofSet(set).value_or(setting.ofState(state));
+        }
+    });
+    if (!plain) return plain;
     if (auto done = applyCellTypeVisibility(state, set); !done) return done;
     if (auto done = setField(state, set); !done) return done;
     if (set.highlight) {
@@ -291,7 +273,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         }
         state.look.highlight = *set.highlight;
     }
-    put(set.turning, state.turning);
+    state.turning = set.turning.value_or(state.turning);
     if (set.turning) state.ongoingTurnToward.reset();
     if (state.turning && !state.lastTurn) {
         return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
@@ -300,37 +282,13 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 }
 
 Set settingsOf(const State& state) {
-    const scene::Look& look = state.look;
     Set set;
-    set.pace = state.referenceFrame.pace;
-    set.follow = state.referenceFrame.follow;
-    set.boost = state.referenceFrame.boost;
-    set.alpha = state.alpha;
-    set.beta = state.beta;
-    set.step = state.step;
-    set.count = state.slices.count;
-    set.spacing = state.slices.spacing;
-    set.focus = state.slices.focus;
-    set.offset = state.slices.offset;
-    set.view = look.view;
-    set.focusPoint = slicing::infoOf(state.object).originInFile + glm::dvec4(look.focusPoint, state.focusW());
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) set.parts[i] = look.parts.*scene::kParts[i].flag;
-    set.azimuth = look.orbit.azimuth;
-    set.elevation = look.orbit.elevation;
-    set.zoom = look.orbit.zoom;
-    set.coloring = look.coloring;
-    set.caps = look.caps;
-    set.background = look.background;
-    set.projection = look.projection.kind;
-    set.eye = look.projection.eye;
-    if (slicing::fieldIn(state.object) != nullptr) {
-        set.levels = look.field.levels;
-        set.inside = look.field.inside;
-        set.fog = look.field.fog;
-    }
-    set.hidden = look.cellTypes.hidden;
-    set.faded = look.cellTypes.faded;
-    set.highlight = look.highlight;
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::isInState) {
+            if (!setting.forFields || slicing::fieldIn(state.object) != nullptr)
+                setting.ofSet(set) = setting.ofState(state);
+        }
+    });
     return set;
 }
 

@@ -2,14 +2,23 @@
 // Changes the settings of a state, and checks their bounds.
 
 #include <span>
+#include <string_view>
 
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::session {
 
+/// The range of a number, and the unit that error messages state after it, such as " circumradii".
+struct Bounds {
+    double least, most;
+    std::string_view unit;
+};
+inline constexpr std::string_view kRadians = " radians";
+
 /// Bounds that do not depend on the server's options.
 inline constexpr double kMaxAngle = 1e6;     ///< absolute value of an angle in radians; larger doubles are imprecise
+inline constexpr double kMinStep = 1e-9;     ///< State::step in radians
 inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
 inline constexpr double kMinSpacing = 1e-6;  ///< as a multiple of the object's circumradius
 inline constexpr double kMaxSpacing = 10;    ///< as a multiple of the object's circumradius

@@ -22,6 +22,7 @@ inline constexpr auto kElementKinds = std::to_array<text::Choice<ElementKind>>({
                                                                                 {"edge", ElementKind::edge},
                                                                                 {"face", ElementKind::face},
                                                                                 {"cell", ElementKind::cell}});
+constexpr const auto& choicesOf(ElementKind /*type*/) { return kElementKinds; }
 
 /// One element of an object: its kind, and its index from 0 among the object's elements of this kind.
 struct Element {

@@ -40,11 +40,13 @@ std::uint64_t revisionIn(const json& value) {
     return revision;
 }
 
-template <typename Enum>
-Enum enumerator(const json& value, Enum last) {
-    const auto found = readInteger<unsigned>(value);
-    if (found > static_cast<unsigned>(last)) throwUnreadable("an enumerator is out of range: " + std::to_string(found));
-    return static_cast<Enum>(found);
+template <text::HasChoices Enum>
+Enum enumeratorIn(const json& value) {
+    const auto number = readInteger<unsigned>(value);
+    for (const auto& choice : choicesOf(Enum{})) {
+        if (static_cast<unsigned>(choice.value) == number) return choice.value;
+    }
+    throwUnreadable("an enumerator is out of range: " + std::to_string(number));
 }
 
 json quaternion(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
@@ -161,9 +163,14 @@ json encoded(const std::optional<geometry::Turn>& turn) {
     return pairs;
 }
 
+geometry::Plane planeIn(const json& value) {
+    const auto number = readInteger<unsigned>(value);
+    if (number >= geometry::kPlanes.size()) throwUnreadable("there is no plane " + std::to_string(number));
+    return geometry::kPlanes[number];
+}
+
 std::optional<geometry::Turn> turnIn(const json& value) {
     if (value.is_null()) return std::nullopt;
-    const auto planeIn = [](const json& number) { return enumerator(number, geometry::Plane::zw); };
     geometry::Turn turn;
     if (value.at(0).is_array()) {
         for (const json& pair : value) turn[planeIn(pair.at(0))] = readNumber(pair.at(1), session::kMaxAngle);
@@ -242,7 +249,7 @@ std::vector<std::uint32_t> cellTypesIn(const json& value, std::size_t count) {
 
 std::optional<slicing::Element> elementIn(const json& value, const slicing::Object& object) {
     if (value.is_null()) return std::nullopt;
-    const slicing::Element element{enumerator(value.at(0), slicing::ElementKind::cell),
+    const slicing::Element element{enumeratorIn<slicing::ElementKind>(value.at(0)),
                                    readInteger<std::size_t>(value.at(1))};
     if (element.index >= slicing::elementCount(object, element.kind)) throwUnreadable("an element is missing");
     return element;
@@ -254,7 +261,7 @@ glm::dvec3 pointIn(const json& value, double circumradius) {
 }
 
 slicing::FieldSettings fieldSettingsIn(const json& value) {
-    slicing::FieldSettings field{{}, enumerator(value.at(1), fields::Inside::above), {}};
+    slicing::FieldSettings field{{}, enumeratorIn<fields::Inside>(value.at(1)), {}};
     for (const json& level : value.at(0)) field.levels.push_back(readNumber(level, session::kMaxLevel));
     if (field.levels.empty() || field.levels.size() > slicing::kMaxLevels)
         throwUnreadable("the number of levels is out of range");
@@ -272,22 +279,22 @@ scene::Look lookIn(const json& value, const slicing::Object& object) {
     const std::size_t kinds = slicing::infoOf(object).cellTypes.size();
     const json& orbit = value.at(2);
     scene::Look look{
-        enumerator(value.at(0), scene::View::matrix),
+        enumeratorIn<scene::View>(value.at(0)),
         partsIn(value.at(1)),
         {readNumber(orbit.at(0), session::kMaxOrbitAngle), readNumber(orbit.at(1), session::kMaxOrbitAngle),
          readNumber(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
-        enumerator(value.at(3), scene::Coloring::value),
+        enumeratorIn<scene::Coloring>(value.at(3)),
         {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)},
         {},
         value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt,
         value.size() > 9 ? pointIn(value.at(9), slicing::infoOf(object).circumradius) : glm::dvec3(0),
         value.size() > 10 ? fieldSettingsIn(value.at(10)) : slicing::FieldSettings{},
-        value.size() > 11 ? enumerator(value.at(11), scene::CapStyle::open) : scene::CapStyle::plain,
-        value.size() > 12 ? enumerator(value.at(12), scene::Background::transparent) : scene::Background::automatic};
+        value.size() > 11 ? enumeratorIn<scene::CapStyle>(value.at(11)) : scene::CapStyle::plain,
+        value.size() > 12 ? enumeratorIn<scene::Background>(value.at(12)) : scene::Background::automatic};
     // Records written by earlier versions of the program lack the projection, highlight, focus point, field, caps and
     // background.
     if (value.size() > 6)
-        look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
+        look.projection = {enumeratorIn<scene::ProjectionKind>(value.at(6)),
                            readNumber(value.at(7), session::kMinEye, session::kMaxEye)};
     const auto& [hidden, faded] = look.cellTypes;
     if (std::ranges::any_of(hidden, [&](auto kind) { return std::ranges::binary_search(faded, kind); }))

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace oval4d::text {
@@ -41,5 +42,9 @@ std::vector<std::string_view> namesOf(const Choices& choices) {
     for (const auto& choice : choices) names.push_back(choice.name);
     return names;
 }
+
+/// An enumeration with a table of choices, which the function choicesOf() beside the table returns.
+template <typename Enum>
+concept HasChoices = std::is_enum_v<Enum> && requires(Enum value) { choicesOf(value).begin()->name; };
 
 }  // namespace oval4d::text

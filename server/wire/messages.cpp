@@ -13,6 +13,7 @@
 #include "scene/color.hpp"
 #include "scene/surface_look.hpp"
 #include "session/example_fields.hpp"
+#include "session/setting_table.hpp"
 #include "slicing/object.hpp"
 #include "wire/json_writer.hpp"
 
@@ -45,11 +46,50 @@ void writeCounts(JsonWriter& w, const Counts& counts) {
     w.member("cells", counts[3]);
 }
 
-void writePoint(JsonWriter& w, std::string_view name, const glm::dvec4& point) {
-    w.key(name);
+// Writes a value as JSON.
+template <typename Number>
+void writeValue(JsonWriter& w, const Number& number) {
+    w.value(number);
+}
+template <text::HasChoices Enum>
+void writeValue(JsonWriter& w, Enum value) {
+    w.value(text::nameOf(choicesOf(value), value));
+}
+template <glm::length_t length>
+void writeValue(JsonWriter& w, const glm::vec<length, double>& coordinates) {
     w.beginArray();
-    for (int axis = 0; axis < 4; ++axis) w.value(point[axis]);
+    for (int axis = 0; axis < length; ++axis) w.value(coordinates[axis]);
     w.endArray();
+}
+void writeValue(JsonWriter& w, const std::vector<std::uint32_t>& numbers) { w.numbers(numbers); }
+void writeValue(JsonWriter& w, const std::vector<double>& numbers) {
+    w.beginArray();
+    for (const double number : numbers) w.value(number);
+    w.endArray();
+}
+void writeValue(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
+    w.beginArray();
+    for (const slicing::FogPoint& point : points) {
+        w.beginObject();
+        w.member("value", point.value);
+        w.member("opacity", point.opacity);
+        if (point.color) w.member("color", *point.color);
+        w.endObject();
+    }
+    w.endArray();
+}
+void writeValue(JsonWriter& w, const std::optional<slicing::Element>& element) {
+    if (!element) return w.null();
+    w.beginObject();
+    w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
+    w.member("number", std::uint64_t{element->index});
+    w.endObject();
+}
+
+template <typename Value>
+void writeMember(JsonWriter& w, std::string_view name, const Value& value) {
+    w.key(name);
+    writeValue(w, value);
 }
 
 void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme scheme) {
@@ -68,15 +108,8 @@ void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme sch
         w.endObject();
     }
     w.endArray();
-    if (info.originInFile != glm::dvec4(0)) writePoint(w, "center", info.originInFile);
+    if (info.originInFile != glm::dvec4(0)) writeMember(w, "center", info.originInFile);
     w.endObject();
-}
-
-void writeVector(JsonWriter& w, std::string_view name, const glm::dvec3& v) {
-    w.key(name);
-    w.beginArray();
-    for (int axis = 0; axis < 3; ++axis) w.value(v[axis]);
-    w.endArray();
 }
 
 void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
@@ -88,14 +121,6 @@ void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
         w.endArray();
     }
     w.endArray();
-}
-
-void writeElement(JsonWriter& w, const std::optional<slicing::Element>& element) {
-    if (!element) return w.null();
-    w.beginObject();
-    w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
-    w.member("number", std::uint64_t{element->index});
-    w.endObject();
 }
 
 void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
@@ -169,17 +194,25 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
     w.endObject();
 }
 
-void writeFog(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
-    w.key("fog");
-    w.beginArray();
-    for (const slicing::FogPoint& point : points) {
-        w.beginObject();
-        w.member("value", point.value);
-        w.member("opacity", point.opacity);
-        if (point.color) w.member("color", *point.color);
-        w.endObject();
-    }
-    w.endArray();
+void writeSettings(JsonWriter& w, const session::State& state) {
+    std::string_view object;  // the one that has been begun
+    const auto continueIn = [&](std::string_view next) {
+        if (next == object) return;
+        if (!object.empty()) w.endObject();
+        if (!next.empty()) {
+            w.key(next);
+            w.beginObject();
+        }
+        object = next;
+    };
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::isInState) {
+            if (setting.forFields && slicing::fieldIn(state.object) == nullptr) return;
+            continueIn(setting.name.object);
+            writeMember(w, setting.name.member, setting.ofState(state));
+        }
+    });
+    continueIn({});
 }
 
 }  // namespace
@@ -192,62 +225,17 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.member("revision", revision);
     if (quality == slicing::Quality::draft) w.member("draft", true);
     writeObject(w, state.object, scheme);
-    w.member("pace", state.referenceFrame.pace);
-    writeVector(w, "follow", state.referenceFrame.follow);
-    writeVector(w, "boost", state.referenceFrame.boost);
+    if (const fields::Field* const field = slicing::fieldIn(state.object)) writeField(w, *field, state.look, scheme);
     writeMatrix(w, state.orientation.matrix());
-    w.member("alpha", state.alpha);
-    w.member("beta", state.beta);
-    w.member("step", state.step);
-    w.key("slices");
-    w.beginObject();
-    w.member("count", state.slices.count);
-    w.member("spacing", state.slices.spacing);
-    w.member("focus", state.slices.focus);
-    w.member("offset", state.slices.offset);
-    w.endObject();
     w.key("section");
     w.beginObject();
-    const glm::dvec4 point =
-        slicing::infoOf(state.object).originInFile + glm::dvec4(state.look.focusPoint, state.focusW());
-    w.member("w", point.w);
+    w.member("w", state.focusPoint().w);
     w.member("name", section.slice);
     w.member("vertices", section.vertices);
     w.endObject();
-    writePoint(w, "point", point);
-    w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);
     w.member("moving", state.moves());
-    w.key("shown");
-    w.beginObject();
-    for (const scene::PartRow& part : scene::kParts) w.member(part.name, state.look.parts.*part.flag);
-    w.endObject();
-    w.key("camera");
-    w.beginObject();
-    w.member("azimuth", state.look.orbit.azimuth);
-    w.member("elevation", state.look.orbit.elevation);
-    w.member("zoom", state.look.orbit.zoom);
-    w.endObject();
-    w.member("color", text::nameOf(scene::kColorings, state.look.coloring));
-    w.member("background", text::nameOf(scene::kBackgrounds, state.look.background));
-    if (slicing::fieldIn(state.object) != nullptr) {
-        w.key("levels");
-        w.beginArray();
-        for (const double level : state.look.field.levels) w.value(level);
-        w.endArray();
-        w.member("inside", text::nameOf(fields::kInsides, state.look.field.inside));
-        w.member("caps", text::nameOf(scene::kCapStyles, state.look.caps));
-        writeFog(w, state.look.field.fog);
-        writeField(w, *slicing::fieldIn(state.object), state.look, scheme);
-    }
-    w.member("projection", text::nameOf(scene::kProjectionKinds, state.look.projection.kind));
-    w.member("eye", state.look.projection.eye);
-    w.key("hidden");
-    w.numbers(state.look.cellTypes.hidden);
-    w.key("faded");
-    w.numbers(state.look.cellTypes.faded);
-    w.key("highlight");
-    writeElement(w, state.look.highlight);
+    writeSettings(w, state);
     writeLast(w, state.lastTurn);
     w.endObject();
 }
@@ -271,7 +259,7 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
         begin(w, "at", id);
         w.member("revision", revision);
         w.key("highlight");
-        writeElement(w, picked ? std::optional(picked->element) : std::nullopt);
+        writeValue(w, picked ? std::optional(picked->element) : std::nullopt);
         if (picked) {
             w.member("in", text::nameOf(scene::kPictureAreas, picked->area));
             if (picked->area == scene::PictureArea::slice) {
@@ -289,14 +277,14 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
             w.member("most_w", origin.w + most);
             w.member("vertices", std::uint64_t{sources.ownVertices.size()});
             if (picked->element.kind == slicing::ElementKind::vertex)
-                writePoint(w, "place", slicing::vertexInFile(object, picked->element.index));
+                writeMember(w, "place", slicing::vertexInFile(object, picked->element.index));
             if (picked->element.kind == slicing::ElementKind::cell) {
                 const std::uint32_t kind = slicing::typeOfCells(object)[picked->element.index];
                 w.member("kind", std::uint64_t{kind});
                 w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
             }
         }
-        if (point) writePoint(w, "point", origin + *point);
+        if (point) writeMember(w, "point", origin + *point);
         w.endObject();
     }
     return out;

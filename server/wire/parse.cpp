@@ -1,5 +1,7 @@
 #include "wire/parse.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "image/png_text.hpp"
 #include "session/expression.hpp"
 #include "session/load.hpp"
+#include "session/setting_table.hpp"
 #include "text/message_text.hpp"
 #include "wire/json_parser.hpp"
 #include "wire/schema.hpp"
@@ -77,22 +80,28 @@ Hello helloOf(const json& message) {
     return hello;
 }
 
-/// Reads an array of numbers, whose length the schema has checked, into a vector of this length.
-template <typename Vector>
-void takeVector(const json& object, const char* name, std::optional<Vector>& into) {
-    const auto member = object.find(name);
-    if (member == object.end()) return;
-    into.emplace();
-    for (int axis = 0; axis < Vector::length(); ++axis) (*into)[axis] = (*member)[axis].get<double>();
+// Reads the value of a setting, whose type the schema has checked.
+template <typename Value>
+void readValue(const json& value, Value& into) {
+    into = value.get<Value>();
 }
-
-std::vector<slicing::FogPoint> fogOf(const json& points) {
-    std::vector<slicing::FogPoint> fog;
+template <text::HasChoices Enum>
+void readValue(const json& name, Enum& into) {
+    into = choiceOf(name, choicesOf(Enum{}));
+}
+template <glm::length_t length>
+void readValue(const json& coordinates, glm::vec<length, double>& into) {
+    for (int axis = 0; axis < length; ++axis) into[axis] = coordinates[axis].get<double>();
+}
+void readValue(const json& points, std::vector<slicing::FogPoint>& into) {
     for (const json& point : points) {
-        fog.push_back({point.at("value"), point.at("opacity")});
-        take(point, "color", fog.back().color);
+        into.push_back({point.at("value"), point.at("opacity")});
+        take(point, "color", into.back().color);
     }
-    return fog;
+}
+void readValue(const json& element, std::optional<slicing::Element>& into) {
+    if (!element.is_null())
+        into = slicing::Element{choiceOf(element.at("element"), slicing::kElementKinds), element.at("number")};
 }
 
 fields::Box boxOf(const json& ranges) {
@@ -113,6 +122,18 @@ std::optional<session::LoadObject> formulaOf(const json& field, const std::strin
     return load;
 }
 
+/// Returns the value of a setting in a `set`; null if it has none.
+const json* memberOf(const json& message, const session::SettingName& name) {
+    const json* object = &message;
+    if (!name.object.empty()) {
+        const auto found = message.find(name.object);
+        if (found == message.end()) return nullptr;
+        object = &*found;
+    }
+    const auto member = object->find(name.member);
+    return member == object->end() ? nullptr : &*member;
+}
+
 session::Set setOf(const json& message) {
     session::Set set;
     set.continues = message.value("continues", false);
@@ -121,9 +142,6 @@ session::Set setOf(const json& message) {
         if (const auto field = message.find("field"); field != message.end())
             set.formula = formulaOf(*field, *set.object);
     }
-    take(message, "pace", set.pace);
-    takeVector(message, "follow", set.follow);
-    takeVector(message, "boost", set.boost);
     if (const auto rows = message.find("orientation"); rows != message.end()) {
         set.orientation.emplace();
         for (int row = 0; row < 4; ++row) {
@@ -131,46 +149,20 @@ session::Set setOf(const json& message) {
                 (*set.orientation)[column][row] = (*rows)[row][column].get<double>();
         }
     }
-    take(message, "alpha", set.alpha);
-    take(message, "beta", set.beta);
-    take(message, "step", set.step);
-    take(message, "turning", set.turning);
-    if (const auto slices = message.find("slices"); slices != message.end()) {
-        take(*slices, "count", set.count);
-        take(*slices, "spacing", set.spacing);
-        take(*slices, "focus", set.focus);
-        take(*slices, "offset", set.offset);
-        take(*slices, "w", set.focusW);
-    }
-    takeVector(message, "point", set.focusPoint);
-    choose(message, "view", scene::kViews, set.view);
-    if (const auto parts = message.find("shown"); parts != message.end()) {
-        for (std::size_t i = 0; i < scene::kParts.size(); ++i) take(*parts, scene::kParts[i].name, set.parts[i]);
-    }
-    if (const auto camera = message.find("camera"); camera != message.end()) {
-        take(*camera, "azimuth", set.azimuth);
-        take(*camera, "elevation", set.elevation);
-        take(*camera, "zoom", set.zoom);
-    }
-    choose(message, "color", scene::kColorings, set.coloring);
-    choose(message, "caps", scene::kCapStyles, set.caps);
-    choose(message, "background", scene::kBackgrounds, set.background);
-    choose(message, "projection", scene::kProjectionKinds, set.projection);
-    take(message, "eye", set.eye);
-    take(message, "levels", set.levels);
-    choose(message, "inside", fields::kInsides, set.inside);
-    if (const auto fog = message.find("fog"); fog != message.end()) set.fog = fogOf(*fog);
-    take(message, "hidden", set.hidden);
-    take(message, "faded", set.faded);
-    if (const auto element = message.find("highlight"); element != message.end()) {
-        set.highlight.emplace();
-        if (!element->is_null())
-            *set.highlight =
-                slicing::Element{choiceOf(element->at("element"), slicing::kElementKinds), element->at("number")};
-    }
+    session::forEachSetting([&](const auto& setting) {
+        if (const json* const value = memberOf(message, setting.name)) readValue(*value, setting.ofSet(set).emplace());
+    });
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
         set.lastTurn = turnOf(*last, "set: /last");
     return set;
+}
+
+session::Key keyOf(const json& message) {
+    return {message.at("key"), message.value("shift", false), message.value("ctrl", false)};
+}
+
+session::Rotate rotateOf(const json& message) {
+    return {turnOf(message, "rotate: "), message.value("continues", false)};
 }
 
 session::TurnToward towardOf(const json& message) {
@@ -258,24 +250,32 @@ Get getOf(const json& message) {
     return get;
 }
 
-decltype(Request::body) bodyOf(const std::string& type, const json& message) {
-    if (type == "key")
-        return session::Command{
-            session::Key{message.at("key"), message.value("shift", false), message.value("ctrl", false)}};
-    if (type == "shown") return ShownRevision{message.at("revision")};
-    if (type == "rotate")
-        return session::Command{session::Rotate{turnOf(message, "rotate: "), message.value("continues", false)}};
-    if (type == "toward") return session::Command{towardOf(message)};
-    if (type == "set") return session::Command{setOf(message)};
-    if (type == "undo") return session::Command{session::Undo{}};
-    if (type == "redo") return session::Command{session::Redo{}};
-    if (type == "reset") return session::Command{session::Reset{}};
-    if (type == "command") return session::Command{session::CommandLine{message.at("line")}};
-    if (type == "load") return session::Command{loadOf(message)};
-    if (type == "address") return session::Command{session::OpenAddress{message.at("query")}};
-    if (type == "get") return getOf(message);
-    return helloOf(message);
-}
+using Body = decltype(Request::body);
+
+// A type of messages, and the function that parses a valid message of this type.
+struct RequestType {
+    std::string_view name;
+    Body (*bodyOf)(const json& message);
+};
+// The parser of messages that are commands without members.
+template <typename T>
+constexpr Body (*plain)(const json&) = [](const json& /*message*/) -> Body { return session::Command{T{}}; };
+
+constexpr auto kRequestTypes = std::to_array<RequestType>({
+    {"hello", [](const json& message) -> Body { return helloOf(message); }},
+    {"key", [](const json& message) -> Body { return session::Command{keyOf(message)}; }},
+    {"rotate", [](const json& message) -> Body { return session::Command{rotateOf(message)}; }},
+    {"toward", [](const json& message) -> Body { return session::Command{towardOf(message)}; }},
+    {"set", [](const json& message) -> Body { return session::Command{setOf(message)}; }},
+    {"load", [](const json& message) -> Body { return session::Command{loadOf(message)}; }},
+    {"undo", plain<session::Undo>},
+    {"redo", plain<session::Redo>},
+    {"reset", plain<session::Reset>},
+    {"command", [](const json& message) -> Body { return session::Command{session::CommandLine{message.at("line")}}; }},
+    {"address", [](const json& message) -> Body { return session::Command{session::OpenAddress{message.at("query")}}; }},
+    {"get", [](const json& message) -> Body { return getOf(message); }},
+    {"shown", [](const json& message) -> Body { return ShownRevision{message.at("revision")}; }},
+});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.
 class Peek : public nlohmann::json_sax<json> {
@@ -344,9 +344,8 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
                       "a message must have a member \"type\", one of " + text::commaSeparated(requestTypes()));
     }
     const std::string& name = type->get_ref<const std::string&>();
-    bool known = false;
-    for (const std::string_view request : requestTypes()) known = known || request == name;
-    if (!known) {
+    const auto known = std::ranges::find(kRequestTypes, name, &RequestType::name);
+    if (known == kRequestTypes.end()) {
         return refuse(ErrorCode::unknown_type, "no message has the type " + text::inQuotes(name) +
                                                    text::didYouMean(name, requestTypes()) +
                                                    "; allowed types: " + text::commaSeparated(requestTypes()));
@@ -357,13 +356,22 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
     }
     if (read.repaired) return refuse(ErrorCode::bad_json, std::move(read.fault));
     try {
-        return Request{id, bodyOf(name, message)};
+        return Request{id, known->bodyOf(message)};
     } catch (const InvalidRequest& invalid) {
         return refuse(invalid.code, invalid.message);
     }
 }
 
 }  // namespace
+
+std::span<const std::string_view> requestTypes() {
+    static const auto names = [] {
+        std::array<std::string_view, kRequestTypes.size()> all;
+        std::ranges::transform(kRequestTypes, all.begin(), &RequestType::name);
+        return all;
+    }();
+    return names;
+}
 
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth) {
     return requestOf(parseJson(text, maxDepth));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,6 +13,9 @@
 #include "wire/request.hpp"
 
 namespace oval4d::wire {
+
+/// Returns the types of all messages that clients may send.
+std::span<const std::string_view> requestTypes();
 
 /// The error for a message that was refused.
 struct BadRequest {

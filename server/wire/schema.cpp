@@ -1,8 +1,9 @@
 #include "wire/schema.hpp"
 
-#include <array>
+#include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +21,9 @@ namespace oval4d::wire {
 
 namespace {
 
+using namespace nlohmann::literals;
 using nlohmann::json;
 using valijson::adapters::NlohmannJsonAdapter;
-
-constexpr auto kRequests = std::to_array<std::string_view>(
-    {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "address", "get", "shown"});
-constexpr auto kAnswers = std::to_array<std::string_view>(
-    {"welcome", "state", "slices", "at", "critical", "done", "error", "catalogue", "keymap", "address"});
 
 struct MessageSchema {
     json text;
@@ -54,23 +51,28 @@ json readSchema(const std::string& file) {
     return schema;
 }
 
-std::map<std::string_view, std::unique_ptr<const MessageSchema>> readSchemas() {
-    std::map<std::string_view, std::unique_ptr<const MessageSchema>> schemas;
-    const auto read = [&](std::string_view type) {
+// Returns the schemas of all messages: those that describe an object with a constant "type".
+std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> readSchemas() {
+    std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> schemas;
+    for (const std::string_view path : protocol_data::embeddedPaths()) {
+        constexpr std::string_view kFolder = "schema/";
+        if (!path.starts_with(kFolder)) continue;
         auto schema = std::make_unique<MessageSchema>();
-        schema->text = readSchema(std::string(type) + ".schema.json");
+        schema->text = readSchema(std::string(path.substr(kFolder.size())));
+        const json type = schema->text.value("/properties/type/const"_json_pointer, json());
+        if (!type.is_string()) continue;
         valijson::SchemaParser parser;
         parser.populateSchema(NlohmannJsonAdapter(schema->text), schema->compiled);
-        schemas.emplace(type, std::move(schema));
-    };
-    for (const std::string_view type : kRequests) read(type);
-    for (const std::string_view type : kAnswers) read(type);
+        schemas.emplace(type.get<std::string>(), std::move(schema));
+    }
     return schemas;
 }
 
 const MessageSchema& schemaOf(std::string_view type) {
     static const auto schemas = readSchemas();
-    return *schemas.at(type);
+    const auto schema = schemas.find(type);
+    if (schema == schemas.end()) throw std::logic_error("no schema describes the message " + std::string(type));
+    return *schema->second;
 }
 
 // Returns the name in one step of valijson's path to an error. Steps have the form "<root>", "[angles]" or "[0]".
@@ -127,8 +129,6 @@ std::string notThis(const json& value) {
 }
 
 }  // namespace
-
-std::span<const std::string_view> requestTypes() { return kRequests; }
 
 std::optional<Error> validationError(std::string_view type, const json& message) {
     const MessageSchema& schema = schemaOf(type);

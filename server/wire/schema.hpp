@@ -2,7 +2,6 @@
 // Validates messages against the JSON Schemas in protocol/schema/, with valijson.
 
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -10,9 +9,6 @@
 #include "errors/error.hpp"
 
 namespace oval4d::wire {
-
-/// Returns the types of all messages that clients may send.
-std::span<const std::string_view> requestTypes();
 
 /// Validates `message` against the schema of `type`, which must be the name of a message type. Returns an empty
 /// optional if the message is valid, else an error whose text says what is wrong, where, and what is allowed, such as

@@ -90,7 +90,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       refineTimer_(strand_) {}
 
 asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
-    return asio::co_spawn(strand_, welcomeOnStrand(std::move(peer), std::move(hello), id), asio::use_awaitable);
+    return asio::co_spawn(strand_, run(std::move(peer), std::move(hello), id), asio::use_awaitable);
 }
 
 asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Request request) {
@@ -176,7 +176,7 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
     };
 }
 
-asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
     Lanes lanes = lanesOf(peer->client());
     const StreamKey key{hello.stream, hello.encoding, hello.viewport, hello.scheme};
@@ -199,22 +199,20 @@ LiveSession::Lanes LiveSession::lanesOf(const ClientPtr& own) const {
 
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
-    if (const auto* command = std::get_if<session::Command>(&request.body)) {
-        co_await applyCommand(peer, *command, request.id);
-    } else if (const auto* shown = std::get_if<wire::ShownRevision>(&request.body)) {
-        if (request.id) peer->send(doneMessage(request.id, revision()));
-        if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
-            client->second.pacing.shown(shown->revision);
-            update();
-        }
-    } else if (const auto* get = std::get_if<wire::Get>(&request.body)) {
-        co_await answer(peer, *get, request.id);
-    }
+    // This does not compile if a kind of request has no function `run`.
+    co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);
 }
 
-/// Applies a command of a client, and answers it.
-asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
-                                                RequestId id) {
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::ShownRevision shown, RequestId id) {
+    if (id) peer->send(doneMessage(id, revision()));
+    if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
+        client->second.pacing.shown(shown.revision);
+        update();
+    }
+    co_return;
+}
+
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Command command, RequestId id) {
     const auto applied = co_await perform(peer->client(), peer, command, id.has_value());
     if (!applied) {
         sendError(*peer, applied.error(), id);
@@ -342,7 +340,7 @@ asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
     co_return std::nullopt;
 }
 
-asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
     const auto client = clients_.find(peer.get());
     if (client == clients_.end()) co_return;
     StreamKey key = client->second.streamKey;

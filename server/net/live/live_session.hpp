@@ -146,10 +146,13 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void assertOnStrand() const {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
-    boost::asio::awaitable<void> welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
+    // Each executes requests of one kind, and answers them.
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, session::Command command, RequestId id);
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::ShownRevision shown, RequestId id);
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     Lanes lanesOf(const ClientPtr& own) const;
-    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     void answerWithAddress(Peer& peer, RequestId id);
@@ -161,8 +164,6 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void stopObsoleteSearches();
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
-    boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
-                                              RequestId id);
     boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(ClientPtr by, session::Command command);
     boost::asio::awaitable<Result<Applied>> perform(ClientPtr by, std::shared_ptr<Peer> peer,
                                                     const session::Command& command, bool awaitStore);

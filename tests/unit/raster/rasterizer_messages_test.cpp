@@ -7,28 +7,19 @@
 #include <string_view>
 
 #include "raster/rasterizer_messages.hpp"
+#include "unit/session/setting_values.hpp"
 
 namespace oval4d::raster {
 namespace {
 
-TEST(RasterizerMessages, OrdersComeAsTheyWere) {
-    session::State state = session::initialState();
-    state.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.3, 0.2});
-    state.referenceFrame = {2, {0.3, 0, 0}, {0, 0.6, 0}};
-    state.object = slicing::imageOf(state.source, state.referenceFrame);
-    state.slices = {31, 0.125, -2};
-    state.look.view = scene::View::single;
-    state.look.background = scene::Background::transparent;
-    state.look.orbit = {0.5, 0.25, 2};
-    state.look.cellTypes = {{1, 3}, {2}};
-    state.look.field = {{0.5, 1}, fields::Inside::above, {{-1, 0.5}, {2, 1, 0xff8000}}};
+/// Expects that what affects the picture of a state comes as it was.
+void expectToCome(const session::State& state) {
     std::string bytes;
     encodeRequest(state, {640, 360}, slicing::Quality::draft, {7, 8}, bytes);
     DrawRequest order;
     decodeRequest(bytes, order);
     EXPECT_EQ(order.source, slicing::infoOf(state.source).serial);
     EXPECT_EQ(order.object, slicing::infoOf(state.object).serial);
-    EXPECT_NE(order.source, order.object);
     EXPECT_EQ(order.state.referenceFrame, state.referenceFrame);
     EXPECT_EQ(order.state.orientation, state.orientation);
     EXPECT_EQ(order.state.slices, state.slices);
@@ -37,6 +28,13 @@ TEST(RasterizerMessages, OrdersComeAsTheyWere) {
     EXPECT_EQ(order.quality, slicing::Quality::draft);
     EXPECT_EQ(order.limits.fillSteps, 7U);
     EXPECT_EQ(order.limits.objectBytes, 8U);
+}
+
+TEST(RasterizerMessages, OrdersComeAsTheyWere) {
+    for (const session::SettingValue& setting : session::settingValues()) {
+        SCOPED_TRACE(setting.name);
+        expectToCome(sessionWith(setting).current);
+    }
 }
 
 TEST(RasterizerMessages, BytesCutShortAreRefused) {

@@ -5,6 +5,7 @@
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "store/cbor.hpp"
+#include "unit/session/setting_values.hpp"
 #include "unit/store/support.hpp"
 
 namespace oval4d::store {
@@ -46,6 +47,15 @@ TEST(Codec, DecodesWhatItEncodes) {
         own += table.size();
     }
     EXPECT_GT(own, 10U) << "the sessions have loaded objects";
+}
+
+TEST(Codec, LosesNoSetting) {
+    for (const session::SettingValue& setting : session::settingValues()) {
+        const Session session = sessionWith(setting);
+        ObjectTable table;
+        const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
+        EXPECT_TRUE(setting.isIn(back.current)) << setting.name;
+    }
 }
 
 TEST(Codec, AppliesTheHead) {

@@ -12,6 +12,7 @@
 #include "session/example_fields.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
+#include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
 
@@ -125,6 +126,16 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
         Session same = session;
         ASSERT_TRUE(apply(same, *set));
         EXPECT_TRUE(same == session) << "its own state changes nothing in a session";
+    }
+}
+
+TEST(StateMessage, LosesNoSetting) {
+    for (const session::SettingValue& setting : session::settingValues()) {
+        const auto set = setFromState(wire::stateMessage(sessionWith(setting).current, {}, 1));
+        ASSERT_TRUE(set) << setting.name << ": " << set.error().message;
+        Session fresh;
+        ASSERT_TRUE(apply(fresh, *set)) << setting.name;
+        EXPECT_TRUE(setting.isIn(fresh.current)) << setting.name;
     }
 }
 

@@ -1,0 +1,128 @@
+#pragma once
+// The table of settings. From it, the ':' line, the queries of addresses, and the messages `set` and `state` are read
+// and written.
+
+#include <cstddef>
+#include <numbers>
+#include <string_view>
+#include <type_traits>
+
+#include "session/command.hpp"
+#include "session/session.hpp"
+#include "session/settings.hpp"
+#include "slicing/object.hpp"
+
+namespace oval4d::session {
+
+/// The names of a setting.
+struct SettingName {
+    std::string_view text;    ///< on the ':' line and in queries
+    std::string_view object;  ///< in messages: the object that contains it, such as "camera"; empty for the message
+    std::string_view member;  ///< in messages: its name in this object
+};
+
+/// The rule of a setting of which applySet() accepts every value.
+struct AnyValue {};
+/// The rule of a number that applySet() accepts within fixed bounds.
+struct Within {
+    std::string_view what;  ///< the subject of the error message, such as "the eye"
+    Bounds bounds;
+};
+/// The rule of a setting that applySet() checks and changes with code of its own.
+struct OwnRule {};
+
+/// The accessor of a setting that states do not have, because it changes other settings.
+struct NotInState {};
+
+/// A setting. `ofSet` returns a reference to its member of a Set, a std::optional; `ofState` returns its value in a
+/// State, by reference unless the rule is OwnRule.
+template <typename OfSet, typename OfState, typename Rule>
+struct Setting {
+    static constexpr bool isInState = !std::is_same_v<OfState, NotInState>;
+    static constexpr bool hasBounds = std::is_same_v<Rule, Within>;
+    static constexpr bool hasOwnRule = std::is_same_v<Rule, OwnRule>;
+
+    SettingName name;
+    OfSet ofSet;
+    OfState ofState;
+    Rule rule;
+    bool forFields;  ///< whether only states with a field have it
+
+    /// Returns whether it is an angle in radians, which is read with a unit.
+    bool isAngle() const {
+        if constexpr (hasBounds) return rule.bounds.unit == kRadians;
+        return false;
+    }
+};
+template <typename OfSet, typename OfState, typename Rule>
+Setting(SettingName, OfSet, OfState, Rule, bool) -> Setting<OfSet, OfState, Rule>;
+
+/// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings that messages
+/// have in the same object follow one another.
+template <typename Visitor>
+void forEachSetting(const Visitor& visit) {
+    using scene::Look;
+    constexpr double kTwoPi = 2 * std::numbers::pi;
+    constexpr Bounds kAngle{-kTwoPi, kTwoPi, kRadians}, kOrbitAngle{-kMaxOrbitAngle, kMaxOrbitAngle, kRadians};
+    // Returns the accessor of a member of a member … of a state.
+    const auto at = [](auto... members) {
+        return [members...](auto& state) -> auto& { return (state.*....*members); };
+    };
+    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule,
+                             bool forFields = false) {
+        visit(Setting{name, [given](auto& set) -> auto& { return set.*given; }, ofState, rule, forFields});
+    };
+
+    const auto frame = &State::referenceFrame;
+    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), OwnRule{});
+    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), OwnRule{});
+    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), OwnRule{});
+    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), Within{"alpha", kAngle});
+    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), Within{"beta", kAngle});
+    setting({"step", "", "step"}, &Set::step, at(&State::step), Within{"the step", {kMinStep, kTwoPi, kRadians}});
+
+    const auto slices = &State::slices;
+    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), OwnRule{});
+    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), OwnRule{});
+    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), OwnRule{});
+    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), OwnRule{});
+    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, OwnRule{});
+    setting({"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPoint(); },
+            OwnRule{});
+
+    const auto look = &State::look;
+    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AnyValue{});
+    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, OwnRule{});
+    const auto orbit = &Look::orbit;
+    using Orbit = scene::CameraOrbit;
+    setting({"azimuth", "camera", "azimuth"}, &Set::azimuth, at(look, orbit, &Orbit::azimuth),
+            Within{"the camera's azimuth", kOrbitAngle});
+    setting({"elevation", "camera", "elevation"}, &Set::elevation, at(look, orbit, &Orbit::elevation),
+            Within{"the camera's elevation", kOrbitAngle});
+    setting({"zoom", "camera", "zoom"}, &Set::zoom, at(look, orbit, &Orbit::zoom),
+            Within{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
+    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AnyValue{});
+    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AnyValue{});
+    const auto projection = &Look::projection;
+    setting({"projection", "", "projection"}, &Set::projection, at(look, projection, &scene::ProjectionSettings::kind),
+            AnyValue{});
+    setting({"eye", "", "eye"}, &Set::eye, at(look, projection, &scene::ProjectionSettings::eye),
+            Within{"the eye", {kMinEye, kMaxEye, " circumradii"}});
+    const auto field = &Look::field;
+    setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), OwnRule{}, true);
+    setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), OwnRule{}, true);
+    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AnyValue{}, true);
+    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), OwnRule{}, true);
+    const auto cellTypes = &Look::cellTypes;
+    setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), OwnRule{});
+    setting({"faded", "", "faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), OwnRule{});
+    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), OwnRule{});
+
+    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
+        const auto& [name, flag] = scene::kParts[i];
+        visit(Setting{SettingName{name, "shown", name}, [i](auto& set) -> auto& { return set.parts[i]; },
+                      at(look, &Look::parts, flag), AnyValue{}, false});
+    }
+}
+
+}  // namespace oval4d::session
