@@ -4,7 +4,7 @@
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
-export type View = "oval" | "single" | "matrix";
+export type View = "oval" | "single" | "matrix" | "strip";
 /**
  * What face colors show: the cell, its kind, the w of its center after the rotation, nothing, or how it faces a light in
  * four dimensions. What the surfaces of a field show: the level, the w of the slice, nothing, or how fast they move

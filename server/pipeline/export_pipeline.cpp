@@ -188,9 +188,13 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (drawing) {
         look = state.look;
         look.background = scene::Background::white;  // as paper
-        look.view = request.contents == exports::ExportContents::matrix ? scene::View::matrix
-                    : request.contents == exports::ExportContents::oval ? scene::View::oval
-                                                                        : scene::View::single;
+        if (request.contents == exports::ExportContents::matrix) {
+            look.view = scene::View::matrix;
+        } else if (request.contents != exports::ExportContents::oval) {
+            look.view = scene::View::single;
+        } else if (!showsAllSlices(look.view)) {
+            look.view = scene::View::oval;
+        }
         if (showsSlices) {
             look.projection.kind = scene::ProjectionKind::off;
         } else if (look.projection.kind == scene::ProjectionKind::off) {

@@ -21,9 +21,15 @@ namespace {
 // The shape of the oval, for a circumradius of 1. The slice with the parameter u (from −1 for the first slice to 1 for
 // the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the distance `distance`,
 // downward by the angle `pitch` (radians). The numbers were found by a search for the largest focus slice at which
-// neighboring slices hide little of each other; they differ for wide and tall windows.
+// neighboring slices hide little of each other; they differ for wide and tall windows. If the depth is 0, the slices
+// are in a straight row.
 struct Oval {
     double halfWidth, depth, pitch, distance;
+
+    // Returns the radius of the circle within which a slice is assumed to lie, relative to the circumradius. On the
+    // curve, there is just room for slices that span the object.
+    double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
+    bool isRow() const { return depth == 0 && halfWidth > 0; }
 };
 constexpr Oval kWide{20.5, 49.0, 0.46, 8.3};
 constexpr Oval kTall{7.0, 72.0, 0.52, 9.6};
@@ -45,6 +51,10 @@ constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a sec
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
+constexpr double kStripStep = 2.12;  // between neighboring slices in the strip view, in radii of slices with balls
+constexpr double kStripDistance = 4;  // from the eye to the strip, in half widths: nearly a parallel projection
+constexpr double kLeastStripLabel = 0.45;  // the least size of labels in the strip view
+constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to that of the focus slice, in heights of text
 constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
@@ -53,6 +63,12 @@ Oval ovalFor(double aspect) {
     const double t = std::clamp((1.6 - aspect) / 1.04, 0.0, 1.0);
     return {mix(kWide.halfWidth, kTall.halfWidth, t), mix(kWide.depth, kTall.depth, t),
             mix(kWide.pitch, kTall.pitch, t), mix(kWide.distance, kTall.distance, t)};
+}
+
+// Returns the straight row of the strip view; `reach` is the radius of a slice with its balls.
+Oval rowFor(int count, double reach) {
+    const double halfWidth = kStripStep * reach * (count - 1) / 2;
+    return {halfWidth, 0, 0, kStripDistance * halfWidth + kSingleDistance};
 }
 
 // A rectangle. In the viewport, the unit is the viewport's height.
@@ -128,12 +144,13 @@ struct ViewSpace {
 
 // Returns the bounds of the slices, projected onto the plane at distance 1 from the eye. Each slice is treated as a
 // sphere whose projection is a circle, as if the sphere were on the optical axis.
-Rect boundsOf(const std::vector<SlicePlacement>& placements, const ViewSpace& space, double radius) {
+Rect boundsOf(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius) {
+    const ViewSpace space(oval);
     constexpr double kInf = std::numeric_limits<double>::infinity();
     Rect bounds{kInf, -kInf, kInf, -kInf};
     for (std::size_t i = 0; i < placements.size(); ++i) {
         const double u = parameterOf(i, placements.size());
-        const double r = radius * std::sqrt(1 - u * u) / space.depth(placements[i].position);
+        const double r = radius * oval.reachAt(u) / space.depth(placements[i].position);
         const double x = placements[i].position.x / space.depth(placements[i].position);
         const double y = space.up(placements[i].position) / space.depth(placements[i].position);
         bounds = {std::min(bounds.left, x - r), std::max(bounds.right, x + r), std::min(bounds.bottom, y - r),
@@ -158,6 +175,15 @@ ProjectionPlacement besideFocusSlice(double aspect, double reach) {
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
 }
 
+// Places the projection above the row of the strip view, whose half width is `halfWidth`, so that both fill a room with
+// this aspect ratio if the row leaves enough of it.
+ProjectionPlacement aboveRow(double halfWidth, double aspect, double reach) {
+    constexpr double kGap = 0.3, kShare = 0.9;
+    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves
+    const double radius = std::clamp(kShare * left / 2, reach, halfWidth);
+    return {true, {0, reach + kGap + radius, 0}, radius};
+}
+
 // Places the projection in the middle of the oval, above the parabola's axis: where the largest circle on the screen
 // fits between the slices, and below `top`, a height on the plane at distance 1 from the eye.
 ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius,
@@ -172,7 +198,7 @@ ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, co
             const double u = parameterOf(i, placements.size());
             const glm::dvec3& q = placements[i].position;
             const double depth = space.depth(q);
-            const double r = radius * std::sqrt(1 - u * u) / depth;
+            const double r = radius * oval.reachAt(u) / depth;
             room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
         }
         return room;
@@ -225,7 +251,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
         placement.index = planes.first + i;
         placement.w = planes.w(i);
         placement.focus = placement.index == focus;
-        placement.drawn = look.view == View::oval || placement.focus;
+        placement.drawn = showsAllSlices(look.view) || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
         placement.label.clear();
         if (look.parts.labels)
@@ -268,6 +294,13 @@ class Labels {
         for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
         const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
         width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
+    }
+
+    // Reduces the size of all labels but that of the focus slice so that they fit side by side in columns of this width.
+    void shrink(double columnWidth) {
+        const double size = columnWidth / ((width_ + 2 * kPlateMarginX) * style().textHeight);
+        for (SlicePlacement& placement : placements_)
+            if (!placement.focus) placement.labelSize = std::clamp(size, kLeastStripLabel, 1.0);
     }
 
     // Returns how far the labels extend beyond `bounds`, the bounds of the slices, on each side, if one unit on the
@@ -374,8 +407,9 @@ class Labels {
         glm::dvec2 outward{0, -1};
         if (glm::length(along) > 0)
             outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -kLabelDrop));
-        const double radius = radius_ * std::sqrt(1 - u * u) * scale;
-        return outward * (radius + kLabelGap + glm::dot(glm::abs(outward), halfText(placements_[i])));
+        const double radius = radius_ * oval_.reachAt(u) * scale;
+        const double drop = oval_.isRow() && placements_[i].focus ? kStripFocusDrop * style().textHeight : 0;
+        return outward * (radius + kLabelGap + drop + glm::dot(glm::abs(outward), halfText(placements_[i])));
     }
 
     // Returns the box of label i before the viewer moves the camera, measured from the center of the focus slice, if
@@ -399,7 +433,7 @@ class Labels {
             const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
             if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
             const double u = parameterOf(j, placements_.size());
-            const double radius = radius_ * std::sqrt(1 - u * u) * camera.magnification() / -p.z;
+            const double radius = radius_ * oval_.reachAt(u) * camera.magnification() / -p.z;
             const glm::dvec2 apart = glm::abs(onScreen(p, camera, aspect) - box.center) - box.half;
             if (glm::length(glm::max(apart, glm::dvec2(0))) < radius) return true;
         }
@@ -500,26 +534,33 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     out.matrix = look.view == View::matrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
-    const bool single = look.view != View::oval;
-    const Oval oval = single ? Oval{0, 0, 0, kSingleDistance} : ovalFor(aspect);
+    const bool single = !showsAllSlices(look.view), strip = look.view == View::strip;
     // With twice as many slices on the same parabola, each slice has about half the space.
-    out.sliceRadius =
-        single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
+    out.sliceRadius = single || strip
+                          ? 1
+                          : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
+    const Oval oval = single  ? Oval{0, 0, 0, kSingleDistance}
+                      : strip ? rowFor(planes.count, reach)
+                              : ovalFor(aspect);
     const int decimals = labelDecimals(planes);
     placeSlices(planes, focus, content.originW, decimals, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
-    Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
+    Rect bounds = boundsOf(out.placements, oval, reach);
     const bool projected = look.projection.kind != ProjectionKind::off;
     const bool alone = single || planes.count == 1;
     out.projectionPlacement = {};
     if (projected && alone) {
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
+    } else if (projected && strip) {
+        out.projectionPlacement = aboveRow(oval.halfWidth + reach, (room.right - room.left) / (room.top - room.bottom), reach);
+        include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
     Labels labels(oval, reach, decimals, content.originW, out.placements);
+    if (strip) labels.shrink((room.right - room.left) / planes.count);
     const Rect inside = roomInside(room, bounds, labels);
-    if (projected && !alone) {
+    if (projected && !alone && !strip) {
         const double scale = scaleFor(bounds, inside);
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
         out.projectionPlacement = insideOval(out.placements, oval, reach, top);

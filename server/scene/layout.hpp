@@ -28,7 +28,7 @@ struct SlicePlacement {
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
     double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
     bool focus = false;     ///< whether this is the focus slice
-    bool drawn = true;      ///< whether the slice is drawn: true in the oval view, else only for the focus slice
+    bool drawn = true;      ///< whether the slice is drawn: see showsAllSlices()
     bool operator==(const SlicePlacement&) const = default;
 };
 

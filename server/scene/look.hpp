@@ -16,12 +16,18 @@
 
 namespace oval4d::scene {
 
-/// Which slices are shown: all slices on the oval; only the focus slice; or the focus slice beside the matrix of planar
-/// sections.
-enum class View : std::uint8_t { oval, single, matrix };
-inline constexpr auto kViews =
-    std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}});
+/// Which slices are shown, and how they are arranged. Stored sessions contain the numbers of the enumerators.
+enum class View : std::uint8_t {
+    oval = 0,    ///< all slices, on the oval
+    single = 1,  ///< only the focus slice
+    matrix = 2,  ///< the focus slice, beside the matrix of planar sections
+    strip = 3,   ///< all slices, at the same size in a straight row
+};
+inline constexpr auto kViews = std::to_array<text::Choice<View>>(
+    {{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}, {"strip", View::strip}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
+/// Returns whether a view shows all slices, not only the focus slice.
+constexpr bool showsAllSlices(View view) { return view == View::oval || view == View::strip; }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
 /// the cell from which it was cut.

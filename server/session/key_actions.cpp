@@ -49,6 +49,11 @@ Done showNeighbor(ActionContext& c, int by) {
 const Error kNoRotationYet{ErrorCode::nothing_to_undo,
                            "nothing to repeat: no rotation has been made yet; 2 … 7, r, t and y make one"};
 
+// Shows this view or, if it is shown, the oval.
+void toggleView(State& state, scene::View view) {
+    state.look.view = state.look.view == view ? scene::View::oval : view;
+}
+
 // Converts an action that cannot fail and returns nothing to one that returns success.
 template <auto act>
 Done always(ActionContext& c) {
@@ -97,12 +102,9 @@ constexpr auto kActions = std::to_array<Action>({
      }>},
     {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
     {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
-    {"view", always<[](ActionContext& c) {
-         c.state.look.view = c.state.look.view == scene::View::single ? scene::View::oval : scene::View::single;
-     }>},
-    {"matrix", always<[](ActionContext& c) {
-         c.state.look.view = c.state.look.view == scene::View::matrix ? scene::View::oval : scene::View::matrix;
-     }>},
+    {"view", always<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
+    {"matrix", always<[](ActionContext& c) { toggleView(c.state, scene::View::matrix); }>},
+    {"strip", always<[](ActionContext& c) { toggleView(c.state, scene::View::strip); }>},
     {"projection", always<[](ActionContext& c) {
          scene::ProjectionKind& kind = c.state.look.projection.kind;
          kind =

@@ -87,6 +87,7 @@ const views = [
         settings: { polytope: "24-cell", camera: { azimuth: 0.5, elevation: 0.3, zoom: 1.6 } },
     },
     { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
+    { name: "all slices in a row", settings: { polytope: "24-cell", view: "strip" } },
     { name: "101 slices", settings: { polytope: "8-cell", slices: { count: 101, spacing: 0.02 } } },
     { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
     { name: "colored by kind", settings: { polytope: "truncated tesseract", color: "kind" } },

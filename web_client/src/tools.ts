@@ -40,6 +40,7 @@ const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
     matrix: (state) => state.view === "matrix",
+    strip: (state) => state.view === "strip",
     projection: (state) => state.projection !== "off",
     ...Object.fromEntries(
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),

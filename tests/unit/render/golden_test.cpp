@@ -92,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Golden{"dense-star", "icosahedral 120-cell", 19, {}},
                     Golden{"single", "5-cell", 16, {.view = scene::View::single, .parts = {}, .orbit = {}}},
                     Golden{"matrix", "24-cell", 20, {.view = scene::View::matrix, .parts = {}, .orbit = {}}},
+                    Golden{"strip", "24-cell", 21, {.view = scene::View::strip, .parts = {}, .orbit = {}}},
                     Golden{"faces-from-aside",
                            "24-cell",
                            17,

@@ -152,12 +152,39 @@ double radiusOnScreen(const Scene& s, const glm::dvec3& center, double radius) {
     return radius / depth * s.viewport.height / (2 * std::tan(s.camera.fieldOfView / 2));
 }
 
+TEST(Strip, showsAllSlicesAtTheSameSizeInARow) {
+    for (const scene::Viewport viewport : {scene::Viewport{1280, 720}, {3000, 800}, {640, 640}, {375, 667}}) {
+        for (const int count : {1, 3, 21, 201}) {
+            for (const bool whole : {false, true}) {
+                scene::Look look;
+                look.view = scene::View::strip;
+                if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
+                const Scene s = composed("24-cell", count, viewport, look);
+                SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count << whole);
+                const double radius = radiusOnScreen(s, s.placements[0].position, s.sliceRadius);
+                const double coordinates = s.coordinates.zero + s.coordinates.amplitude;
+                glm::dvec2 before(-radius);
+                for (const auto& slice : s.placements) {
+                    EXPECT_TRUE(slice.drawn);
+                    EXPECT_NEAR(radiusOnScreen(s, slice.position, s.sliceRadius), radius, 1e-9);
+                    const glm::dvec2 at = project(s, slice.position);
+                    EXPECT_GT(at.x - radius, before.x + radius) << "beside the slice before, which has a lower w";
+                    EXPECT_NEAR(at.y, project(s, s.placements[0].position).y, 1e-6);
+                    before = at;
+                }
+                EXPECT_LT(before.x + radius, viewport.width);
+                EXPECT_LT(before.y + radius, (1 - coordinates) * viewport.height);
+            }
+        }
+    }
+}
+
 TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
     for (const scene::Viewport viewport :
          {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
         for (const char* name : {"5-cell", "120-cell"}) {
             for (const int count : {1, 3, 5, 21, 61, 201}) {
-                for (const auto view : {scene::View::oval, scene::View::single}) {
+                for (const auto view : {scene::View::oval, scene::View::single, scene::View::strip}) {
                     scene::Look look;
                     look.view = view;
                     look.projection.kind = scene::ProjectionKind::perspective;
@@ -305,7 +332,7 @@ TEST(Labels, areInThePictureAndApart) {
     for (const scene::Viewport viewport : kWindows) {
         for (const int count : {1, 3, 5, 11, 21, 41, 61, 101, 151, 201}) {
             for (const double spacing : {0.0, 1.0 / 4096, 1e-8, 1e3}) {
-                for (const auto view : {scene::View::oval, scene::View::single}) {
+                for (const auto view : {scene::View::oval, scene::View::single, scene::View::strip}) {
                     for (const bool whole : {false, true}) {
                         scene::Look look;
                         look.view = view;
