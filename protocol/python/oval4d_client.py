@@ -355,6 +355,10 @@ class Client:
     def keymap(self):
         return self.get("keymap")["keys"]
 
+    def ping(self):
+        """Returns a pong: how busy the server is. Its members are in protocol/README.md."""
+        return self.request("ping")
+
     def shown(self, revision):
         """Tells the server that the picture of this revision has been presented."""
         self.send({"type": "shown", "revision": revision})

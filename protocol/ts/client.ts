@@ -4,7 +4,7 @@
 import { Arena } from "./arena.js";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
 import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, ExportedFile, FileOptions, Keymap } from "./messages.js";
-import type { Message, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages.js";
+import type { Message, Pong, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages.js";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {
@@ -153,10 +153,11 @@ export class Client {
     request(message: { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }): Promise<At>;
     request(message: { type: "get"; what: "file" } & FileOptions): Promise<ExportedFile>;
     request(message: { type: "get"; what: "critical" }): Promise<Critical>;
+    request(message: { type: "ping" }): Promise<Pong>;
     request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
     request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
     request(message: { type: "get"; what: "address" }): Promise<Address>;
-    request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;
+    request(message: Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>): Promise<Done>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;
         const answer = new Promise((resolve, reject) => {

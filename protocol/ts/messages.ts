@@ -201,6 +201,7 @@ export type Request =
     | { type: "get"; what: "slices" | "frame"; width?: number; height?: number; background?: Background }
     | { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }
     | ({ type: "get"; what: "file" } & FileOptions)
+    | { type: "ping" }
     | { type: "shown"; revision: number };
 
 // From the server
@@ -287,6 +288,19 @@ export interface Done {
     revision: number;
     /** The corrections made to a loaded file, or what an exported file lacks. */
     warnings?: string[];
+}
+
+/** How busy the server's threads are that slice and draw pictures. */
+export interface Pong {
+    type: "pong";
+    id?: number;
+    workers: number;
+    /** The pictures that wait for one of them. */
+    waiting: number;
+    /** The running time of all pictures that have ended, in seconds, added over all threads. */
+    busy: number;
+    /** The time of a clock that never goes back, in seconds. */
+    time: number;
 }
 
 export interface ErrorMessage {
@@ -666,4 +680,15 @@ export interface Critical {
     sections: CriticalSection[];
 }
 
-export type Message = Welcome | State | At | Critical | Done | ErrorMessage | Catalogue | Keymap | Address | Slices;
+export type Message =
+    | Welcome
+    | State
+    | At
+    | Critical
+    | Done
+    | Pong
+    | ErrorMessage
+    | Catalogue
+    | Keymap
+    | Address
+    | Slices;

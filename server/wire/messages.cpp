@@ -349,6 +349,20 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
     return out;
 }
 
+std::string pongMessage(const Load& load, std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "pong", id);
+        w.member("workers", std::uint64_t{load.workers});
+        w.member("waiting", std::uint64_t{load.waiting});
+        w.member("busy", load.busy);
+        w.member("time", load.time);
+        w.endObject();
+    }
+    return out;
+}
+
 std::string doneMessage(std::optional<double> id, std::uint64_t revision, const std::vector<std::string>& warnings) {
     std::string out;
     {

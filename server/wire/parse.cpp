@@ -274,6 +274,7 @@ constexpr auto kRequestTypes = std::to_array<RequestType>({
     {"command", [](const json& message) -> Body { return session::Command{session::CommandLine{message.at("line")}}; }},
     {"address", [](const json& message) -> Body { return session::Command{session::OpenAddress{message.at("query")}}; }},
     {"get", [](const json& message) -> Body { return getOf(message); }},
+    {"ping", [](const json& /*message*/) -> Body { return Ping{}; }},
     {"shown", [](const json& message) -> Body { return ShownRevision{message.at("revision")}; }},
 });
 

@@ -64,10 +64,13 @@ struct ShownRevision {
     std::uint64_t revision = 0;
 };
 
+/// Asks for the server's load.
+struct Ping {};
+
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
-    std::variant<Hello, Get, ShownRevision, session::Command> body;
+    std::variant<Hello, Get, ShownRevision, Ping, session::Command> body;
 };
 
 }  // namespace oval4d::wire

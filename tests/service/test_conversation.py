@@ -64,6 +64,17 @@ async def test_set_changes_all_given_members_or_none(server):
         assert (await client.request("get", what="state"))["alpha"] == 0.5
 
 
+async def test_pong_tells_how_busy_the_workers_are(server):
+    async with Client(server, stream="geometry") as client:
+        before = await client.request("ping")
+        assert before == {"type": "pong", "id": before["id"], "workers": ANY, "waiting": ANY, "busy": ANY, "time": ANY}
+        assert before["workers"] >= 1 and before["waiting"] >= 0
+        await client.request("get", what="frame")
+        after = await client.request("ping")
+        assert before["busy"] < after["busy"] and before["time"] < after["time"]
+        assert (await client.request("key", key="y"))["revision"] == 1, "a ping changes nothing"
+
+
 async def test_undo_redo_and_reset_restore_states(server):
     async with Client(server) as client:
         start = await client.request("get", what="state")

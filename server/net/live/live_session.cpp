@@ -212,6 +212,14 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::ShownRe
     co_return;
 }
 
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*ping*/, RequestId id) {
+    const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
+    peer->send(textMessage(wire::pongMessage({workers.size(), workers.waiting(), workers.busyTime().count(),
+                                              Seconds(Clock::now().time_since_epoch()).count()},
+                                             id)));
+    co_return;
+}
+
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Command command, RequestId id) {
     const auto applied = co_await perform(peer->client(), peer, command, id.has_value());
     if (!applied) {

@@ -85,6 +85,7 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(file(R"("fit":5)").contents, exports::ExportContents::oval);
     EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContents::focus);
     EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContents::focus);
+    EXPECT_TRUE(std::holds_alternative<Ping>(parsed(R"({"type":"ping"})").body));
     EXPECT_EQ(std::get<ShownRevision>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
