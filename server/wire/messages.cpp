@@ -52,7 +52,7 @@ void writeValue(JsonWriter& w, const Number& number) {
     w.value(number);
 }
 template <text::HasChoices Enum>
-void writeValue(JsonWriter& w, Enum value) {
+void writeValue(JsonWriter& w, const Enum& value) {
     w.value(text::nameOf(choicesOf(value), value));
 }
 template <glm::length_t length>
