@@ -51,11 +51,11 @@ constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a sec
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
-constexpr double kStripStep = 2.12;  // between neighboring slices in the strip view, in radii of slices with balls
+constexpr double kStripStep = 2.12;   // between neighboring slices in the strip view, in radii of slices with balls
 constexpr double kStripDistance = 4;  // from the eye to the strip, in half widths: nearly a parallel projection
 constexpr double kLeastStripLabel = 0.45;  // the least size of labels in the strip view
 constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to that of the focus slice, in heights of text
-constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
+constexpr double kSingleDistance = 7;      // from the eye to the slice in the single view, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
@@ -296,7 +296,8 @@ class Labels {
         width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
     }
 
-    // Reduces the size of all labels but that of the focus slice so that they fit side by side in columns of this width.
+    // Reduces the size of all labels but that of the focus slice so that they fit side by side in columns of this
+    // width.
     void shrink(double columnWidth) {
         const double size = columnWidth / ((width_ + 2 * kPlateMarginX) * style().textHeight);
         for (SlicePlacement& placement : placements_)
@@ -536,13 +537,10 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     out.matrix = look.view == View::matrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
     const bool single = !showsAllSlices(look.view), strip = look.view == View::strip;
     // With twice as many slices on the same parabola, each slice has about half the space.
-    out.sliceRadius = single || strip
-                          ? 1
-                          : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
+    out.sliceRadius =
+        single || strip ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
-    const Oval oval = single  ? Oval{0, 0, 0, kSingleDistance}
-                      : strip ? rowFor(planes.count, reach)
-                              : ovalFor(aspect);
+    const Oval oval = single ? Oval{0, 0, 0, kSingleDistance} : strip ? rowFor(planes.count, reach) : ovalFor(aspect);
     const int decimals = labelDecimals(planes);
     placeSlices(planes, focus, content.originW, decimals, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
@@ -554,7 +552,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     } else if (projected && strip) {
-        out.projectionPlacement = aboveRow(oval.halfWidth + reach, (room.right - room.left) / (room.top - room.bottom), reach);
+        out.projectionPlacement =
+            aboveRow(oval.halfWidth + reach, (room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
     Labels labels(oval, reach, decimals, content.originW, out.placements);

@@ -50,7 +50,7 @@ class ByteWriter {
     }
     template <Memberwise T>
     void operator()(const T& value) {
-        boost::pfr::for_each_field(value, *this);
+        boost::pfr::for_each_field(value, [this](const auto& member) { (*this)(member); });
     }
 
   private:
@@ -83,7 +83,7 @@ class ByteReader {
     }
     template <Memberwise T>
     void operator()(T& value) {
-        boost::pfr::for_each_field(value, *this);
+        boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });  // it would copy *this
     }
 
   private:

@@ -87,8 +87,7 @@ void forEachSetting(const Visitor& visit) {
     setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), OwnRule{});
     setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), OwnRule{});
     setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, OwnRule{});
-    setting({"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPoint(); },
-            OwnRule{});
+    setting({"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPoint(); }, OwnRule{});
 
     const auto look = &State::look;
     setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AnyValue{});

@@ -160,7 +160,8 @@ TEST(Strip, showsAllSlicesAtTheSameSizeInARow) {
                 look.view = scene::View::strip;
                 if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
                 const Scene s = composed("24-cell", count, viewport, look);
-                SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count << whole);
+                SCOPED_TRACE(testing::Message()
+                             << viewport.width << " x " << viewport.height << ", " << count << whole);
                 const double radius = radiusOnScreen(s, s.placements[0].position, s.sliceRadius);
                 const double coordinates = s.coordinates.zero + s.coordinates.amplitude;
                 glm::dvec2 before(-radius);

@@ -247,8 +247,8 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");
     refused("set zoom=0", ErrorCode::out_of_range, "zoom must be from");
     refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
-    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval, single or matrix");
-    refused("view", ErrorCode::bad_expression, "oval, single or matrix");
+    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval, single, matrix or strip");
+    refused("view", ErrorCode::bad_expression, "oval, single, matrix or strip");
     refused("set point=0,0,0", ErrorCode::bad_expression, "four numbers");
     refused("set point=0,0,0,0,0", ErrorCode::bad_expression, "four numbers");
     refused("set point=", ErrorCode::bad_expression, "four numbers");

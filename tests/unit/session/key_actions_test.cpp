@@ -87,7 +87,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     EXPECT_EQ(
         all,
         "2\n3\n4\n5\n6\n7\nr\nt\ny\nzc\nzf\nze\nzv\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n)\n(\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-        "r\ns\ni\nn\nN\no\nm\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
+        "r\ns\ni\nn\nN\no\nO\nm\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {

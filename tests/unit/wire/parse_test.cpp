@@ -294,7 +294,7 @@ INSTANTIATE_TEST_SUITE_P(
             "set: /alpha must be an angle from -2π to 2π, in radians, not 7", 3},
         Bad{R"({"type":"set","id":3,"alpha":null})", kBadMessage, "set: /alpha must be an angle", 3},
         Bad{R"({"type":"set","id":3,"view":"oblong"})", kBadMessage,
-            "set: /view must be \"oval\", \"single\" or \"matrix\", not 'oblong'", 3},
+            "set: /view must be \"oval\", \"single\", \"matrix\" or \"strip\", not 'oblong'", 3},
         Bad{R"({"type":"set","id":3,"polytope":""})", kBadMessage, "set: /polytope must be the name of a polytope", 3},
         Bad{R"({"type":"set","id":3,"polytope":{}})", kBadMessage, "set: /polytope/name is missing", 3},
         Bad{R"({"type":"set","id":3,"polytope":5})", kBadMessage, "set: /polytope must be the name", 3},
