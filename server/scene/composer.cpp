@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -53,11 +54,15 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
     const double unit = scene.camera.magnification() * viewport.height * scene.sliceRadius / scene.circumradius;
+    // On coarser lattices than those of messages, thin bodies in small slices would fall apart.
+    const double coarsest = quality == slicing::Quality::full ? slicing::evenStep(scene.circumradius, quality)
+                                                              : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {
         const double depth = glm::dot(forward, placement.position - scene.camera.eye);
         const bool visible = placement.drawn && depth > -scene.sliceRadius;
         const double distance = std::max(depth, scene.sliceRadius);
-        out.steps.push_back(visible ? slicing::pixelsPerCube(quality) * distance / unit : 0);
+        const double step = std::min(slicing::pixelsPerCube(quality) * distance / unit, coarsest);
+        out.steps.push_back(visible ? step : 0);
     }
     if (hasFog) out.fogSteps = out.steps;
     if (!look.parts.faces) out.steps.clear();

@@ -283,6 +283,16 @@ bool overlap(const Box& a, const Box& b) {
     return glm::all(glm::lessThan(glm::abs(a.center - b.center), a.half + b.half));
 }
 
+// Returns the box of the symbol of the axes, which may point in any direction, with their names.
+Box boxOf(const AxesLayout& axes) {
+    constexpr double kNameRoom = 0.02;
+    return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
+}
+
+bool overlap(const Box& box, const glm::dvec2& center, double radius) {
+    return glm::length(glm::max(glm::abs(center - box.center) - box.half, glm::dvec2(0))) < radius;
+}
+
 // Decides where the labels are and which of them are shown.
 class Labels {
   public:
@@ -348,9 +358,9 @@ class Labels {
     }
 
     // Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
-    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's or another
-    // slice, or leave the picture, whose lower edge is `bottom`.
-    void thin(const Camera& camera, double aspect, double bottom, bool isMoved) {
+    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's or
+    // another slice, or extend below `bottom`, where the coordinates are. Removes all that overlap the box of the axes.
+    void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
         const auto count = static_cast<std::ptrdiff_t>(placements_.size());
         const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
         const std::ptrdiff_t step = smallestStep(focus, camera.magnification());
@@ -363,6 +373,7 @@ class Labels {
             const Box box = boxOf(i);
             if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
             if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
+            if (overlap(box, axes)) return false;
             if (isMoved && (box.center.y < bottom + box.half.y || isOverSlice(i, box, camera, toView, aspect)))
                 return false;
             // The labels between the focus slice and this one, and as many on the other side, have been decided on.
@@ -400,6 +411,18 @@ class Labels {
         return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
     }
 
+    // Returns how far the slice with the parameter u, a sphere, extends on the screen from its center in the direction
+    // of a unit vector; at its depth, a world unit appears as `scale` viewport heights. Away from the optical axis,
+    // perspective stretches the sphere: the planes through the eye that touch it, n · p = e d for points p on the
+    // screen and depths d, fulfill (n · c − e d)² = r² (1 + e²) for its center c.
+    double extentOf(double u, const glm::dvec2& direction, double scale) const {
+        const double r = radius_ * oval_.reachAt(u);
+        const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+        const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.up(p)));
+        const double e = (a * d + r * std::sqrt(std::max(a * a + d * d - r * r, 0.0))) / (d * d - r * r);
+        return (e * d - a) * scale;
+    }
+
     // Returns the vector on the screen from slice i to the center of its label; at the slice's depth, a world unit
     // appears as `scale` viewport heights.
     glm::dvec2 offsetOf(std::size_t i, double scale) const {
@@ -408,7 +431,7 @@ class Labels {
         glm::dvec2 outward{0, -1};
         if (glm::length(along) > 0)
             outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -kLabelDrop));
-        const double radius = radius_ * oval_.reachAt(u) * scale;
+        const double radius = extentOf(u, outward, scale);
         const double drop = oval_.isRow() && placements_[i].focus ? kStripFocusDrop * style().textHeight : 0;
         return outward * (radius + kLabelGap + drop + glm::dot(glm::abs(outward), halfText(placements_[i])));
     }
@@ -435,8 +458,7 @@ class Labels {
             if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
             const double u = parameterOf(j, placements_.size());
             const double radius = radius_ * oval_.reachAt(u) * camera.magnification() / -p.z;
-            const glm::dvec2 apart = glm::abs(onScreen(p, camera, aspect) - box.center) - box.half;
-            if (glm::length(glm::max(apart, glm::dvec2(0))) < radius) return true;
+            if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
         }
         return false;
     }
@@ -487,6 +509,37 @@ Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
                   room.bottom + std::min(overhang.bottom, maxY), room.top - std::min(overhang.top, maxY)};
     }
     return inside;
+}
+
+// A circle on the plane at distance 1 from the eye.
+struct Circle {
+    glm::dvec2 center;
+    double radius;
+};
+
+Circle circleOf(const ProjectionPlacement& placement, const ViewSpace& space) {
+    const double depth = space.depth(placement.position);
+    return {glm::dvec2(placement.position.x, space.up(placement.position)) / depth, placement.radius / depth};
+}
+
+// Returns the part of `room` for the slices as roomInside() does; if one of the circles would cover the axes, leaves
+// out the columns or the rows of the axes, whichever leaves more room.
+Rect clearOfAxes(const Rect& room, const Rect& bounds, const Labels& labels, const std::vector<Circle>& circles,
+                 const Box& axes) {
+    const Rect inside = roomInside(room, bounds, labels);
+    const double scale = scaleFor(bounds, inside);
+    const glm::dvec2 middle((inside.left + inside.right) / 2, (inside.bottom + inside.top) / 2);
+    const glm::dvec2 middleOfBounds((bounds.left + bounds.right) / 2, (bounds.bottom + bounds.top) / 2);
+    const bool isClear = std::ranges::none_of(circles, [&](const Circle& circle) {
+        return overlap(axes, middle + scale * (circle.center - middleOfBounds), scale * circle.radius);
+    });
+    if (isClear) return inside;
+    Rect right = room, below = room;
+    right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
+    below.top = std::max(axes.center.y - axes.half.y, (room.bottom + room.top) / 2);
+    right = roomInside(right, bounds, labels);
+    below = roomInside(below, bounds, labels);
+    return scaleFor(bounds, right) > scaleFor(bounds, below) ? right : below;
 }
 
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
@@ -558,7 +611,12 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     }
     Labels labels(oval, reach, decimals, content.originW, out.placements);
     if (strip) labels.shrink((room.right - room.left) / planes.count);
-    const Rect inside = roomInside(room, bounds, labels);
+    Rect inside = roomInside(room, bounds, labels);
+    if (alone) {
+        std::vector<Circle> circles{{glm::dvec2(0), reach / oval.distance}};
+        if (projected) circles.push_back(circleOf(out.projectionPlacement, ViewSpace(oval)));
+        inside = clearOfAxes(room, bounds, labels, circles, boxOf(out.axes));
+    }
     if (projected && !alone && !strip) {
         const double scale = scaleFor(bounds, inside);
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
@@ -568,7 +626,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     labels.place(out.camera);
     if (look.parts.labels) {
         labels.nameFocusSlice(focusName, out.camera, aspect);
-        labels.thin(out.camera, aspect, room.bottom - kMargin, look.orbit != CameraOrbit{});
+        labels.thin(out.camera, aspect, room.bottom - kMargin, boxOf(out.axes), look.orbit != CameraOrbit{});
     }
 }
 

@@ -53,16 +53,19 @@ constexpr std::size_t maxFogPoints(Quality quality) { return quality == Quality:
 constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }
 
 /// Returns the number of lattice cubes across the diameter of a field's circumscribed sphere, for messages and files.
-/// Rendered pictures use pixelsPerCube() instead.
+/// Rendered pictures use pixelsPerCube() instead; in full quality, they have at least as many cubes as messages.
 constexpr int cubesAcross(Quality quality) {
     return quality == Quality::file ? 160 : quality == Quality::full ? 48 : 32;
 }
+
+/// Returns the lattice step of messages and files in the units of an object with this circumradius.
+constexpr double evenStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
 
 /// Sets the lattice step of the surfaces in all slices from the circumradius of the object, for messages and files.
 /// Clears the fog lattices.
 inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
                           SurfaceDetail& out) {
-    out.steps.assign(static_cast<std::size_t>(planes.count), 2 * circumradius / cubesAcross(quality));
+    out.steps.assign(static_cast<std::size_t>(planes.count), evenStep(circumradius, quality));
     out.fogSteps.clear();
     out.quality = quality;
 }

@@ -431,8 +431,51 @@ TEST(Labels, areApartFromEverySide) {
             for (std::size_t i = 1; i < boxes.size(); ++i) {
                 EXPECT_TRUE(boxes[i].isInside({1280, 720}));
                 EXPECT_LT(boxes[i].bottom, 720 - strip) << "no label covers the coordinates";
+                EXPECT_FALSE(boxes[i].overlapsDisk({s.axes.x * 720, s.axes.y * 720}, s.axes.length * 720));
             }
             expectLabelsBesideSlices(s);
+        }
+    }
+}
+
+TEST(Axes, areCoveredByNoLabelThatIsMovedThere) {
+    // Some of these orbits bring the ends of the oval to the upper left corner.
+    int near = 0;
+    for (double azimuth = -0.6; azimuth < 0.6; azimuth += 0.05) {
+        for (const double zoom : {0.8, 1.0, 1.3}) {
+            scene::Look look;
+            look.orbit = {azimuth, 0, zoom};
+            const Scene s = composed("24-cell", 21, {1280, 720}, look);
+            const glm::dvec2 center(s.axes.x * 720, s.axes.y * 720);
+            for (const auto& placement : s.placements) {
+                if (glm::distance(project(s, placement.labelAt), center) < 2 * s.axes.length * 720) ++near;
+                if (placement.label.empty() || placement.focus) continue;
+                EXPECT_FALSE(LabelBox(s, placement).overlapsDisk(center, s.axes.length * 720)) << azimuth;
+            }
+        }
+    }
+    EXPECT_GT(near, 0);
+}
+
+TEST(Axes, areBesideTheSliceAndTheProjection) {
+    for (const scene::Viewport viewport :
+         {scene::Viewport{768, 1024}, {900, 600}, {640, 640}, {1280, 720}, {375, 667}}) {
+        for (const auto view : {scene::View::single, scene::View::matrix}) {
+            for (const bool whole : {false, true}) {
+                scene::Look look;
+                look.view = view;
+                if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
+                const Scene s = composed("24-cell", 21, viewport, look);
+                SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << whole);
+                const double height = viewport.height;
+                const glm::dvec2 center(s.axes.x * height, s.axes.y * height);
+                const auto isBeside = [&](const glm::dvec3& position, double radius) {
+                    return glm::distance(project(s, position), center) >
+                           radiusOnScreen(s, position, radius) + s.axes.length * height;
+                };
+                EXPECT_TRUE(isBeside({0, 0, 0}, s.sliceRadius));
+                EXPECT_TRUE(!whole || isBeside(s.projectionPlacement.position, s.projectionPlacement.radius));
+            }
         }
     }
 }

@@ -1,10 +1,13 @@
 #include "scene/surface_look.hpp"
 
 #include <limits>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "fields/formula_field.hpp"
+#include "scene/composer.hpp"
+#include "slicing/object.hpp"
 
 namespace oval4d::scene {
 namespace {
@@ -62,6 +65,21 @@ TEST(SurfaceLook, CapsFollowTheirSetting) {
     chooseSurfaceLook(*field, look, planes, out);
     EXPECT_TRUE(out.levels.back().caps && out.colorsCapPoints() && !out.colorsPoints());
     EXPECT_EQ(out.capPointColor(surface, 1), divergingColor(1));
+}
+
+TEST(SurfaceDetail, PicturesInFullQualityAreNoCoarserThanMessages) {
+    const slicing::Object field =
+        std::make_shared<const fields::Field>(*fields::fieldFromFormula("ball", "x^2+y^2+z^2+w^2 < 1"));
+    const geometry::Hyperplanes planes{-10, 21, 0.2};
+    for (const Viewport viewport : {Viewport{320, 200}, {1280, 720}}) {
+        Composer composer;
+        Scene scene;
+        slicing::SurfaceDetail pictures, messages;
+        composer.chooseDetail(field, planes, 0, {}, viewport, slicing::Quality::full, scene, pictures);
+        slicing::setEvenDetail(slicing::infoOf(field).circumradius, planes, slicing::Quality::full, messages);
+        ASSERT_EQ(pictures.steps.size(), messages.steps.size());
+        for (std::size_t i = 0; i < pictures.steps.size(); ++i) EXPECT_LE(pictures.steps[i], messages.steps[i]);
+    }
 }
 
 }  // namespace
