@@ -358,8 +358,8 @@ class Labels {
     }
 
     // Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
-    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's or
-    // another slice, or extend below `bottom`, where the coordinates are. Removes all that overlap the box of the axes.
+    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's, another
+    // slice, or the box of the axes, or extend below `bottom`, where the coordinates are.
     void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
         const auto count = static_cast<std::ptrdiff_t>(placements_.size());
         const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
@@ -373,8 +373,8 @@ class Labels {
             const Box box = boxOf(i);
             if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
             if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
-            if (overlap(box, axes)) return false;
-            if (isMoved && (box.center.y < bottom + box.half.y || isOverSlice(i, box, camera, toView, aspect)))
+            if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
+                            isOverSlice(i, box, camera, toView, aspect)))
                 return false;
             // The labels between the focus slice and this one, and as many on the other side, have been decided on.
             for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
