@@ -37,6 +37,22 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
+// Throws a FileError if a 2-face of the file has fewer than three different vertices. repair() leaves such 2-faces out,
+// which is wrong if one of their vertices is mistaken.
+void checkCorners(const PolygonSoup& soup) {
+    std::vector<std::uint32_t> list;
+    for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+        list.assign(soup.faces[f].begin(), soup.faces[f].end());
+        std::sort(list.begin(), list.end());
+        const auto different = std::unique(list.begin(), list.end()) - list.begin();
+        if (different < 3) {
+            throwFileError(soup.faceSourcePositions[f].line,
+                           "2-face " + std::to_string(soup.faceSourcePositions[f].number) + " has only " +
+                               std::to_string(different) + " different " + (different == 1 ? "vertex" : "vertices"));
+        }
+    }
+}
+
 // Moves the origin of the coordinates to the center, which is returned.
 glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
     const glm::dvec4 center = geometry::centerFor(centering, points);
@@ -87,20 +103,31 @@ Built repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::s
     return result;
 }
 
+Built buildOff4(const PolygonSoup& soup, const std::string& name, const geometry::Centering& centering) {
+    checkCells(soup);
+    try {
+        return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
+    } catch (const FileError&) {
+        // Coinciding vertices may belong to different components of a compound: try again without merging them.
+        try {
+            return repairAndBuild(soup, -1, name, centering);
+        } catch (const FileError&) {
+        }
+        checkCorners(soup);
+        throw;
+    }
+}
+
 Imported importOff4(std::string_view text, const std::string& name, const ImportLimits& limits,
                     const geometry::Centering& centering) {
-    const auto [soup, edges] = readOff4(text, limits.maxVertices);
-    checkCells(soup);
-
-    auto [result, divided] = [&soup = soup, &name, &centering] {
+    const auto [soup, edges, shortRecord] = readOff4(text, limits.maxVertices);
+    if (soup.cells.size() == 0)
+        throwFileError(0, "the file lists no cells; its points can be loaded as a list of points");
+    auto [result, divided] = [&soup = soup, &shortRecord = shortRecord, &name, &centering] {
         try {
-            return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
+            return buildOff4(soup, name, centering);
         } catch (const FileError&) {
-            // Coinciding vertices may belong to different components of a compound: try again without merging them.
-            try {
-                return repairAndBuild(soup, -1, name, centering);
-            } catch (const FileError&) {
-            }
+            if (shortRecord) throw FileError(*shortRecord);
             throw;
         }
     }();
