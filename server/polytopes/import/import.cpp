@@ -138,25 +138,30 @@ Imported importOff4(std::string_view text, const std::string& name, const Import
     return std::move(result);
 }
 
-// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers are
-// treated as exact, unless treating them as rounded gives a hull without ambiguous ridges that has at most half as many
-// cells, as for a polytope that was scaled and then rounded to whole numbers.
+// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
+// numbers of few decimals, are treated as exact, unless treating them as rounded gives a hull without ambiguous ridges
+// that has at most half as many cells, as for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    const glm::dvec4 rounding = precision.maxRoundingError(halfDiagonal(points));
-    if (!precision.whole() || rounding == glm::dvec4(0)) return convexHull(points, rounding, maxCells);
-    Hull exact = convexHull(points, glm::dvec4(0), maxCells), rounded;
+    // If the units of the last digit are larger, the cells of a rounded polytope are not flat enough to remain whole.
+    constexpr double kMinUnits = 0.5 / kFlatInFile;
+    const double size = halfDiagonal(points);
+    const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
+    if (!precision.whole() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);
+    Hull exact = convexHull(points, glm::dvec4(0), maxCells), coarse;
+    if (size < kMinUnits * 2 * std::max({rounded.x, rounded.y, rounded.z, rounded.w})) return exact;
     try {
-        rounded = convexHull(points, rounding, maxCells);
+        coarse = convexHull(points, rounded, maxCells);
     } catch (const FileError&) {
         return exact;
     }
-    if (rounded.ambiguousRidges > 0 || rounded.cells.size() == exact.cells.size()) return exact;
-    const bool round = 2 * rounded.cells.size() <= exact.cells.size();
-    warnings.push_back(std::string("the coordinates are whole numbers and were treated as ") +
-                       (round ? "rounded" : "exact") + ": the hull has " + std::to_string(rounded.cells.size()) +
+    if (coarse.ambiguousRidges > 0 || coarse.cells.size() == exact.cells.size()) return exact;
+    const bool round = 2 * coarse.cells.size() <= exact.cells.size();
+    warnings.push_back(std::string("the coordinates ") +
+                       (precision.whole() ? "are whole numbers" : "have few decimals") + " and were treated as " +
+                       (round ? "rounded" : "exact") + ": the hull has " + std::to_string(coarse.cells.size()) +
                        " cells if they are rounded, " + std::to_string(exact.cells.size()) + " if they are exact");
-    return round ? std::move(rounded) : std::move(exact);
+    return round ? std::move(coarse) : std::move(exact);
 }
 
 Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits,

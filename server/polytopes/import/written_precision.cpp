@@ -78,22 +78,29 @@ void WrittenPrecision::addSingle(int lastPlace, int lastNonzeroPlace, int axis, 
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
 
-glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
+glm::dvec4 WrittenPrecision::unit() const {
     if (digits_ == 0) return glm::dvec4(0);
     glm::dvec4 unit(0);
-    double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 4; ++axis) {
         double place = lastPlace_;
         if (largest_[axis] > 0) place = std::max(place, std::floor(std::log10(largest_[axis])) + 1 - digits_);
         unit[axis] = std::pow(10.0, place);
-        least = std::min(least, unit[axis]);
     }
-    if (size <= kMaxExactUnits * least) return glm::dvec4(0);
+    return unit;
+}
+
+glm::dvec4 WrittenPrecision::roundingErrorIfRounded() const {
     // The shortest digits that tell a single-precision number from the next may be farther from it than half a unit of
     // the longest numbers.
     if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
-        return largest_ * kSingleRounding + glm::max(unit / 2.0, fromSingle_);
-    return unit / 2.0;
+        return largest_ * kSingleRounding + glm::max(unit() / 2.0, fromSingle_);
+    return unit() / 2.0;
+}
+
+glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
+    const glm::dvec4 last = unit();
+    const bool exact = size <= kMaxExactUnits * std::min({last.x, last.y, last.z, last.w});
+    return exact ? glm::dvec4(0) : roundingErrorIfRounded();
 }
 
 }  // namespace oval4d::polytopes

@@ -29,10 +29,14 @@ class WrittenPrecision {
     /// probably exact.
     glm::dvec4 maxRoundingError(double size) const;
 
+    /// Returns maxRoundingError() of coordinates that do not count as exact, whatever their size.
+    glm::dvec4 roundingErrorIfRounded() const;
+
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
     bool whole() const { return whole_; }
 
   private:
+    glm::dvec4 unit() const;  // per axis: the unit of the last digit
     void addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value);
 
     glm::dvec4 largest_{0};                            // per axis: the largest absolute value of a coordinate

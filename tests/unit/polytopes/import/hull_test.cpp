@@ -147,6 +147,27 @@ TEST(Hull, WarnsHowWholeNumbersAreTreated) {
         << warningsOf(imported);
 }
 
+TEST(Hull, WarnsHowFewDecimalsAreTreated) {
+    std::mt19937 random(37);
+    for (int trial = 0; trial < 10; ++trial) {
+        const std::string text = formatted(turnedToSize1("24-cell", random), "%.*f", 2);
+        const Imported imported = sound(importPoints(text));
+        EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
+        EXPECT_NE(warningsOf(imported).find("the coordinates have few decimals and were treated as rounded: the hull "
+                                            "has 24 cells if they are rounded, "),
+                  std::string::npos)
+            << warningsOf(imported);
+    }
+    for (int trial = 0; trial < 100; ++trial) {
+        std::uniform_int_distribution<int> coordinate(-20 * (trial % 5 + 1), 20 * (trial % 5 + 1));
+        Points points(static_cast<std::size_t>(8 + trial % 70));
+        for (auto& p : points)
+            p = glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random)) / 4.0;
+        const Imported imported = sound(importPoints(asPoints(points)));
+        EXPECT_EQ(warningsOf(imported).find("treated as rounded"), std::string::npos) << warningsOf(imported);
+    }
+}
+
 // Checked in integer arithmetic: all points lie on one side of each cell's hyperplane, and the vertices of the hull in
 // the hyperplane are exactly those of the cell.
 TEST(Hull, OfWholeNumbersIsExact) {
