@@ -35,18 +35,17 @@ bool hasColumnsBetweenTabs(std::string_view line, TableRow& row) {
     return static_cast<std::size_t>(std::ranges::count_if(row.columns, filled)) >= kMinColumns;
 }
 
-// Returns whether a line is of words separated by blanks, some of which are numbers with a comma inside. No word has a
-// comma at an end or two of them.
-bool hasDecimalCommas(std::string_view line, TableRow& row) {
+// Returns nothing if commas may separate the columns of a line. Otherwise blanks do: no word has a comma at an end or
+// two of them, and the result is whether one is a decimal comma.
+std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
-    if (row.columns.size() < kMinColumns) return false;
-    NumberReader reader;
+    if (row.columns.size() < kMinColumns) return {};
     bool any = false;
     for (const std::string_view word : row.columns) {
         const std::size_t comma = word.find(',');
         if (comma == std::string_view::npos) continue;
-        if (comma == 0 || word.ends_with(',') || word.find(',', comma + 1) != std::string_view::npos) return false;
-        any = any || reader.read(word, DecimalMark::comma).fault.empty();
+        if (comma == 0 || word.ends_with(',') || word.find(',', comma + 1) != std::string_view::npos) return {};
+        any = any || beginsLikeANumber(word);
     }
     return any;
 }
@@ -103,8 +102,9 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         any = true;
         semicolons = semicolons || hasSeparatorInside(content, ';');
         tabs = tabs || hasColumnsBetweenTabs(content, row);
-        commas = commas || hasSeparatorInside(content, ',');
-        decimalCommas = decimalCommas || hasDecimalCommas(content, row);
+        const auto decimal = hasDecimalCommas(content, row);
+        commas = commas || (!decimal && hasSeparatorInside(content, ','));
+        decimalCommas = decimalCommas || decimal.value_or(false);
     }
     if (!any) return {};
     if (semicolons) return TableFormat{';', DecimalMark::comma};

@@ -111,6 +111,11 @@ TEST(Columns, MayLackTheRadiusUnderAHeaderToo) {
     EXPECT_EQ(read("x y z w r\n.5 1 -2 3 .1\n.5 1 -2\n"), "line 3: the row has 3 columns, but the header names 5");
 }
 
+TEST(Columns, AreSeparatedByBlanksEvenIfAWordHasAComma) {
+    EXPECT_EQ(read("1 0 0 0\n0 1,5m 1 0\n"), "line 2, column 2: '1,5m' is not a number");
+    EXPECT_EQ(read("name x y z w\na,b .5 1 -2 3\n"), std::string(kRow) + "these columns were left out: 'name'\n");
+}
+
 TEST(Columns, WithBracketsAreNotTakenForDecimalCommas) {
     EXPECT_EQ(read("(1, 0, 0, 0)\n"), "line 1, column 1: '(1' is not a number");
     EXPECT_EQ(read("[1, 0, 0, 0],\n[0, 1, 0, 0]\n"), "line 1, column 1: '[1' is not a number");
