@@ -225,6 +225,10 @@ TEST(PlainText, IsNotMadeOfOtherFiles) {
     };
     EXPECT_EQ(refusal(""), "the file is empty");
     EXPECT_EQ(refusal(" \r\n\t"), "the file is empty");
+    EXPECT_EQ(refusal("<!DOCTYPE html>\n<p>1 2 3 4"), "the file is an HTML page");
+    EXPECT_EQ(refusal(" <svg width=\"3\">"), "the file is an SVG picture");
+    EXPECT_EQ(refusal("\xEF\xBB\xBF<?xml version=\"1.0\"?>"),
+              "the file is an XML file, such as an SVG picture or a VTK file");
     EXPECT_EQ(refusal("\x1F\x8B\x08"), "the file is compressed with gzip; unpack it first");
     EXPECT_EQ(refusal("\x89PNG\r\n\x1A\n"), "the file is a PNG picture");
     EXPECT_EQ(refusal(std::string("1 2 3 4") + '\0'), "the file is not text: byte 8 is zero");
