@@ -74,13 +74,11 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
         radii.push_back(row.radius);
     };
     try {
-        const std::string text = text_files::plainText(load.data);
-        std::string_view table = text;
-        text_files::Tokenizer file(text);
-        if (const std::string_view word = file.next(); isCloudKeyword(word))
-            table.remove_prefix(static_cast<std::size_t>(word.data() + word.size() - text.data()));
-        auto warnings = text_files::readPoints(
-            table, {.maxPoints = limits.maxVertices, .radii = true, .firstLine = file.line()}, add);
+        std::string text = text_files::plainText(load.data);
+        // The comments above the keyword belong to the table, too.
+        if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
+            text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
+        auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
         const glm::dvec4 center = geometry::centerFor(load.center, points);
         for (glm::dvec4& point : points) point -= center;
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));

@@ -1,5 +1,6 @@
 #include "text_files/number.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -12,6 +13,7 @@ namespace oval4d::text_files {
 
 namespace {
 
+constexpr const char* kNoNumber = "is not a number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
 // Returns the word without its sign. Sets `negative`.
@@ -28,13 +30,40 @@ bool isNotFinite(std::string_view unsignedWord) {
 
 bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
 
+// Returns whether the absolute value of a number is less than 1. The number is in the form of ParsedNumber::text, and
+// may be out of the range of a double.
+bool isBelowOne(std::string_view number) {
+    const std::size_t end = std::min(number.find('e'), number.size());
+    const std::size_t point = std::min(number.find('.'), end);
+    const std::size_t first = number.find_first_of("123456789");
+    if (first >= end) return true;
+    const auto places = static_cast<long long>(point) - static_cast<long long>(first);
+    if (end == number.size()) return places <= 0;
+    long long exponent = 0;
+    const std::string_view digits = number.substr(end + 1);
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (error == std::errc::result_out_of_range) return digits.starts_with('-');
+    return exponent <= -places;
+}
+
+// Says what is wrong with a word that is not a number with a decimal point.
+std::string faultOf(std::string_view word) {
+    NumberReader reader;
+    if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())
+        return "ends with a comma; write blanks between numbers";
+    if (!word.ends_with(',') && word.find(',') != std::string_view::npos &&
+        reader.read(word, DecimalMark::comma).fault.empty())
+        return "has a decimal comma; write a decimal point";
+    return kNoNumber;
+}
+
 }  // namespace
 
 ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
     const auto failed = [](std::string fault) { return ParsedNumber{0, {}, std::move(fault)}; };
     bool negative = false;
     const std::string_view digits = withoutSign(word, negative);
-    if (bool second = false; withoutSign(digits, second) != digits) return failed("is not a number");
+    if (bool second = false; withoutSign(digits, second) != digits) return failed(kNoNumber);
     if (isNotFinite(digits)) return failed("is not a finite number");
     const bool hasComma = digits.find(',') != std::string_view::npos;
     if (hasComma && digits.find('.') != std::string_view::npos)
@@ -58,16 +87,19 @@ ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
     ParsedNumber result;
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
-    const bool tooSmall = error == std::errc::result_out_of_range && text_.find("e-") != std::string::npos;
-    if (stop != end || error == std::errc::invalid_argument) {
-        if (hasComma && mark == DecimalMark::point) return failed("has a decimal comma; write a decimal point");
-        return failed("is not a number");
-    }
+    if (stop != end || error == std::errc::invalid_argument)
+        return failed(hasComma && mark == DecimalMark::point ? faultOf(word) : kNoNumber);
+    const bool tooSmall = error == std::errc::result_out_of_range && isBelowOne(text_);
     if (tooSmall) result.value = 0;
     if ((error != std::errc{} && !tooSmall) || std::abs(result.value) > kMaxCoordinate)
         return failed("is beyond ±1e14, the range of coordinates");
     result.text = text_;
     return result;
+}
+
+bool isNumber(std::string_view word, DecimalMark mark) {
+    NumberReader reader;
+    return reader.read(word, mark).fault != kNoNumber;
 }
 
 bool beginsLikeANumber(std::string_view word) {

@@ -34,7 +34,11 @@ class NumberReader {
     std::string text_;
 };
 
-/// Returns whether a word begins as a number does, or is "nan" or "inf", so that it is not the name of a column.
+/// Returns whether a word is a number, even if NumberReader refuses it: "nan", "1e20" and "0,5" are numbers, "2theta"
+/// is none.
+bool isNumber(std::string_view word, DecimalMark mark = DecimalMark::point);
+
+/// Returns whether a word begins as a number does, or is "nan" or "inf".
 bool beginsLikeANumber(std::string_view word);
 
 }  // namespace oval4d::text_files

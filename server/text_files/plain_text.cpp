@@ -42,6 +42,14 @@ constexpr auto kKinds = std::to_array<Kind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
+/// Kinds of text that hold no numbers in rows, known by their beginning in small letters.
+constexpr auto kTextKinds = std::to_array<Kind>({
+    {"<!doctype html", "is an HTML page"},
+    {"<html", "is an HTML page"},
+    {"<svg", "is an SVG picture"},
+    {"<?xml", "is an XML file, such as an SVG picture or a VTK file"},
+});
+
 constexpr std::string_view kMarkUtf8 = "\xEF\xBB\xBF", kMarkLittle = "\xFF\xFE", kMarkBig = "\xFE\xFF";
 
 // Returns the UTF-8 text of 16-bit units. `low`: the position of the low byte in each unit, 0 or 1.
@@ -54,26 +62,38 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
     return boost::locale::conv::utf_to_utf<char>(units);
 }
 
-// Replaces the line ends CR LF and CR by LF; vertical tabs, form feeds and each kind of no-break space by a space.
+// Returns the number of bytes of the space at the beginning of a text: a vertical tab, a form feed, a byte order mark
+// or any space of Unicode other than U+0020; 0 if there is none.
+std::size_t spaceAt(std::string_view text) {
+    constexpr auto kSpaces = std::to_array(
+        {"\v"sv, "\f"sv, "\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv, "\xEF\xBB\xBF"sv});
+    for (const std::string_view space : kSpaces) {
+        if (text.starts_with(space)) return space.size();
+    }
+    // U+2000 to U+200B: en quad … thin space, hair space, zero-width space
+    constexpr std::string_view kQuads = "\xE2\x80";
+    if (!text.starts_with(kQuads) || text.size() == kQuads.size()) return 0;
+    const auto last = static_cast<unsigned char>(text[kQuads.size()]);
+    return last >= 0x80U && last <= 0x8BU ? kQuads.size() + 1 : 0;
+}
+
+// Replaces the line ends CR LF and CR by LF, and each space by U+0020.
 void normalizeSpace(std::string& text) {
-    constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x80\x87"sv, "\xEF\xBB\xBF"sv});
-    const bool hasSpaces =
-        std::ranges::any_of(kSpaces, [&](std::string_view space) { return text.find(space) != std::string::npos; });
-    if (!hasSpaces && text.find_first_of("\r\v\f") == std::string::npos) return;
+    constexpr auto kStarts = "\r\v\f\xC2\xE2\xE3\xEF"sv;
+    if (text.find_first_of(kStarts) == std::string::npos) return;
     std::string result;
     result.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
         const std::string_view rest = std::string_view(text).substr(i);
-        const auto space = std::ranges::find_if(kSpaces, [&](std::string_view each) { return rest.starts_with(each); });
-        if (space != kSpaces.end()) {
-            result += ' ';
-            i += space->size() - 1;
-        } else if (text[i] == '\r') {
-            if (!rest.starts_with("\r\n")) result += '\n';
-        } else if (text[i] == '\v' || text[i] == '\f') {
-            result += ' ';
-        } else {
+        if (kStarts.find(text[i]) == std::string_view::npos) {
             result += text[i];
+        } else if (const std::size_t space = spaceAt(rest); space > 0) {
+            result += ' ';
+            i += space - 1;
+        } else if (text[i] != '\r') {
+            result += text[i];
+        } else if (!rest.starts_with("\r\n")) {
+            result += '\n';
         }
     }
     text = std::move(result);
@@ -100,6 +120,11 @@ std::string plainText(std::string_view bytes) {
     if (text.find_first_not_of(" \t\n") == std::string::npos) throwFileError(0, "the file is empty");
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throwFileError(0, "the file is not text: byte " + std::to_string(zero + 1) + " is zero");
+    std::string start = text.substr(text.find_first_not_of(" \t\n"), kTextKinds.front().signature.size());
+    std::ranges::transform(start, start.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    for (const Kind& kind : kTextKinds) {
+        if (start.starts_with(kind.signature)) throwFileError(0, "the file " + std::string(kind.description));
+    }
     return text;
 }
 

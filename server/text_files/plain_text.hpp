@@ -7,8 +7,9 @@ namespace oval4d::text_files {
 
 /// Returns the text of a file, in UTF-8 without a byte order mark. Converts UTF-16, which is known by its byte order
 /// mark or by the zero byte of an ASCII character at its beginning. Replaces all line ends by "\n"; vertical tabs, form
-/// feeds and each kind of no-break space by a space. Keeps bytes that are not UTF-8, because they usually stand in
-/// comments. Throws a FileError that says what the file is if it is empty, compressed, a picture or otherwise not text.
+/// feeds and each kind of space of Unicode by U+0020. Keeps bytes that are not UTF-8, because they usually stand in
+/// comments. Throws a FileError that says what the file is if it is empty, compressed, a picture, a page or otherwise
+/// not text with numbers.
 std::string plainText(std::string_view bytes);
 
 }  // namespace oval4d::text_files

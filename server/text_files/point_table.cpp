@@ -21,16 +21,45 @@ constexpr std::size_t kRadius = 4;  // the index of the radius, after those of t
 // The position of each coordinate and of the radius among the columns of a row.
 struct Layout {
     std::array<std::optional<std::size_t>, kRadius + 1> columns;
-    std::size_t count = 0;     // the number of columns of each row; 0 if there is no header
-    std::string otherColumns;  // names of the columns that are left out, in quotes
+    std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
+    bool radiusMayMiss = false;   // rows may lack the last column, which is the radius
+    std::string otherColumns;     // names of the columns that are left out, in quotes
+    std::string_view radiusName;  // as it is written
+
+    bool hasAllCoordinates() const {
+        return std::all_of(columns.begin(), columns.begin() + kRadius, [](const auto& at) { return at.has_value(); });
+    }
+    // Returns whether x, y, z and w follow each other in this order.
+    bool isInOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadius)); }
 };
+
+// Returns the name of a column without its unit, which follows in brackets or after a slash, as in "t [s]" and "t/s".
+std::string_view withoutUnit(std::string_view name) {
+    const std::string_view before = text::trimmed(name.substr(0, name.find_first_of("[({/")));
+    return before.empty() ? name : before;
+}
+
+// Joins the names and their units, where blanks separate them, as in "t [s]".
+void joinUnits(std::vector<std::string_view>& names) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        constexpr std::string_view kOpening = "[({", kClosing = "])}";
+        const std::size_t kind = names[i].empty() ? std::string_view::npos : kOpening.find(names[i].front());
+        if (i == 0 || kind == std::string_view::npos) {
+            names[kept++] = names[i];
+            continue;
+        }
+        while (!names[i].ends_with(kClosing[kind]) && i + 1 < names.size()) ++i;
+    }
+    names.resize(kept);
+}
 
 // Reads the names of columns. Returns nothing if they are not those of at least two coordinates.
 std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
     Layout layout;
     layout.count = names.size();
     std::vector<std::string> normalized;
-    for (const std::string_view name : names) normalized.push_back(text::normalizedName(name));
+    for (const std::string_view name : names) normalized.push_back(text::normalizedName(withoutUnit(name)));
     const bool hasW = std::ranges::find(normalized, "w") != normalized.end();
     std::size_t coordinates = 0;
     for (std::size_t i = 0; i < normalized.size(); ++i) {
@@ -43,78 +72,125 @@ std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
         if (member && !layout.columns[*member]) {
             layout.columns[*member] = i;
             coordinates += *member < kRadius ? 1 : 0;
+            if (*member == kRadius) layout.radiusName = names[i];
             continue;
         }
         if (!layout.otherColumns.empty()) layout.otherColumns += ", ";
         layout.otherColumns += names[i].empty() ? "column " + std::to_string(i + 1) : text::inQuotes(names[i]);
     }
-    return coordinates >= 2 ? std::optional(layout) : std::nullopt;
+    layout.radiusMayMiss = layout.columns[kRadius] == layout.count - 1;
+    return coordinates >= 2 ? std::optional(std::move(layout)) : std::nullopt;
 }
 
-// Splits the names in a header, which may be separated otherwise than the rows.
-void splitNames(std::string_view line, const TableFormat& format, TableRow& row) {
-    split(line, format.separator, row);
-    if (row.columns.size() > 1) return;
-    for (const char separator : {';', '\t', ',', ' '}) {
+// Reads the names of columns in a line, which may be separated otherwise than the rows. Returns nothing if `accepts`
+// refuses each way to separate them. Changes `row`.
+std::optional<Layout> namesIn(std::string_view line, const TableFormat& format, TableRow& row,
+                              const std::function<bool(const Layout&)>& accepts) {
+    for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
         split(line, separator, row);
-        if (row.columns.size() > 1) return;
+        if (separator == ' ') joinUnits(row.columns);
+        if (auto layout = layoutOf(row.columns); layout && accepts(*layout)) return layout;
     }
+    return {};
+}
+
+// Returns the part of a comment that may be names of columns: in "columns: (x, y, z, w)", that is "x, y, z, w".
+std::string_view namesOfComment(std::string_view comment) {
+    if (const std::size_t colon = comment.find_last_of(":="); colon != std::string_view::npos)
+        comment = text::trimmed(comment.substr(colon + 1));
+    const std::size_t end = std::min(comment.find_first_of(" \t"), comment.size());
+    const std::string first = text::normalizedName(comment.substr(0, end));
+    if (first == "columns" || first == "coordinates" || first == "fields") comment = text::trimmed(comment.substr(end));
+    const bool inBrackets = comment.size() > 1 && (comment.starts_with('(') || comment.starts_with('[')) &&
+                            (comment.ends_with(')') || comment.ends_with(']')) &&
+                            comment.find_first_of(")]") == comment.size() - 1;
+    return inBrackets ? comment.substr(1, comment.size() - 2) : comment;
 }
 
 class PointReader {
   public:
     PointReader(std::string_view text, const PointTableOptions& options,
                 const std::function<void(const PointRow&)>& add)
-        : lines_(text, options.firstLine), format_(formatOf(lines_)), options_(options), add_(add) {}
+        : lines_(text), format_(formatOf(lines_)), options_(options), add_(add) {}
 
     std::vector<std::string> read() {
         bool first = true;
-        std::string_view comment;
+        std::vector<TableLine> comments;
         while (const auto line = lines_.next()) {
             if (text::trimmed(line->content).empty()) {
-                if (!line->comment.empty()) comment = line->comment;
+                if (first && !line->comment.empty()) comments.push_back(*line);
                 continue;
             }
-            if (std::exchange(first, false) && readHeader(*line, comment)) continue;
+            if (std::exchange(first, false) && readHeader(*line, comments)) continue;
             readRow(*line);
+        }
+        if (rows_ == 0) {
+            throwFileError(0, layout_.count > 0 ? "the table has a header, but no rows"
+                                                : "the file has no rows of numbers, so it is not a table of points");
         }
         return std::move(warnings_);
     }
 
   private:
-    // Reads the header from the first line that is not blank, or the comment above it. Returns whether the line is not
+    // Reads the header from the first line that is not blank, or the comments above it. Returns whether the line is not
     // a row.
-    bool readHeader(const TableLine& line, std::string_view comment) {
-        splitNames(line.content, format_, row_);
-        const bool isRow = std::ranges::any_of(row_.columns, beginsLikeANumber);
-        std::optional<Layout> layout;
-        if (isRow) {
-            splitNames(comment, format_, row_);
-            layout = layoutOf(row_.columns);
-            const auto found = [](const auto& column) { return column.has_value(); };
-            if (!layout || !std::all_of(layout->columns.begin(), layout->columns.begin() + kRadius, found))
-                return false;
-        } else {
-            layout = layoutOf(row_.columns);
-            if (!layout) {
-                warnings_.push_back("line " + std::to_string(line.number) + ", " +
-                                    text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
-                return true;
-            }
+    bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
+        split(line.content, format_.separator, row_);
+        const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
+        if (std::ranges::any_of(row_.columns, number)) {
+            splitRow(line);
+            readComments(comments);
+            return false;
+        }
+        const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
+        auto layout = namesIn(line.content, format_, row_, &Layout::hasAllCoordinates);
+        if (!layout) layout = namesIn(line.content, format_, row_, [](const Layout&) { return true; });
+        if (!layout && likeNumbers) return false;  // readRow() says what is wrong
+        if (!layout) {
+            warnings_.push_back("line " + std::to_string(line.number) + ", " +
+                                text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
+            return true;
         }
         for (std::size_t i = 0; i < kRadius; ++i) {
             if (!layout->columns[i])
                 throwFileError(line.number, std::string("the header names no column ") + kCoordinates[i] +
                                                 "; it must name x, y, z and w");
         }
-        layout_ = std::move(*layout);
-        if (!options_.radii && layout_.columns[kRadius]) {
-            const auto at = *std::exchange(layout_.columns[kRadius], std::nullopt);
+        use(std::move(*layout));
+        return true;
+    }
+
+    // Takes the last comment above the first row that names each of the row's columns for the header. `row_` is this
+    // row.
+    void readComments(std::span<const TableLine> comments) {
+        const TableRow first = row_;
+        const auto fits = [&](const Layout& layout) {
+            const std::size_t size = first.columns.size();
+            const bool sameSize = size == layout.count || (first.endsWithSeparator && size < layout.count);
+            const bool radiusMisses = format_.separator == ' ' && layout.radiusMayMiss && size + 1 == layout.count;
+            return layout.hasAllCoordinates() && (sameSize || radiusMisses);
+        };
+        for (std::size_t i = comments.size(); i-- > 0;) {
+            if (auto layout = namesIn(namesOfComment(comments[i].comment), format_, row_, fits))
+                return use(std::move(*layout));
+        }
+        for (const TableLine& line : comments) {
+            const auto layout = namesIn(namesOfComment(line.comment), format_, row_, &Layout::hasAllCoordinates);
+            if (!layout || layout->isInOrder()) continue;
+            warnings_.push_back("the comment in line " + std::to_string(line.number) +
+                                " does not name each column of the rows, and was not read as a header");
+            return;
+        }
+    }
+
+    // Takes a layout for that of the rows.
+    void use(Layout layout) {
+        layout_ = std::move(layout);
+        if (!options_.radii && std::exchange(layout_.columns[kRadius], std::nullopt)) {
             if (!layout_.otherColumns.empty()) layout_.otherColumns += ", ";
-            layout_.otherColumns += text::inQuotes(row_.columns[at]);
+            layout_.otherColumns += text::inQuotes(layout_.radiusName);
         }
         if (!layout_.otherColumns.empty()) warnings_.push_back("these columns were left out: " + layout_.otherColumns);
-        return !isRow;
     }
 
     // Returns whether a column of the rows is a coordinate or a radius.
@@ -131,7 +207,8 @@ class PointReader {
             if (columns[i].empty() && isRead(i)) throwFileError(line, "the column is empty", i + 1);
         }
         const std::size_t size = columns.size();
-        if (layout_.count > 0 && size != layout_.count)
+        const bool radiusMisses = format_.separator == ' ' && layout_.radiusMayMiss && size + 1 == layout_.count;
+        if (layout_.count > 0 && size != layout_.count && !radiusMisses)
             throwFileError(line, "the row has " + std::to_string(size) + " columns, but the header names " +
                                      std::to_string(layout_.count));
         if (size < kRadius)
@@ -147,15 +224,20 @@ class PointReader {
                                      std::to_string(firstSize_));
     }
 
+    // Sets `row_` to the columns of a row.
+    void splitRow(const TableLine& line) {
+        std::string_view content = line.content;
+        const std::size_t last = content.find_last_not_of(" \t");
+        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);  // a list of MATLAB
+        split(content, format_.separator, row_);
+    }
+
     void readRow(const TableLine& line) {
         if (rows_++ == options_.maxPoints)
             throw FileError{line.number,
                             "there are more than " + std::to_string(options_.maxPoints) + " points, the most allowed",
                             true};
-        std::string_view content = line.content;
-        const std::size_t last = content.find_last_not_of(" \t");
-        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);  // a list of MATLAB
-        split(content, format_.separator, row_);
+        splitRow(line);
         checkColumns(line.number);
         PointRow point;
         point.line = line.number;
@@ -165,10 +247,8 @@ class PointReader {
             point.point[static_cast<int>(i)] = read.value;
             point.numbers[i] = read.text;
         }
-        const std::optional<std::size_t> radius = layout_.count > 0               ? layout_.columns[kRadius]
-                                                  : row_.columns.size() > kRadius ? std::optional(kRadius)
-                                                                                  : std::nullopt;
-        if (radius) {
+        const std::optional<std::size_t> radius = layout_.count > 0 ? layout_.columns[kRadius] : std::optional(kRadius);
+        if (radius && *radius < row_.columns.size()) {
             point.radius = number(line, *radius, readers_[kRadius]).value;
             if (point.radius < 0) throwFileError(line.number, "a radius is negative", *radius + 1);
             if (layout_.count == 0 && !std::exchange(warnedOfRadius_, true))

@@ -23,8 +23,7 @@ struct PointRow {
 /// What a table of points may contain.
 struct PointTableOptions {
     std::size_t maxPoints = 0;
-    bool radii = false;         ///< the points may have radii
-    std::size_t firstLine = 1;  ///< the number of the first line, for messages
+    bool radii = false;  ///< the points may have radii
 };
 
 /// Reads a table of points in plainText(), calls `add` for each row, and returns warnings: what is left out or taken
@@ -33,13 +32,14 @@ struct PointTableOptions {
 /// - The columns are separated by semicolons, else tabs, else commas, else blanks. Where semicolons, tabs or blanks
 ///   separate them, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator at
 ///   the end of a row is ignored. Comments begin with # and extend to the end of the line.
-/// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns
-/// need
-///   a header: a first row in which no word is a number, or a comment right above the first row. It names the columns
-///   x, y, z, w (or t, or time, if none is called w), and r or radius; others are left out. A first row without numbers
-///   that names none of the coordinates is a title, and left out.
+/// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns,
+///   which may be text, need a header: a first row in which no word is a number, or a comment above the first row that
+///   has a name for each column. It names the columns x, y, z, w (or t, or time, if none is called w), and r or radius;
+///   others are left out. Units in brackets may follow the names. A first row without numbers that names none of the
+///   coordinates is a title, and left out.
 /// - Each row must have as many columns as the header, or, without a header, as the first row; where blanks separate
-///   the columns, some rows may have a radius and others none. No column of a row may be empty.
+///   the columns, some rows may have a radius in the last column and others none. No column of a row that is read may
+///   be empty. There must be a row.
 std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
                                     const std::function<void(const PointRow&)>& add);
 

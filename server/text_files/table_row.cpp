@@ -35,13 +35,81 @@ bool hasColumnsBetweenTabs(std::string_view line, TableRow& row) {
     return static_cast<std::size_t>(std::ranges::count_if(row.columns, filled)) >= kMinColumns;
 }
 
-// Returns whether a line is of words separated by blanks, some of which have a comma inside, but none at its ends.
-bool hasDecimalCommas(std::string_view line, TableRow& row) {
+// Returns nothing if commas may separate the columns of a line. Otherwise blanks do: no word has a comma at an end or
+// two of them, and the result is whether one is a decimal comma.
+std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
-    const auto inside = [](std::string_view word) { return word.find(',') != std::string_view::npos; };
-    const auto atEnd = [](std::string_view word) { return word.starts_with(',') || word.ends_with(','); };
-    return row.columns.size() >= kMinColumns && std::ranges::any_of(row.columns, inside) &&
-           std::ranges::none_of(row.columns, atEnd);
+    if (row.columns.size() < kMinColumns) return {};
+    bool any = false;
+    for (const std::string_view word : row.columns) {
+        const std::size_t comma = word.find(',');
+        if (comma == std::string_view::npos) continue;
+        if (comma == 0 || word.ends_with(',') || word.find(',', comma + 1) != std::string_view::npos) return {};
+        any = any || beginsLikeANumber(word);
+    }
+    return any;
+}
+
+// Returns whether a line is a row of a table, not a header or a title: it begins with a number, or has at least `least`
+// numbers and no more other words.
+bool isRow(std::string_view line, std::size_t least) {
+    constexpr std::string_view kBetween = ";,\t \"";
+    std::size_t numbers = 0, others = 0;
+    for (std::size_t start = 0; (start = line.find_first_not_of(kBetween, start)) != std::string_view::npos;) {
+        const std::size_t end = std::min(line.find_first_of(kBetween, start), line.size());
+        if (isNumber(line.substr(start, end - start))) {
+            ++numbers;
+        } else {
+            ++others;
+        }
+        if (numbers == 1 && others == 0) return true;
+        start = end;
+    }
+    return numbers >= least && numbers >= others;
+}
+
+// Returns the line with a letter in place of each text in quotes that is not a number, because it may contain
+// separators. Uses `memory` for it.
+std::string_view withoutTexts(std::string_view line, std::string& memory) {
+    std::size_t open = line.find('"');
+    if (open == std::string_view::npos) return line;
+    memory.clear();
+    while (open != std::string_view::npos) {
+        const std::size_t close = line.find('"', open + 1);
+        if (close == std::string_view::npos) break;
+        memory += line.substr(0, open);
+        const std::string_view word = line.substr(open, close + 1 - open);
+        if (isNumber(withoutQuotes(word), DecimalMark::comma)) {
+            memory += word;
+        } else {
+            memory += 'a';
+        }
+        line.remove_prefix(close + 1);
+        open = line.find('"');
+    }
+    memory += line;
+    return memory;
+}
+
+// Returns the format that fits all rows that have at least `least` numbers; nothing if there are none.
+std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
+    bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
+    TableRow row;
+    std::string memory;
+    while (const auto line = lines.next()) {
+        const std::string_view content = withoutTexts(line->content, memory);
+        if (!isRow(content, least)) continue;
+        any = true;
+        semicolons = semicolons || hasSeparatorInside(content, ';');
+        tabs = tabs || hasColumnsBetweenTabs(content, row);
+        const auto decimal = hasDecimalCommas(content, row);
+        commas = commas || (!decimal && hasSeparatorInside(content, ','));
+        decimalCommas = decimalCommas || decimal.value_or(false);
+    }
+    if (!any) return {};
+    if (semicolons) return TableFormat{';', DecimalMark::comma};
+    if (commas && !decimalCommas) return TableFormat{','};
+    return TableFormat{tabs ? '\t' : ' ', decimalCommas ? DecimalMark::comma : DecimalMark::point};
 }
 
 }  // namespace
@@ -56,19 +124,12 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    bool semicolons = false, tabs = false, commas = false, decimalCommas = false;
-    TableRow row;
-    while (const auto line = lines.next()) {
-        const std::size_t start = std::min(line->content.find_first_not_of(";,\"\t "), line->content.size());
-        if (!beginsLikeANumber(line->content.substr(start))) continue;  // a header
-        semicolons = semicolons || hasSeparatorInside(line->content, ';');
-        tabs = tabs || hasColumnsBetweenTabs(line->content, row);
-        commas = commas || hasSeparatorInside(line->content, ',');
-        decimalCommas = decimalCommas || hasDecimalCommas(line->content, row);
+    // Rows may begin with a text. Lines with fewer numbers than a point may be titles, so they count only if there are
+    // no others.
+    for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
+        if (const auto format = formatOfRows(lines, least)) return *format;
     }
-    if (semicolons) return {';', DecimalMark::comma};
-    if (commas && !decimalCommas) return {','};
-    return {tabs ? '\t' : ' ', decimalCommas ? DecimalMark::comma : DecimalMark::point};
+    return {};
 }
 
 void split(std::string_view line, char separator, TableRow& row) {

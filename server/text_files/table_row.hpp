@@ -20,15 +20,15 @@ struct TableLine {
 /// The lines of a text file, one after the other.
 class TableLines {
   public:
-    /// The text must outlive the lines. Its first line has the number `firstNumber`.
-    TableLines(std::string_view text, std::size_t firstNumber) : rest_(text), number_(firstNumber) {}
+    /// The text must outlive the lines.
+    explicit TableLines(std::string_view text) : rest_(text) {}
 
     /// Returns the next line, or nothing at the end of the text.
     std::optional<TableLine> next();
 
   private:
     std::string_view rest_;
-    std::size_t number_;
+    std::size_t number_ = 1;
 };
 
 /// How the columns of a table are separated, and its numbers written.

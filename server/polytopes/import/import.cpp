@@ -37,6 +37,22 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
+// Throws a FileError if a 2-face of the file has fewer than three different vertices. repair() leaves such 2-faces out,
+// which is wrong if one of their vertices is mistaken.
+void checkCorners(const PolygonSoup& soup) {
+    std::vector<std::uint32_t> list;
+    for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+        list.assign(soup.faces[f].begin(), soup.faces[f].end());
+        std::sort(list.begin(), list.end());
+        const auto different = std::unique(list.begin(), list.end()) - list.begin();
+        if (different < 3) {
+            throwFileError(soup.faceSourcePositions[f].line,
+                           "2-face " + std::to_string(soup.faceSourcePositions[f].number) + " has only " +
+                               std::to_string(different) + " different " + (different == 1 ? "vertex" : "vertices"));
+        }
+    }
+}
+
 // Moves the origin of the coordinates to the center, which is returned.
 glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
     const glm::dvec4 center = geometry::centerFor(centering, points);
@@ -87,20 +103,31 @@ Built repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::s
     return result;
 }
 
+Built buildOff4(const PolygonSoup& soup, const std::string& name, const geometry::Centering& centering) {
+    checkCells(soup);
+    try {
+        return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
+    } catch (const FileError&) {
+        // Coinciding vertices may belong to different components of a compound: try again without merging them.
+        try {
+            return repairAndBuild(soup, -1, name, centering);
+        } catch (const FileError&) {
+        }
+        checkCorners(soup);
+        throw;
+    }
+}
+
 Imported importOff4(std::string_view text, const std::string& name, const ImportLimits& limits,
                     const geometry::Centering& centering) {
-    const auto [soup, edges] = readOff4(text, limits.maxVertices);
-    checkCells(soup);
-
-    auto [result, divided] = [&soup = soup, &name, &centering] {
+    const auto [soup, edges, shortRecord] = readOff4(text, limits.maxVertices);
+    if (soup.cells.size() == 0)
+        throwFileError(0, "the file lists no cells; its points can be loaded as a list of points");
+    auto [result, divided] = [&soup = soup, &shortRecord = shortRecord, &name, &centering] {
         try {
-            return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
+            return buildOff4(soup, name, centering);
         } catch (const FileError&) {
-            // Coinciding vertices may belong to different components of a compound: try again without merging them.
-            try {
-                return repairAndBuild(soup, -1, name, centering);
-            } catch (const FileError&) {
-            }
+            if (shortRecord) throw FileError(*shortRecord);
             throw;
         }
     }();
@@ -111,25 +138,30 @@ Imported importOff4(std::string_view text, const std::string& name, const Import
     return std::move(result);
 }
 
-// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers are
-// treated as exact, unless treating them as rounded gives a hull without ambiguous ridges that has at most half as many
-// cells, as for a polytope that was scaled and then rounded to whole numbers.
+// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
+// numbers of few decimals, are treated as exact, unless treating them as rounded gives a hull without ambiguous ridges
+// that has at most half as many cells, as for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    const glm::dvec4 rounding = precision.maxRoundingError(halfDiagonal(points));
-    if (!precision.whole() || rounding == glm::dvec4(0)) return convexHull(points, rounding, maxCells);
-    Hull exact = convexHull(points, glm::dvec4(0), maxCells), rounded;
+    // If the units of the last digit are larger, the cells of a rounded polytope are not flat enough to remain whole.
+    constexpr double kMinUnits = 0.5 / kFlatInFile;
+    const double size = halfDiagonal(points);
+    const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
+    if (!precision.whole() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);
+    Hull exact = convexHull(points, glm::dvec4(0), maxCells), coarse;
+    if (size < kMinUnits * 2 * std::max({rounded.x, rounded.y, rounded.z, rounded.w})) return exact;
     try {
-        rounded = convexHull(points, rounding, maxCells);
+        coarse = convexHull(points, rounded, maxCells);
     } catch (const FileError&) {
         return exact;
     }
-    if (rounded.ambiguousRidges > 0 || rounded.cells.size() == exact.cells.size()) return exact;
-    const bool round = 2 * rounded.cells.size() <= exact.cells.size();
-    warnings.push_back(std::string("the coordinates are whole numbers and were treated as ") +
-                       (round ? "rounded" : "exact") + ": the hull has " + std::to_string(rounded.cells.size()) +
+    if (coarse.ambiguousRidges > 0 || coarse.cells.size() == exact.cells.size()) return exact;
+    const bool round = 2 * coarse.cells.size() <= exact.cells.size();
+    warnings.push_back(std::string("the coordinates ") +
+                       (precision.whole() ? "are whole numbers" : "have few decimals") + " and were treated as " +
+                       (round ? "rounded" : "exact") + ": the hull has " + std::to_string(coarse.cells.size()) +
                        " cells if they are rounded, " + std::to_string(exact.cells.size()) + " if they are exact");
-    return round ? std::move(rounded) : std::move(exact);
+    return round ? std::move(coarse) : std::move(exact);
 }
 
 Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits,

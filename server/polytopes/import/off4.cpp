@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,16 +97,29 @@ struct Noun {
     std::string one, many;
 };
 
-// Whether the records of a kind begin on lines of their own.
-enum class Layout { lines, continuous };
+// Whether the records of a kind begin on lines of their own, and whether they also end there.
+enum class Layout { lines, continuous, ownLines };
+
+// Returns the next word of a record, which may be on a further line unless the record has a line of its own. Throws a
+// FileError if such a line ends before: `record` has `found` of its words.
+std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& record, std::uint32_t found,
+                        std::uint32_t needed, const char* members) {
+    if (layout != Layout::ownLines) return file.next();
+    const std::string_view word = file.nextOnLine();
+    if (word.empty())
+        throwFileError(file.line(),
+                       record + " has " + std::to_string(found) + " of " + std::to_string(needed) + ' ' + members);
+    return word;
+}
 
 void readVertices(Tokenizer& file, const Header& header, Layout layout, std::vector<glm::dvec4>& vertices) {
     vertices.resize(header.vertices);
-    for (glm::dvec4& v : vertices) {
-        if (layout == Layout::lines) file.skipLine();
+    for (std::size_t n = 0; n < vertices.size(); ++n) {
+        if (layout != Layout::continuous) file.skipLine();
         for (int i = 0; i < 4; ++i) {
-            const auto word = file.next();
-            v[i] = parseCoordinate(word, file.line());
+            const auto word =
+                i == 0 ? file.next() : nextOf(file, layout, "vertex " + std::to_string(n), i, 4, "coordinates");
+            vertices[n][i] = parseCoordinate(word, file.line());
         }
         for (int i = 4; layout == Layout::continuous && i < header.vertexNumbers; ++i) {
             const auto word = file.next();
@@ -122,7 +136,7 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
     lists.begin.reserve(std::size_t{records} + 1);
     std::vector<std::uint32_t> list;
     for (std::uint32_t i = 0; i < records; ++i) {
-        if (layout == Layout::lines) file.skipLine();
+        if (layout != Layout::continuous) file.skipLine();
         const std::string owner = what + " " + std::to_string(i);
         const auto first = file.next();
         if (first.empty())
@@ -136,7 +150,7 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
         }
         list.clear();
         for (std::uint32_t j = 0; j < size; ++j) {
-            const auto word = file.next();
+            const auto word = nextOf(file, layout, owner, j, size, member.many.c_str());
             const std::uint32_t index = parseCount(word, file.line(), "the number of a " + member.one);
             if (index >= below) {
                 throwFileError(file.line(), owner + " refers to " + member.one + ' ' + std::to_string(index) +
@@ -160,10 +174,28 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& lay
               soup.faceSourcePositions);
     readLists(file, layouts[2], header.cells, header.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells,
               soup.cellSourcePositions);
-    if (layouts[2] == Layout::lines) file.skipLine();
+    if (layouts[2] != Layout::continuous) file.skipLine();
     if (const auto rest = file.next(); !rest.empty())
         throwFileError(file.line(), inQuotes(rest) + " follows the last cell");
     return soup;
+}
+
+// Returns the fault of the first record that does not fit its line, if the file has as many lines as records. Such a
+// record takes words of the next line, so that a later record seems to be wrong. `file` is a copy, which begins after
+// the header.
+std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
+    const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
+    Tokenizer counted = file;
+    if (!counted.nextOnLine().empty()) return {};
+    std::size_t lines = 0;
+    for (; lines <= records && !counted.next().empty(); ++lines) counted.skipLine();
+    if (lines != records) return {};
+    try {
+        readRecords(file, header, {Layout::ownLines, Layout::ownLines, Layout::ownLines});
+    } catch (const FileError& fault) {
+        return fault;
+    }
+    return {};
 }
 
 }  // namespace
@@ -179,19 +211,21 @@ Off4 readOff4(std::string_view text, std::size_t maxVertices) {
     if (header.vertices * kVertexBytes + header.faces * kFaceBytes + header.cells * kCellBytes > text.size() + 1)
         throwFileError(file.line(), "the file is too short for its numbers of vertices, 2-faces and cells");
     try {
-        return {readRecords(file, header, {Layout::lines, Layout::lines, Layout::lines}), header.edges};
+        return {readRecords(file, header, {Layout::lines, Layout::lines, Layout::lines}), header.edges, {}};
     } catch (const FileError&) {
+        const auto shortRecord = shortRecordOf(file, header);
         for (const Layout vertices : {Layout::continuous, Layout::lines}) {
             for (const Layout faces : {Layout::lines, Layout::continuous}) {
                 for (const Layout cells : {Layout::lines, Layout::continuous}) {
                     try {
-                        return {readRecords(file, header, {vertices, faces, cells}), header.edges};
+                        return {readRecords(file, header, {vertices, faces, cells}), header.edges, shortRecord};
                     } catch (const FileError&) {
                         continue;
                     }
                 }
             }
         }
+        if (shortRecord) throw FileError(*shortRecord);
         throw;
     }
 }

@@ -10,26 +10,33 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Nine significant digits tell any two single-precision numbers apart (IEEE 754, 5.12.2).
-constexpr int kSingleDigits = 9;
-constexpr double kSingleRounding = 0x1p-24;  // the maximum rounding error of single precision, relative to the number
+constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
+constexpr int kMinSingleExponent = -149;     // the least exponent of two of its last bit
+constexpr double kSingleRounding = 0x1p-24;  // its maximum rounding error, relative to the number
+// Numbers that are not single-precision numbers are taken for them with a probability of 2 to the power of −this.
+constexpr double kSingleEvidence = 10;
 constexpr double kMaxExactUnits = 400;  // coordinates are exact if their size is at most this many last-digit units
+
+constexpr int kMaxExponent = 10'000;  // exponents beyond are limited to it
 
 // The precision of a single number.
 struct Digits {
     int significant = 0;  // the number of digits from the first nonzero digit to the last digit written
     int last = 0;         // the exponent of ten of the last digit written
+    int lastNonzero = 0;  // the exponent of ten of the last digit other than 0
     bool whole = true;
 };
 
 Digits digitsOf(std::string_view word) {
     Digits result;
     bool decimals = false;
+    int zeros = 0;  // the number of zeros at the end
     const std::size_t end = std::min(word.find_first_of("eE"), word.size());
     for (const char c : word.substr(0, end)) {
         if (c == '.') decimals = true;
         if (c < '0' || c > '9') continue;
         if (result.significant > 0 || c != '0') ++result.significant;
+        zeros = c == '0' ? zeros + 1 : 0;
         if (decimals) --result.last;
     }
     result.whole = !decimals && end == word.size();
@@ -38,17 +45,15 @@ Digits digitsOf(std::string_view word) {
         if (word.starts_with('+')) word.remove_prefix(1);
         int exponent = 0;
         std::from_chars(word.data(), word.data() + word.size(), exponent);
-        result.last += exponent;
+        result.last += std::clamp(exponent, -kMaxExponent, kMaxExponent);
     }
+    result.lastNonzero = result.last + zeros;
     return result;
 }
 
-// Returns whether the number is a single-precision number that was written with these digits.
-bool isSingle(const Digits& digits, double value) {
-    const double nearest = static_cast<float>(value);
-    if (digits.significant <= kSingleDigits) return nearest == value;
-    const double error = 0.5 * std::pow(10.0, digits.last) + std::numeric_limits<double>::epsilon() * std::abs(value);
-    return std::abs(nearest - value) <= error;
+// Returns the distance from a number to the next one of single precision.
+double singleSpacing(double value) {
+    return std::ldexp(1.0, std::max(std::ilogb(value) + 1 - kSingleBits, kMinSingleExponent));
 }
 
 }  // namespace
@@ -58,23 +63,44 @@ void WrittenPrecision::add(std::string_view word, int axis, double value) {
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
     if (digits.significant == 0) return;  // a zero does not show how it was rounded
-    single_ = single_ && isSingle(digits, value);
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
+    if (single_ && value != 0) addSingle(digits.last, digits.lastNonzero, axis, value);
 }
 
-glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
+void WrittenPrecision::addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value) {
+    const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
+    single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
+    fromSingle_[axis] = std::max(fromSingle_[axis], away);
+    // Of the decimals of this length, this part is next to a single-precision number. Zeros at the end do not count: a
+    // number such as 0.50000000 is both a single-precision number and a short decimal.
+    const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
+    if (part < 1) singleEvidence_ -= std::log2(part);
+}
+
+glm::dvec4 WrittenPrecision::unit() const {
     if (digits_ == 0) return glm::dvec4(0);
-    if (single_ && digits_ > kSingleDigits) return largest_ * kSingleRounding;
     glm::dvec4 unit(0);
-    double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 4; ++axis) {
         double place = lastPlace_;
         if (largest_[axis] > 0) place = std::max(place, std::floor(std::log10(largest_[axis])) + 1 - digits_);
         unit[axis] = std::pow(10.0, place);
-        least = std::min(least, unit[axis]);
     }
-    return size <= kMaxExactUnits * least ? glm::dvec4(0) : unit / 2.0;
+    return unit;
+}
+
+glm::dvec4 WrittenPrecision::roundingErrorIfRounded() const {
+    // The shortest digits that tell a single-precision number from the next may be farther from it than half a unit of
+    // the longest numbers.
+    if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
+        return largest_ * kSingleRounding + glm::max(unit() / 2.0, fromSingle_);
+    return unit() / 2.0;
+}
+
+glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
+    const glm::dvec4 last = unit();
+    const bool exact = size <= kMaxExactUnits * std::min({last.x, last.y, last.z, last.w});
+    return exact ? glm::dvec4(0) : roundingErrorIfRounded();
 }
 
 }  // namespace oval4d::polytopes

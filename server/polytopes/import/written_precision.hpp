@@ -13,30 +13,39 @@ namespace oval4d::polytopes {
 /// last digit before trailing zeros were omitted is estimated in two ways: from the maximum number of decimals in the
 /// file, and from the maximum number of significant digits. The larger estimate is used.
 ///
-/// Single-precision numbers are often written with more digits than they have, such as 0.1 as 1.000000014901161194e-01.
-/// If every coordinate is a single-precision number to the digits written, and some have more digits than a
-/// single-precision number needs, all are taken as rounded to single precision (IEEE 754 binary32).
+/// Single-precision numbers (IEEE 754 binary32) are often written with more digits than they have, such as 0.1 as
+/// 0.100000001. All coordinates are taken as rounded to single precision if each has a single-precision number within
+/// half a unit of its last digit, and this is hardly a coincidence: decimals with as many digits would have one with a
+/// probability of at most 2⁻¹⁰. Whole numbers are never taken so.
 class WrittenPrecision {
   public:
     /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedNumber::text) and as a number.
     void add(std::string_view word, int axis, double value);
 
-    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit, or of the
-    /// last bit of the largest coordinate in single precision. `size` is
-    /// half the diagonal of the points' bounding box. If it is at most 400 units of the last digit, the coordinates
-    /// count as exact, and the result is 0 for all axes: programs hardly ever round so coarsely, so that coordinates
-    /// such as 0.5 and 10.5 are probably exact.
+    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit; in single
+    /// precision, also half the unit of the last bit of the largest coordinate. `size` is half the diagonal of the
+    /// points' bounding box. If it is at most 400 units of the last digit, the coordinates count as exact, and the
+    /// result is 0 for all axes: programs hardly ever round so coarsely, so that coordinates such as 0.5 and 10.5 are
+    /// probably exact.
     glm::dvec4 maxRoundingError(double size) const;
+
+    /// Returns maxRoundingError() of coordinates that do not count as exact, whatever their size.
+    glm::dvec4 roundingErrorIfRounded() const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
     bool whole() const { return whole_; }
 
   private:
+    glm::dvec4 unit() const;  // per axis: the unit of the last digit
+    void addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value);
+
     glm::dvec4 largest_{0};                            // per axis: the largest absolute value of a coordinate
     int digits_ = 0;                                   // the maximum number of significant digits
     int lastPlace_ = std::numeric_limits<int>::max();  // the least exponent of ten of any last digit
     bool whole_ = true;
-    bool single_ = true;  // whether every coordinate is a single-precision number
+    bool single_ = true;         // whether every coordinate is a single-precision number, to the digits written
+    glm::dvec4 fromSingle_{0};   // per axis: the largest distance of a coordinate from a single-precision number
+    double singleEvidence_ = 0;  // decimals with as many digits would be so by coincidence with probability 2^−this
 };
 
 }  // namespace oval4d::polytopes

@@ -76,6 +76,10 @@ TEST(Load, TheFirstWordTellsTheFormat) {
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(slicing::elementCounts(read->object)[0], 2U);
     }
+    const auto ordered = readObject({"two points", "cloud", "# w x y z\nCLOUD\n4 1 2 3\n-4 -1 -2 -3\n"}, Limits{});
+    ASSERT_TRUE(ordered) << ordered.error().message;
+    const auto& cloud = std::get<std::shared_ptr<const geometry::PointCloud>>(ordered->object);
+    EXPECT_EQ(cloud->points[0], glm::dvec4(1, 2, 3, 4));
     const auto wrong = readObject({"two points", "points", "CLOUD\n1 0 0 0\n"}, Limits{});
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().code, ErrorCode::bad_polytope);

@@ -59,6 +59,68 @@ TEST(Columns, FollowTheHeader) {
     EXPECT_EQ(read("x y z w\n1 2 3\n"), "line 2: the row has 3 columns, but the header names 4");
 }
 
+// A column that a header leaves out may be text, with any separator.
+TEST(Columns, MayBeTextIfTheyAreLeftOut) {
+    const std::string said = std::string(kRow) + "these columns were left out: 'name'\n";
+    for (const char* row :
+         {"name,x,y,z,w\nH,.5,1,-2,3\n", "name;x;y;z;w\nH;.5;1;-2;3\n", "name;x;y;z;w\nH;0,5;1;-2;3\n",
+          "name\tx\ty\tz\tw\nH 2\t.5\t1\t-2\t3\n", "name\tx\ty\tz\tw\nH\t0,5\t1\t-2\t3\n",
+          "name x y z w\nH .5 1 -2 3\n", "name x y z w\nH 0,5 1 -2 3\n", "name,x,y,z,w\n\"H, O\",.5,1,-2,3\n",
+          "name x y z w\n\"H, O\" .5 1 -2 3\n", "name;x;y;z;w\n\"H;O\";0,5;1;-2;3\n",
+          "name,x,y,z,w\nHydrogen atom number 1,.5,1,-2,3\n", "name,x,y,z,w\n2024-01-01,.5,1,-2,3\n",
+          "x,y,z,w,name\n.5,1,-2,3,\"a, b\"\n"})
+        EXPECT_EQ(read(row), said) << row;
+    EXPECT_EQ(read("name,x,y,z,w\nH,1,0,0\n"), "line 2: the row has 4 columns, but the header names 5");
+    EXPECT_EQ(read("H,1,0,0,0\n"), "line 1, column 1: 'H' is not a number");
+    EXPECT_EQ(read("Results of the run, in mm\n.5 1 -2 3\n"),
+              std::string(kRow) + "line 1, 'Results of the run, in mm', has no numbers and was left out\n");
+}
+
+TEST(Columns, MayBeNamedByAComment) {
+    for (const char* comment : {"# w x y z", "# w, x, y, z", "# columns: w x y z", "# columns w x y z",
+                                "# (w, x, y, z)", "# columns = (w,x,y,z)", "# w x y z\n# another comment",
+                                "# w x y z\n\n", "# a comment\n# w x y z\n\n# x y z", "# t[s] x[m] y[m] z[m]"})
+        EXPECT_EQ(read(std::string(comment) + "\n3 .5 1 -2\n"), kRow) << comment;
+    for (const char* comment : {"# columns x y z w of run", "# x y z w", "# the points x y z w and others", "# x"})
+        EXPECT_EQ(read(std::string(comment) + "\n.5 1 -2 3\n"), kRow) << comment;
+    EXPECT_EQ(read("# sorted by w x y z\n.5 1 -2 3\n"),
+              std::string(kRow) +
+                  "the comment in line 1 does not name each column of the rows, and was not read as a header\n");
+    EXPECT_EQ(read("# x y z w name\n.5 1 -2 3 H\n"), std::string(kRow) + "these columns were left out: 'name'\n");
+}
+
+TEST(Columns, AreNamedWithOrWithoutUnits) {
+    for (const char* header :
+         {"t[s],x[m],y[m],z[m]", "t [s],x [m],y [m],z [m]", "t (s), x (m), y (m), z (m)", "t [s] x [m] y [m] z [m]",
+          "t [m / s] x y z", "t/s;x/m;y/m;z/m", "\"w [m]\",x,y,z", "w(mm)\tx(mm)\ty(mm)\tz(mm)"})
+        EXPECT_EQ(read(std::string(header) + "\n3,.5,1,-2\n"), kRow) << header;
+    EXPECT_EQ(read("x[m] y[m] z[m] w[m] r[m]\n.5 1 -2 3 .1\n"), "0.5 1.0 -2.0 3.0 r 0.1\n");
+    for (const char* header : {"2theta x y z w", "2theta,x,y,z,w", "2theta [deg] x y z w"})
+        EXPECT_EQ(read(std::string(header) + "\n9 .5 1 -2 3\n").substr(0, 23), kRow) << header;
+    EXPECT_EQ(read("1x 2x 3x 4x\n1 2 3 4\n"), "line 1, column 1: '1x' is not a number");
+}
+
+TEST(Columns, MayLackTheRadiusUnderAHeaderToo) {
+    const std::string both = "0.5 1.0 -2.0 3.0 r 0.1\n" + std::string(kRow);
+    for (const char* header : {"x y z w r", "x,y,z,w,radius", "# x y z w r"}) {
+        EXPECT_EQ(read(std::string(header) + "\n.5 1 -2 3 .1\n.5 1 -2 3\n"), both) << header;
+        EXPECT_EQ(read(std::string(header) + "\n.5 1 -2 3\n"), kRow) << header;
+    }
+    EXPECT_EQ(read("r x y z w\n.1 .5 1 -2 3\n.5 1 -2 3\n"), "line 3: the row has 4 columns, but the header names 5");
+    EXPECT_EQ(read("x,y,z,w,r\n.5,1,-2,3,.1\n.5,1,-2,3\n"), "line 3: the row has 4 columns, but the header names 5");
+    EXPECT_EQ(read("x y z w r\n.5 1 -2 3 .1\n.5 1 -2\n"), "line 3: the row has 3 columns, but the header names 5");
+}
+
+TEST(Columns, AreSeparatedByBlanksEvenIfAWordHasAComma) {
+    EXPECT_EQ(read("1 0 0 0\n0 1,5m 1 0\n"), "line 2, column 2: '1,5m' is not a number");
+    EXPECT_EQ(read("name x y z w\na,b .5 1 -2 3\n"), std::string(kRow) + "these columns were left out: 'name'\n");
+}
+
+TEST(Columns, WithBracketsAreNotTakenForDecimalCommas) {
+    EXPECT_EQ(read("(1, 0, 0, 0)\n"), "line 1, column 1: '(1' is not a number");
+    EXPECT_EQ(read("[1, 0, 0, 0],\n[0, 1, 0, 0]\n"), "line 1, column 1: '[1' is not a number");
+}
+
 TEST(Columns, AreRefusedWithLineAndColumn) {
     EXPECT_EQ(read("1,2,3,4\n1,,3,4\n"), "line 2, column 2: the column is empty");
     EXPECT_EQ(read("1\t2\t3\t4\n1\t\t3\t4\n"), "line 2, column 2: the column is empty");
@@ -115,6 +177,22 @@ TEST(Numbers, TooSmallForADoubleAreZero) {
         EXPECT_EQ(read(std::string(number) + " 1 2 3"), read("0 1 2 3")) << number;
 }
 
+TEST(Numbers, BeyondTheRangeOfADoubleAreToldFromZero) {
+    const std::string zeros(400, '0');
+    for (const std::string& number :
+         {"0." + zeros + "1", "." + zeros + "1e50", "-0." + zeros + "5e+2", "1" + zeros + "e-900"})
+        EXPECT_EQ(read(number + " 1 2 3"), read("0 1 2 3")) << number;
+    for (const std::string& number : {"1" + zeros, "1" + zeros + "e-5", "1" + zeros + ".5", std::string("0.01e400"),
+                                      std::string("1e99999999999999999999")})
+        EXPECT_NE(read(number + " 1 2 3").find("is beyond ±1e14"), std::string::npos) << number;
+}
+
+TEST(Tables, WithoutRowsAreRefused) {
+    EXPECT_EQ(read("x,y,z,w\n"), "the table has a header, but no rows");
+    EXPECT_EQ(read("Some words\n"), "the file has no rows of numbers, so it is not a table of points");
+    EXPECT_EQ(read("# x y z w\n"), "the file has no rows of numbers, so it is not a table of points");
+}
+
 // Text that is not in UTF-8, and files that are not text.
 
 std::string utf16(const std::string& ascii, bool bigEndian, bool mark) {
@@ -129,6 +207,13 @@ TEST(PlainText, IsReadFromUtf16) {
     }
 }
 
+TEST(PlainText, HasOneKindOfSpace) {
+    for (const char* space : {"\u00A0", "\u2000", "\u2002", "\u2007", "\u2009", "\u200A", "\u200B", "\u202F", "\u205F",
+                              "\u3000", "\uFEFF", "\v", "\f"})
+        EXPECT_EQ(plainText("1" + std::string(space) + "2"), "1 2") << space;
+    EXPECT_EQ(plainText("\u2212\u201C\u3001\xE2\x80"), "\u2212\u201C\u3001\xE2\x80");
+}
+
 TEST(PlainText, IsNotMadeOfOtherFiles) {
     const auto refusal = [](const std::string& bytes) {
         try {
@@ -140,6 +225,10 @@ TEST(PlainText, IsNotMadeOfOtherFiles) {
     };
     EXPECT_EQ(refusal(""), "the file is empty");
     EXPECT_EQ(refusal(" \r\n\t"), "the file is empty");
+    EXPECT_EQ(refusal("<!DOCTYPE html>\n<p>1 2 3 4"), "the file is an HTML page");
+    EXPECT_EQ(refusal(" <svg width=\"3\">"), "the file is an SVG picture");
+    EXPECT_EQ(refusal("\xEF\xBB\xBF<?xml version=\"1.0\"?>"),
+              "the file is an XML file, such as an SVG picture or a VTK file");
     EXPECT_EQ(refusal("\x1F\x8B\x08"), "the file is compressed with gzip; unpack it first");
     EXPECT_EQ(refusal("\x89PNG\r\n\x1A\n"), "the file is a PNG picture");
     EXPECT_EQ(refusal(std::string("1 2 3 4") + '\0'), "the file is not text: byte 8 is zero");

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <set>
@@ -67,6 +69,13 @@ void expectTheSame(const char* name, const std::string& text, const std::string&
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
     EXPECT_EQ(warningsOf(imported), "") << name << ", " << how;
     EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name << ", " << how;
+}
+
+/// Like expectTheSame(), but allows for several types of cells.
+void expectTheCounts(const char* name, const std::string& text, const std::string& how) {
+    const Imported imported = sound(importPoints(text));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
+    EXPECT_EQ(warningsOf(imported), "") << name << ", " << how;
 }
 
 TEST(Hull, IsInvariantUnderTranslation) {
@@ -136,6 +145,27 @@ TEST(Hull, WarnsHowWholeNumbersAreTreated) {
     EXPECT_NE(warningsOf(imported).find("treated as rounded: the hull has 120 cells if they are rounded"),
               std::string::npos)
         << warningsOf(imported);
+}
+
+TEST(Hull, WarnsHowFewDecimalsAreTreated) {
+    std::mt19937 random(37);
+    for (int trial = 0; trial < 10; ++trial) {
+        const std::string text = formatted(turnedToSize1("24-cell", random), "%.*f", 2);
+        const Imported imported = sound(importPoints(text));
+        EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
+        EXPECT_NE(warningsOf(imported).find("the coordinates have few decimals and were treated as rounded: the hull "
+                                            "has 24 cells if they are rounded, "),
+                  std::string::npos)
+            << warningsOf(imported);
+    }
+    for (int trial = 0; trial < 100; ++trial) {
+        std::uniform_int_distribution<int> coordinate(-20 * (trial % 5 + 1), 20 * (trial % 5 + 1));
+        Points points(static_cast<std::size_t>(8 + trial % 70));
+        for (auto& p : points)
+            p = glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random)) / 4.0;
+        const Imported imported = sound(importPoints(asPoints(points)));
+        EXPECT_EQ(warningsOf(imported).find("treated as rounded"), std::string::npos) << warningsOf(imported);
+    }
 }
 
 // Checked in integer arithmetic: all points lie on one side of each cell's hyperplane, and the vertices of the hull in
@@ -346,6 +376,113 @@ TEST(Hull, CellTypesAreTheSameFarFromTheOrigin) {
     EXPECT_GT(cellTypes, 1U);
     for (auto& p : points) p += glm::dvec4(1e4, 0, -1e4, 5e3);
     EXPECT_EQ(sound(importPoints(asPoints(points))).polytope.cellTypes.size(), cellTypes);
+}
+
+/// A number in the fewest digits that tell it from the next of its type, as Python and C++ write it.
+template <class Number>
+std::string shortest(Number value) {
+    std::array<char, 64> digits{};
+    return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
+}
+
+/// The points, rounded to single precision, with the shortest digits.
+std::string shortestSingles(const Points& points) {
+    std::string text;
+    for (const auto& p : points) {
+        for (int i = 0; i < 4; ++i) text += shortest(static_cast<float>(p[i])) + (i == 3 ? '\n' : ' ');
+    }
+    return text;
+}
+
+// Numbers of single precision, with as many digits as programs write.
+TEST(Hull, OfSinglePrecisionNumbersIsThePolytope) {
+    std::mt19937 random(33);
+    constexpr std::array kNames{"8-cell", "24-cell", "120-cell", "600-cell", "3,6-duoprism", "rectified 5-cell"};
+    const std::array<std::pair<const char*, int>, 9> formats{{{"%.*g", 8},
+                                                              {"%.*g", 9},
+                                                              {"%.*g", 17},
+                                                              {"%.*e", 8},
+                                                              {"%.*e", 9},
+                                                              {"%.*f", 8},
+                                                              {"%.*f", 10},
+                                                              {"%.*f", 12},
+                                                              {"%.*e", 18}}};
+    for (const char* name : kNames) {
+        for (const double scale : {1e-3, 1.0, 1e3}) {
+            for (const double distance : {0.0, 3.0}) {
+                Points points = turnedToSize1(name, random);
+                const glm::dvec4 by = distance * randomDirection(random);
+                for (auto& p : points) p = glm::dvec4(glm::vec4(scale * (p + by)));
+                const std::string how = " at scale " + std::to_string(scale) + " by " + std::to_string(distance);
+                for (const auto& [format, digits] : formats)
+                    expectTheCounts(name, formatted(points, format, digits), format + std::to_string(digits) + how);
+                expectTheCounts(name, shortestSingles(points), "shortest" + how);
+            }
+        }
+    }
+}
+
+// A coordinate near 0 has fewer digits after a fixed point than single precision.
+TEST(Hull, OfSinglePrecisionNumbersMayHaveACoordinateNearZero) {
+    std::mt19937 random(34);
+    for (const double tiny : {1e-3, 1e-4, 1e-6, 1e-9}) {
+        Points points = turnedToSize1("8-cell", random);
+        for (const double by = tiny - points[0].y; auto& p : points) p.y += by;
+        for (auto& p : points) p = glm::dvec4(glm::vec4(p));
+        for (const int decimals : {8, 10, 12}) expectTheCounts("8-cell", formatted(points, "%.*f", decimals), "tiny");
+    }
+}
+
+// Two cells at an angle of 1e-5 are told apart in double precision, and are one cell in single precision.
+TEST(Hull, OfDoublesIsNotTakenForSinglePrecision) {
+    std::mt19937 random(35);
+    Points points = turnedToSize1("8-cell", random);
+    const Points corners = points;
+    glm::dvec4 middle(0);  // of a cell
+    const Polytope& cube = named("8-cell");
+    std::set<std::uint32_t> own;
+    for (const auto f : cube.cells[0]) own.insert(cube.faces[f].begin(), cube.faces[f].end());
+    for (const auto v : own) middle += corners[v] / static_cast<double>(own.size());
+    points.push_back(middle * (1 + 1e-7));
+    for (const int digits : {10, 12, 17}) {
+        // A pyramid on each of the six 2-faces of the cell takes its place.
+        EXPECT_EQ(sound(importPoints(formatted(points, "%.*f", digits))).polytope.cellCount(), 13U) << digits;
+    }
+    for (auto& p : points) p = glm::dvec4(glm::vec4(p));
+    for (const int digits : {10, 12, 17})
+        EXPECT_EQ(sound(importPoints(formatted(points, "%.*f", digits))).polytope.cellCount(), 8U) << digits;
+}
+
+TEST(WrittenPrecision, IsThatOfSinglePrecisionNumbers) {
+    std::mt19937 random(36);
+    std::uniform_real_distribution<double> uniform(0.5, 1);
+    const auto errorOf = [](const std::vector<std::string>& words, double size = 1) {
+        WrittenPrecision precision;
+        for (const std::string& word : words) precision.add(word, 0, std::strtod(word.c_str(), nullptr));
+        return precision.maxRoundingError(size).x;
+    };
+    const auto words = [&](bool single, const char* format, int digits) {
+        std::vector<std::string> result(40);
+        for (std::string& word : result) {
+            const double value = uniform(random);
+            std::array<char, 64> text{};
+            std::snprintf(text.data(), text.size(), format, digits, single ? static_cast<float>(value) : value);
+            word = text.data();
+        }
+        return result;
+    };
+    for (const int digits : {8, 9, 12, 17}) {
+        EXPECT_NEAR(errorOf(words(true, "%.*f", digits)), 0x1p-24, 1e-8) << digits;
+        EXPECT_LE(errorOf(words(false, "%.*f", digits)), 1e-8) << digits;
+    }
+    for (const bool single : {false, true}) {
+        for (const int digits : {3, 6, 7})
+            EXPECT_DOUBLE_EQ(errorOf(words(single, "%.*f", digits)), 0.5 * std::pow(10.0, -digits));
+    }
+    // Short decimals are numbers of any precision.
+    EXPECT_LE(errorOf({"0.500000000", "1.000000000", "0.250000000", "0.750000000"}), 1e-8);
+    EXPECT_EQ(errorOf({"0.5", "1", "-0.25"}), 0);
+    EXPECT_EQ(errorOf({"16777216", "33554432", "1234567168"}, 1e9), 0.5);
 }
 
 TEST(WrittenPrecision, IsHalfTheUnitOfTheLastDigit) {

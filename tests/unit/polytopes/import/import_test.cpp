@@ -105,18 +105,77 @@ INSTANTIATE_TEST_SUITE_P(
                     UnsoundFile{"1e0", "1e999", "'1e999' is beyond ±1e14", 5},
                     UnsoundFile{"1e0", "1e15", "'1e15' is beyond ±1e14", 5},
                     UnsoundFile{"3 0 1 2 ", "3 0 1 5 ", "2-face 0 refers to vertex 5, but the last is vertex 4", 10},
-                    UnsoundFile{"3 0 1 2 ", "3 0 1 1 ", "cell 0 has fewer than 4 2-faces", 20},
+                    UnsoundFile{"3 0 1 2 ", "3 0 1 1 ", "2-face 0 has only 2 different vertices", 10},
                     UnsoundFile{"3 0 1 2 ", "2 0 1 2 ", "has 2 vertices; 3 to 10 are allowed", 10},
                     UnsoundFile{"3 0 1 2 ", "3 0 -1 2 ", "'-1' is not the number of a vertex", 10},
                     UnsoundFile{"4 0 1 3 6 ", "4 0 1 3 10 ", "cell 0 refers to 2-face 10, but the last is 2-face 9",
                                 20},
                     UnsoundFile{"4 0 1 3 6 ", "3 0 1 3 6 ", "has 3 2-faces; 4 to 20 are allowed", 20},
                     UnsoundFile{"4 6 7 8 9\n", "", "the file ends before cell 4", 24},
-                    UnsoundFile{"4 6 7 8 9\n", "4 6 7 8", "the file ends where the number of a 2-face is expected", 24},
+                    UnsoundFile{"4 6 7 8 9\n", "4 6 7 8", "cell 4 has 3 of 4 2-faces", 24},
                     UnsoundFile{"4 6 7 8 9", "4 3 4 5 9", "2-face 3 lies in more than two cells", 13},
                     UnsoundFile{"4 6 7 8 9", "4 6 7 8 8", "cell 4 lists one of its 2-faces twice", 24},
                     UnsoundFile{"0 0 0 1.7888544", "0 0 0 -.4472136", "all vertices lie in one hyperplane", 0},
                     UnsoundFile{"4 6 7 8 9", "4 6 7 8 5", "cell 4 does not lie in a hyperplane", 24}));
+
+TEST(Import, NamesTheRecordThatIsTooShortForItsLine) {
+    for (const char* name : {"5-cell", "8-cell"}) {
+        const Polytope& p = named(name);
+        std::vector<std::string> lines;
+        std::istringstream text(asOff4(p));
+        for (std::string line; std::getline(text, line);) lines.push_back(line);
+        for (std::size_t at = 2; at < lines.size(); ++at) {
+            std::string shorter;
+            for (std::size_t i = 0; i < lines.size(); ++i)
+                shorter += (i == at ? lines[i].substr(0, lines[i].rfind(' ')) : lines[i]) + '\n';
+            std::size_t number = at - 2;
+            std::string record = "vertex ";
+            if (number >= p.vertices.size()) {
+                record = "2-face ";
+                number -= p.vertices.size();
+                if (number >= p.faces.size()) {
+                    record = "cell ";
+                    number -= p.faces.size();
+                }
+            }
+            record += std::to_string(number) + " has ";
+            const auto result = importOff4(shorter);
+            const auto* error = std::get_if<FileError>(&result);
+            ASSERT_TRUE(error) << lines[at];
+            EXPECT_EQ(error->reason.substr(0, record.size()), record) << error->reason;
+            EXPECT_EQ(error->line, at + 1) << error->reason;
+        }
+    }
+}
+
+TEST(Import, ReadsRecordsThatShareAndBreakLines) {
+    const Polytope& original = named("24-cell");
+    const std::string text = asOff4(original);
+    std::string together = text, apart = text;
+    const std::size_t header = text.find('\n', text.find('\n') + 1) + 1;
+    std::replace(together.begin() + static_cast<std::ptrdiff_t>(header), together.end(), '\n', ' ');
+    std::replace(apart.begin() + static_cast<std::ptrdiff_t>(header), apart.end(), ' ', '\n');
+    for (const std::string& each : {together, apart}) {
+        const Polytope p = sound(importOff4(each)).polytope;
+        EXPECT_EQ(p.vertices, original.vertices);
+        EXPECT_EQ(p.faces, original.faces);
+        EXPECT_EQ(p.cells, original.cells);
+    }
+}
+
+TEST(Import, SaysThatAFileListsNoCells) {
+    for (const char* text :
+         {"4OFF\n2 0 0 0\n1 2 3 4\n5 6 7 8\n", "4OFF\n5 1 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0\n3 0 1 2\n"})
+        EXPECT_EQ(reasonOf(importOff4(text)), "the file lists no cells; its points can be loaded as a list of points");
+}
+
+TEST(Import, SaysThatCoordinatesAreSeparatedByCommas) {
+    std::string text = asOff4(named("5-cell"));
+    text.replace(text.find('\n', text.find("5 10")) + 1, 0, "0, 0, 0, 0\n");
+    EXPECT_NE(reasonOf(importOff4(text)).find("'0,' ends with a comma; write blanks between numbers"),
+              std::string::npos)
+        << reasonOf(importOff4(text));
+}
 
 TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
     std::string text = asOff4(named("8-cell"));
