@@ -68,7 +68,11 @@ def _json(message):
     """Returns a message as JSON."""
     def plain(value):
         if hasattr(value, "tolist"):  # numpy's numbers and arrays
-            return value.tolist()
+            listed = value.tolist()
+            if not hasattr(listed, "tolist"):
+                return listed
+            if hasattr(listed, "is_integer"):  # numpy.longdouble, which is no number of Python
+                return float(listed)
         raise TypeError(f"a message cannot contain {value!r}")
 
     try:
@@ -76,8 +80,9 @@ def _json(message):
         text.encode("utf-8")
     except UnicodeEncodeError as error:
         raise ValueError(f"a message cannot contain the lone surrogate {error.object[error.start]!r}") from None
-    except ValueError:
-        raise ValueError(f"a message cannot contain numbers that are not finite: {message!r:.200}") from None
+    except ValueError as error:
+        fault = "a list or dict that contains itself" if "Circular" in str(error) else "numbers that are not finite"
+        raise ValueError(f"a message cannot contain {fault}: {message!r:.200}") from None
     return text
 
 

@@ -21,7 +21,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
     const auto viewport = valueOrThrow(pipeline::checkViewport({options.width, options.height}, {}));
-    const auto state = stateOf(queryOf(app.remaining()));
+    const auto state = stateOf(queryOf(app.remaining()), session::kPictureParameters);
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin);
     std::vector<std::uint8_t> png;
     pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,

@@ -13,6 +13,7 @@
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
 #include "session/settings.hpp"
+#include "text/message_text.hpp"
 #include "wire/parse.hpp"
 
 namespace oval4d {
@@ -37,12 +38,15 @@ session::QueryParameters queryOf(const std::vector<std::string>& words) {
 
 namespace {
 
-/// Removes an entry from a query, and returns its value; nothing if there is no such entry.
+/// Removes an entry from a query, and returns its value; nothing if there is no such entry. Throws std::runtime_error
+/// if there are several.
 std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
     const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
     if (found == query.end()) return {};
     std::string value = std::move(found->second);
     query.erase(found);
+    if (std::ranges::find(query, name, &session::QueryParameters::value_type::first) != query.end())
+        throw std::runtime_error("--" + std::string(name) + " is given twice");
     return value;
 }
 
@@ -53,7 +57,11 @@ bool isArray(const fields::FileContents& file) {
 /// Reads the object in a file. An array may be larger than the main memory. Removes the options of the object's kind
 /// from the query.
 Result<session::LoadedObject> readFile(const std::string& path, session::QueryParameters& query) {
-    const std::string name = std::filesystem::path(path).filename().string();
+    const std::string fileName = std::filesystem::path(path).filename().string();
+    const std::string name = session::nameForFile(fileName, session::Limits{});
+    if (name != fileName)
+        std::cerr << "oval4d: " << path << ": the object is called " << text::inQuotes(name)
+                  << " in pictures and files\n";
     const bool isFolder = std::filesystem::is_directory(path);
     const auto mapped = fields::FileContents::map(std::filesystem::path(path));
     if (isFolder || (mapped && isArray(*mapped))) {
@@ -111,12 +119,14 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
 
 }  // namespace
 
-session::State stateOf(session::QueryParameters query) {
+session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others) {
+    std::vector<std::string_view> known(others.begin(), others.end());
+    known.insert(known.end(), {"load", "axes", "variable", "values_variable", "center"});
     polytopes::PolytopeCache cache;
     session::ObjectLoader loader(session::Limits{}, cache);
     session::State state = session::initialState();
     if (const auto path = take(query, "load")) state = stateFromFile(*path, query, loader);
-    return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state)));
+    return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state), known));
 }
 
 void writeOutput(const std::string& path, std::string_view bytes) {

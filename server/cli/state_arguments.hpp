@@ -1,6 +1,7 @@
 #pragma once
 // Functions for the subcommands that write one file from a state given on the command line, without a server.
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -20,8 +21,9 @@ session::QueryParameters queryOf(const std::vector<std::string>& words);
 /// a picture or a state message, whose settings the rest of the query changes. If the file is an array, "axes", "box",
 /// "variable", "values" and "values_variable" say how to read it; if it is a polytope or a list of points, "center" is
 /// the point about which it turns. Prints warnings about the file to standard error.
+/// `others` are the names of the options that the caller has read, for the message about an unknown one.
 /// Throws std::runtime_error with a message for the user.
-session::State stateOf(session::QueryParameters query);
+session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
 template <typename T>

@@ -210,6 +210,7 @@ class Exporter {
         return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
                std::to_string(element_->index);
     }
+    bool isCloud() const { return std::holds_alternative<slicing::CloudPtr>(object_); }
     const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
 
     void refuseOtherContents() const {
@@ -254,7 +255,7 @@ class Exporter {
         for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
         const glm::dvec3 size = box.size();
         const double largest = std::max({size.x, size.y, size.z});
-        if (slices_.vertices.empty() || largest > kFewSteps * grid_.step()) return;
+        if (isCloud() || slices_.vertices.empty() || largest > kFewSteps * grid_.step()) return;
         throw ExportRefused{{ExportError::Cause::no_body,
                              message + ": the polytope is too small in comparison with its distance from the origin; "
                                        "load it with center=object"}};
@@ -267,12 +268,15 @@ class Exporter {
             least = std::min(least, v.w);
             most = std::max(most, v.w);
         }
-        std::string reach;
-        append(reach, origin().w + least);
-        reach += " to ";
-        append(reach, origin().w + most);
+        if (isCloud() && request_.body == Body::solid) {
+            throw ExportRefused{{ExportError::Cause::no_body,
+                                 "points have no volume; choose body=skeleton, whose balls are the points"}};
+        }
+        const std::string reach =
+            text::roundedDecimal(origin().w + least) + " to " + text::roundedDecimal(origin().w + most);
         const bool many = slices_.planes.count > 1;
         const bool isField = slicing::fieldIn(object_) != nullptr;
+        const std::string kind = isField ? "field" : isCloud() ? "points" : "polytope";
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
             message += wOf(0);
@@ -281,9 +285,9 @@ class Exporter {
         refuseTiny(message);
         const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
         throw ExportRefused{{ExportError::Cause::no_body,
-                             message + ": the " + (isField ? "box of the field" : "polytope") +
-                                 " extends from w = " + reach + "; " + (isField ? "change the levels, " : "") + advice +
-                                 " or turn the " + (isField ? "field" : "polytope")}};
+                             message + ": the " + (isField ? "box of the field" : kind) +
+                                 (isCloud() ? " extend" : " extends") + " from w = " + reach + "; " +
+                                 (isField ? "change the levels, " : "") + advice + " or turn the " + kind}};
     }
 
     const scene::Scene& scene_;

@@ -27,7 +27,6 @@ inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
 inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
-inline constexpr int kMaxFit = 100'001;  ///< the largest ExportRequest::fit, under any limit
 
 /// The options of an export. `body` and `label` apply only to formats with bodies, `size` to these and to drawings.
 struct ExportRequest {

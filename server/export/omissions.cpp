@@ -1,9 +1,9 @@
 #include "export/omissions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
+
+#include "text/message_text.hpp"
 
 namespace oval4d::exports {
 
@@ -16,9 +16,7 @@ std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<con
     out += slices.size() == 1 ? " is " : " are ";
     out += std::string(reason) + " and left out: w = ";
     for (std::size_t i = 0; i < std::min(slices.size(), kListed); ++i) {
-        std::array<char, 32> number{};
-        std::snprintf(number.data(), number.size(), "%.6g", planes.w(slices[i]) + origin + 0.0);  // 0, not -0
-        out += (i > 0 ? ", " : "") + std::string(number.data());
+        out += (i > 0 ? ", " : "") + text::roundedDecimal(planes.w(slices[i]) + origin);
     }
     if (slices.size() > kListed) out += " and " + std::to_string(slices.size() - kListed) + " more";
     return out;

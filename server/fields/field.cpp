@@ -52,7 +52,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
         constexpr double kFarthest = 1e30, kMinSize = 1e-30, kMinRelativeSize = 2e-5;
         const double farthest = std::max(std::abs(box.min[axis]), std::abs(box.max[axis]));
         if (!(farthest <= kFarthest) || !std::isfinite(half[axis]))
-            throw std::invalid_argument("the box must lie within -1e30 and 1e30");
+            throw std::invalid_argument("the box must lie within \u22121e30 and 1e30");
         if (half[axis] > 0 && (half[axis] < kMinSize || box.max[axis] - box.min[axis] < kMinRelativeSize * farthest)) {
             throw std::invalid_argument(std::string("the box is too small along ") + "xyzw"[axis] +
                                         " for its distance from 0: functions are evaluated with seven digits");

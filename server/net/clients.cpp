@@ -8,6 +8,7 @@
 
 #include "net/forwarded.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::net {
 
@@ -140,6 +141,8 @@ address Clients::clientAddress(std::string_view forwardedFor, const address& pro
         const std::size_t comma = forwardedFor.rfind(',');
         const std::size_t start = comma == std::string_view::npos ? 0 : comma + 1;
         const std::string_view entry = forwardedFor.substr(start);
+        forwardedFor = forwardedFor.substr(0, comma == std::string_view::npos ? 0 : comma);
+        if (text::trimmed(entry).empty()) continue;  // a list may have empty elements (RFC 9110, section 5.6.1.2)
         const auto before = forwardedAddress(entry);
         if (!before) {
             if (!warnedOfForwarded_.exchange(true))
@@ -148,7 +151,6 @@ address Clients::clientAddress(std::string_view forwardedFor, const address& pro
             break;
         }
         nearest = *before;
-        forwardedFor = forwardedFor.substr(0, comma == std::string_view::npos ? 0 : comma);
     }
     return nearest;
 }

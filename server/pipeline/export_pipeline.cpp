@@ -18,6 +18,7 @@
 #include "text/ascii.hpp"
 #include "text/choice.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::pipeline {
 
@@ -33,14 +34,24 @@ Result<std::monostate> choose(const std::string& name, const std::string& value,
                  name + " must be " + text::alternatives(text::namesOf(choices)) + ", not " + text::inQuotes(value)};
 }
 
-Result<std::monostate> takeSize(const std::string& text, double& size) {
+/// The bounds of the size of a file, in millimeters.
+struct SizeBounds {
+    double least, most;
+};
+SizeBounds sizeBoundsOf(const exports::Format& format) {
+    const bool isDrawing = format.writeDrawing != nullptr;
+    return isDrawing ? SizeBounds{exports::kMinDrawingSize, exports::kMaxDrawingSize}
+                     : SizeBounds{exports::kMinSize, exports::kMaxSize};
+}
+
+Result<std::monostate> takeSize(const std::string& text, const SizeBounds& bounds, double& size) {
     const char* const end = text.data() + text.size();
     double value = 0;
     const auto [stopped, fault] = std::from_chars(text.data(), end, value);
-    if (fault != std::errc{} || stopped != end || !(value >= exports::kMinSize && value <= exports::kMaxSize)) {
-        return Error{ErrorCode::out_of_range,
-                     "size must be a number of millimeters from " + text::shortestDecimal(exports::kMinSize) + " to " +
-                         text::shortestDecimal(exports::kMaxSize) + ", not " + text::inQuotes(text)};
+    if (fault != std::errc{} || stopped != end || !(value >= bounds.least && value <= bounds.most)) {
+        return Error{ErrorCode::out_of_range, "size must be from " + text::roundedDecimal(bounds.least) + " to " +
+                                                  text::roundedDecimal(bounds.most) + " millimeters, not " +
+                                                  text::inQuotes(text)};
     }
     size = value;
     return std::monostate{};
@@ -53,13 +64,16 @@ Result<std::monostate> takeAt(const std::string& text, std::vector<double>& at) 
     return std::monostate{};
 }
 
-Result<std::monostate> takeFit(const std::string& text, std::optional<int>& fit) {
+Error wrongFit(int maxSlices, const std::string& given) {
+    return {ErrorCode::out_of_range,
+            "fit must be a whole number of slices from 1 to " + std::to_string(maxSlices) + ", not " + given};
+}
+
+Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::optional<int>& fit) {
     const auto value = session::evaluate(text);
     if (!value) return Error{value.error().code, "fit: " + value.error().message};
-    if (*value != std::trunc(*value) || !(*value >= 1 && *value <= exports::kMaxFit)) {
-        return Error{ErrorCode::out_of_range, "fit must be a whole number of slices from 1 to " +
-                                                  std::to_string(exports::kMaxFit) + ", not " + text::inQuotes(text)};
-    }
+    if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
+        return wrongFit(maxSlices, text::roundedDecimal(*value));
     fit = static_cast<int>(*value);
     return std::monostate{};
 }
@@ -70,9 +84,8 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
     for (const double w : at) {
         if (std::abs(w - origin) <= reach) continue;
-        return Error{ErrorCode::out_of_range, "at must be from " + text::roundedDecimal(origin - reach) + " to " +
-                                                  text::roundedDecimal(origin + reach) + ", not " +
-                                                  text::roundedDecimal(w)};
+        return Error{ErrorCode::out_of_range,
+                     "at must be " + text::outsideBounds(origin - reach, origin + reach, "", w)};
     }
     std::vector<double> sorted = at;
     std::ranges::sort(sorted);
@@ -111,13 +124,16 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
         return Error{ErrorCode::bad_message, "at and fit choose slices, so the file must be of oval, not of " +
                                                  std::string(text::nameOf(exports::kExportContents, request.contents))};
     }
-    const std::size_t count = request.fit ? static_cast<std::size_t>(*request.fit) : request.at.size();
-    if (count > static_cast<std::size_t>(maxSlices)) {
-        return Error{ErrorCode::out_of_range, std::string(request.fit ? "fit" : "the number of values of at") +
-                                                  " must be at most " + std::to_string(maxSlices) + ", not " +
-                                                  std::to_string(count)};
+    if (request.fit) {
+        if (*request.fit < 1 || *request.fit > maxSlices)
+            return wrongFit(maxSlices, text::roundedDecimal(*request.fit));
+        return fittingHyperplanes(*request.fit, state);
     }
-    if (request.fit) return fittingHyperplanes(*request.fit, state);
+    if (request.at.size() > static_cast<std::size_t>(maxSlices)) {
+        return Error{ErrorCode::out_of_range, "the number of values of at must be at most " +
+                                                  std::to_string(maxSlices) + ", not " +
+                                                  std::to_string(request.at.size())};
+    }
     return hyperplanesAt(request.at, state);
 }
 
@@ -154,11 +170,10 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (!chosen) return chosen.error();
     const geometry::Hyperplanes& planes = *chosen;
     const bool drawing = request.format->writeDrawing != nullptr;
-    if (drawing && !(request.size >= exports::kMinDrawingSize && request.size <= exports::kMaxDrawingSize)) {
-        return Error{ErrorCode::out_of_range, "the size of a drawing must be from " +
-                                                  text::shortestDecimal(exports::kMinDrawingSize) + " to " +
-                                                  text::shortestDecimal(exports::kMaxDrawingSize) +
-                                                  " millimeters, not " + text::shortestDecimal(request.size)};
+    if (const auto [least, most] = sizeBoundsOf(*request.format); !(request.size >= least && request.size <= most)) {
+        return Error{ErrorCode::out_of_range, std::string("the size of a ") + (drawing ? "drawing" : "body") +
+                                                  " must be " +
+                                                  text::outsideBounds(least, most, " millimeters", request.size)};
     }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     std::optional<slicing::Element> element;  // that is exported alone
@@ -225,11 +240,13 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     return std::get<exports::ExportedFile>(std::move(made));
 }
 
-Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format) {
+Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
+                                                    int maxSlices) {
     exports::ExportRequest request = exports::requestFor(format);
     session::QueryParameters rest;
     bool hasContents = false;
-    for (auto& [name, value] : query) {
+    for (auto& [name, written] : query) {
+        const std::string value(text::trimmed(text::withPlainBlanks(written)));
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
             hasContents = true;
@@ -237,15 +254,15 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
         } else if (name == "at") {
             done = takeAt(value, request.at);
         } else if (name == "fit") {
-            done = takeFit(value, request.fit);
+            done = takeFit(value, maxSlices, request.fit);
         } else if (name == "body") {
             done = choose(name, value, exports::kBodies, request.body);
         } else if (name == "label") {
             done = choose(name, value, exports::kLabels, request.label);
         } else if (name == "size") {
-            done = takeSize(value, request.size);
+            done = takeSize(value, sizeBoundsOf(format), request.size);
         } else {
-            rest.emplace_back(std::move(name), std::move(value));
+            rest.emplace_back(std::move(name), std::move(written));
         }
         if (!done) return done.error();
     }

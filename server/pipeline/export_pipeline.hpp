@@ -14,16 +14,16 @@ namespace oval4d::pipeline {
 /// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
 /// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
 /// `out_of_range` for w in `at` that are equal or farther from the object's center than session::kMaxOffset
-/// circumradii, for more slices than ExportLimits::slices, and for the size of a drawing that is not from
-/// kMinDrawingSize to kMaxDrawingSize.
+/// circumradii, for more slices than ExportLimits::slices, and for the size of a body or a drawing outside its bounds.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});
 
 /// Removes the parameters "of", "body", "size", "label", "at" and "fit" from `query`, and returns the export request
 /// that they describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval".
-/// Errors: `bad_message` for an unknown value; `out_of_range` for a size or a number of slices that is not allowed;
-/// those of session::evaluateList(). The error messages list the allowed values.
-Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format);
+/// Errors: `bad_message` for an unknown value; `out_of_range` for a size, or a number of slices, that is not allowed;
+/// at most `maxSlices` are; those of session::evaluateList(). The error messages list the allowed values.
+Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
+                                                    int maxSlices);
 
 /// Returns a suggested file name: the name of the object, with unusual characters replaced by _, such as "24-cell.stl".
 std::string fileName(const session::State& state, const exports::ExportRequest& request);

@@ -11,6 +11,7 @@
 #include "session/load.hpp"
 #include "session/setting_text.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
@@ -31,6 +32,26 @@ Words split(std::string_view line) {
         if (end == std::string_view::npos) return words;
         line.remove_prefix(end);
     }
+}
+
+bool isUnit(std::string_view word) { return word == "°" || word == "deg" || word == "rad"; }
+
+// Joins the words that are written with blanks, but belong together: what follows a separator, and units, as in
+// "highlight=cell: 3" and "30 °". The words refer to one line.
+Words joinedWords(const Words& words, std::string_view separators) {
+    Words joined;
+    for (const std::string_view word : words) {
+        const bool continues =
+            !joined.empty() && (isUnit(word) || separators.find(joined.back().back()) != separators.npos ||
+                                separators.find(word.front()) != separators.npos);
+        if (continues) {
+            const char* const begin = joined.back().data();
+            joined.back() = {begin, static_cast<std::size_t>(word.data() + word.size() - begin)};
+        } else {
+            joined.push_back(word);
+        }
+    }
+    return joined;
 }
 
 Result<Command> oneSetting(std::string_view name, std::string_view value) {
@@ -61,19 +82,21 @@ Result<Command> setLine(std::string_view rest, const Words& words, const State& 
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
         return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
     Set set;
-    for (const std::string_view word : words) {
+    for (const std::string_view word : joinedWords(words, ",:=")) {
         const std::size_t equals = word.find('=');
         if (equals == std::string_view::npos) {
             return bad(
                 ErrorCode::bad_expression,
                 text::inQuotes(word) + " has no '='; write set name=value, without blanks, such as set slices=31");
         }
-        if (auto done = parseSetting(word.substr(0, equals), word.substr(equals + 1), set); !done) return done.error();
+        if (auto done = parseSetting(text::trimmed(word.substr(0, equals)), word.substr(equals + 1), set); !done)
+            return done.error();
     }
     return Command{set};
 }
 
-Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const State& state) {
+Result<Command> rotateLine(std::string_view /*rest*/, const Words& given, const State& state) {
+    const Words words = joinedWords(given, ",");
     if (words.empty())
         return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
     // If no angles are given, use those of the rotation keys.
@@ -201,7 +224,9 @@ constexpr auto kVerbs = std::to_array<Verb>(
 
 }  // namespace
 
-Result<Command> parseCommandLine(std::string_view line, const State& state) {
+Result<Command> parseCommandLine(std::string_view written, const State& state) {
+    const std::string plain = text::withPlainBlanks(written);
+    std::string_view line = plain;
     const auto trim = [&line] {
         const std::size_t first = line.find_first_not_of(" \t\r\n");
         line = first == std::string_view::npos ? std::string_view{}

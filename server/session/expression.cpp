@@ -19,15 +19,17 @@ namespace {
 struct Function {
     std::string_view name;
     double (*call)(double);
+    bool givesAngle = false;  // whether its value is an angle in radians
 };
-constexpr auto kFunctions = std::to_array<Function>({{"sqrt", [](double x) { return std::sqrt(x); }},
-                                                     {"sin", [](double x) { return std::sin(x); }},
-                                                     {"cos", [](double x) { return std::cos(x); }},
-                                                     {"tan", [](double x) { return std::tan(x); }},
-                                                     {"asin", [](double x) { return std::asin(x); }},
-                                                     {"acos", [](double x) { return std::acos(x); }},
-                                                     {"atan", [](double x) { return std::atan(x); }},
-                                                     {"deg", [](double x) { return x * std::numbers::pi / 180; }}});
+constexpr auto kFunctions =
+    std::to_array<Function>({{"sqrt", [](double x) { return std::sqrt(x); }},
+                             {"sin", [](double x) { return std::sin(x); }},
+                             {"cos", [](double x) { return std::cos(x); }},
+                             {"tan", [](double x) { return std::tan(x); }},
+                             {"asin", [](double x) { return std::asin(x); }, true},
+                             {"acos", [](double x) { return std::acos(x); }, true},
+                             {"atan", [](double x) { return std::atan(x); }, true},
+                             {"deg", [](double x) { return x * std::numbers::pi / 180; }, true}});
 constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
 // Unicode characters that are accepted in place of pi, phi and -.
@@ -39,11 +41,25 @@ constexpr int kMaxDepth = 64;
 using text::isDigit;
 using text::isLetter;
 
+// The value of a part of an expression, and what it says about units.
+struct Term {
+    double value = 0;          // without the unit
+    double plain = 0;          // the part of the value that consists of numbers without a unit
+    bool isPlain = false;      // whether this is all of it
+    bool hasUnit = false;      // whether a unit is in it
+    bool isInDegrees = false;  // whether this unit is degrees, and still to be applied
+    bool isInRadians = false;  // whether it is an angle without a unit, such as pi or atan(2)
+    bool isGroup = false;      // whether parentheses enclose it
+    std::size_t unitAt = 0;    // the position of the unit
+};
+
 // A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
 // catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
 //   angle = atom [unit]
-// A unit is an error where `units` is false, but for the argument of a function.
+// The unit of a factor or of an exponent is that of the whole product: people read 45/2° as 22.5°, not as 45 divided by
+// an angle. So a product has at most one unit. A unit is an error where `units` is false, but for the argument of a
+// function.
 class Parser {
   public:
     Parser(std::string_view text, bool units) : text_(text), units_(units) {}
@@ -53,91 +69,128 @@ class Parser {
         std::string what;
     };
 
-    double parse() {
-        const double value = sum();
+    Term parse() {
+        const Term term = sum();
         if (at_ != text_.size()) fail("an operator is expected" + hint());
-        return value;
+        return term;
     }
 
   private:
-    double sum() {
+    // Returns a sum, in radians if it has a unit.
+    Term sum() {
         const Depth deeper(*this);
-        double value = product();
+        Term total = inRadians(product());
         while (true) {
-            if (take("+")) {
-                value += product();
-            } else if (take("-") || take(kMinusSign)) {
-                value -= product();
-            } else {
-                return value;
-            }
+            const bool isDifference = take("-") || take(kMinusSign);
+            if (!isDifference && !take("+")) return total;
+            const Term term = inRadians(product());
+            const double sign = isDifference ? -1 : 1;
+            total.value += sign * term.value;
+            total.plain += sign * term.plain;
+            total.isPlain = total.isPlain && term.isPlain;
+            total.hasUnit = total.hasUnit || term.hasUnit;
+            total.isInRadians = total.isInRadians || term.isInRadians;
         }
     }
-    double product() {
-        double value = signedPower();
+    Term product() {
+        Term total = signedPower();
         while (true) {
-            if (take("*")) {
-                value *= signedPower();
-            } else if (take("/")) {
-                value /= signedPower();
-            } else {
-                return value;
-            }
+            const bool isQuotient = take("/");
+            if (!isQuotient && !take("*")) return total;
+            const Term factor = signedPower();
+            if (isQuotient && factor.hasUnit && factor.isGroup)
+                failAt(factor.unitAt, "an angle cannot be divided by an angle, and neither can a number");
+            total = joined(total, factor, isQuotient ? total.value / factor.value : total.value * factor.value);
         }
     }
-    double signedPower() {
+    Term signedPower() {
         const Depth deeper(*this);
-        if (take("-") || take(kMinusSign)) return -signedPower();
+        if (take("-") || take(kMinusSign)) {
+            Term term = signedPower();
+            term.value = -term.value;
+            term.plain = -term.plain;
+            return term;
+        }
         if (take("+")) return signedPower();
-        const double base = angle();
-        return take("^") ? std::pow(base, signedPower()) : base;
+        const Term base = angle();
+        if (!take("^")) return base;
+        if (base.hasUnit) failAt(base.unitAt, "the power of an angle is no angle; write the unit after the exponent");
+        const Term exponent = signedPower();
+        return joined(base, exponent, std::pow(base.value, exponent.value));
     }
-    double angle() {
-        const double value = atom();
-        const std::size_t end = at_;
+    // Returns the product or power of two terms, of which at most one has a unit.
+    Term joined(const Term& a, const Term& b, double value) {
+        if (a.hasUnit && b.hasUnit)
+            failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
+        Term result = a.hasUnit ? a : b;
+        result.value = value;
+        result.isPlain = a.isPlain && b.isPlain;
+        result.plain = result.isPlain ? value : 0;
+        result.isInRadians = a.isInRadians || b.isInRadians;
+        result.isGroup = false;
+        return result;
+    }
+    // Applies the unit of a product.
+    Term inRadians(Term term) {
+        if (!term.isInDegrees) return term;
+        if (term.isInRadians) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
+        term.value *= std::numbers::pi / 180;
+        term.isInDegrees = false;
+        return term;
+    }
+    Term angle() {
+        Term term = atom();
+        skipBlanks();
+        const std::size_t start = at_;
         const bool isInDegrees = take("°") || takeWord("deg");
-        if (!isInDegrees && !takeWord("rad")) return value;
-        if (!units_) {
-            at_ = end;
-            fail("a number without a unit is expected, because it is not an angle");
-        }
-        return isInDegrees ? value * std::numbers::pi / 180 : value;
+        if (!isInDegrees && !takeWord("rad")) return term;
+        if (!units_) failAt(start, "a number without a unit is expected, because it is not an angle");
+        if (term.hasUnit) failAt(start, "the angle has a unit already");
+        term.unitAt = start;
+        term.plain = 0;
+        term.isPlain = false;
+        term.hasUnit = true;
+        term.isInDegrees = isInDegrees;
+        term.isGroup = false;
+        return term;
     }
-    double atom() {
+    Term atom() {
         if (take("(")) {
-            const double value = sum();
+            Term term = sum();
             if (!take(")")) fail("a ')' is missing");
-            return value;
+            term.isGroup = true;
+            return term;
         }
-        if (take(kPiLetter)) return std::numbers::pi;
-        if (take(kPhiLetter)) return std::numbers::phi;
+        if (take(kPiLetter)) return pi();
+        if (take(kPhiLetter)) return {.value = std::numbers::phi};
         skipBlanks();
         if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
         if (at_ < text_.size() && isLetter(text_[at_])) return named();
         fail("a number, a name or '(' is expected");
     }
-    double number() {
+    static Term pi() { return {.value = std::numbers::pi, .isInRadians = true}; }
+    Term number() {
         double value = 0;
         const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
         if (error == std::errc::result_out_of_range) fail("the number is too large or too small");
         if (error != std::errc{}) fail("a number is expected");
         at_ = static_cast<std::size_t>(end - text_.data());
-        return value;
+        return {.value = value, .plain = value, .isPlain = true};
     }
-    double named() {
+    Term named() {
         const std::size_t start = at_;
         while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
         const std::string_view name = text_.substr(start, at_ - start);
-        if (name == "pi") return std::numbers::pi;
-        if (name == "phi") return std::numbers::phi;
+        if (name == "pi") return pi();
+        if (name == "phi") return {.value = std::numbers::phi};
         for (const Function& function : kFunctions) {
             if (function.name != name) continue;
             if (!take("(")) fail("'(' is expected after " + std::string(name));
             const bool outside = std::exchange(units_, true);
-            const double value = function.call(sum());
+            const double value = function.call(sum().value);
             units_ = outside;
             if (!take(")")) fail("a ')' is missing");
-            return value;
+            return {.value = value, .isInRadians = function.givesAngle};
         }
         at_ = start;
         fail("nothing is called " + text::inQuotes(name) + text::didYouMean(name, kNames) + "; known names are " +
@@ -162,7 +215,10 @@ class Parser {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     }
     std::string hint() const { return isLetter(text_[at_]) || text_[at_] == '(' ? " (a product is written 2*pi)" : ""; }
-    [[noreturn]] void fail(std::string what) const { throw SyntaxError{at_, std::move(what)}; }
+    [[noreturn]] void fail(std::string what) const { failAt(at_, std::move(what)); }
+    [[noreturn]] static void failAt(std::size_t position, std::string what) {
+        throw SyntaxError{position, std::move(what)};
+    }
 
     struct Depth {
         explicit Depth(Parser& owner) : parser(owner) {
@@ -182,15 +238,16 @@ class Parser {
 
 Error bad(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
 
-Result<double> evaluated(std::string_view text, bool units) {
+Result<Term> evaluated(std::string_view given, bool units) {
+    const std::string text = text::withPlainBlanks(given);
     if (text.find_first_not_of(" \t") == std::string_view::npos)
         return bad("a number is expected, such as 0.2 or pi/8");
     if (text.size() > kMaxLength)
         return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
     try {
-        const double value = Parser(text, units).parse();
-        if (!std::isfinite(value)) return bad(text::inQuotes(text) + " is not a finite number");
-        return value;
+        const Term term = Parser(text, units).parse();
+        if (!std::isfinite(term.value)) return bad(text::inQuotes(text) + " is not a finite number");
+        return term;
     } catch (const Parser::SyntaxError& error) {
         return bad(text::inQuotes(text) + ", position " + std::to_string(error.position + 1) + ": " + error.what);
     }
@@ -198,7 +255,11 @@ Result<double> evaluated(std::string_view text, bool units) {
 
 }  // namespace
 
-Result<double> evaluate(std::string_view text) { return evaluated(text, false); }
+Result<double> evaluate(std::string_view text) {
+    const auto term = evaluated(text, false);
+    if (!term) return term.error();
+    return term->value;
+}
 
 Result<std::vector<double>> evaluateList(std::string_view text) {
     std::vector<double> list;
@@ -213,15 +274,14 @@ Result<std::vector<double>> evaluateList(std::string_view text) {
 }
 
 Result<double> evaluateAngle(std::string_view text) {
-    auto value = evaluated(text, true);
-    const bool isBareNumber = text.find_first_not_of(" \t+-.0123456789") == std::string_view::npos;
-    if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
-        const std::size_t first = text.find_first_not_of(" \t");
-        const std::string number(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
+    const auto term = evaluated(text, true);
+    if (!term) return term.error();
+    if (std::abs(term->plain) > 2 * std::numbers::pi) {
+        const std::string number = text::roundedDecimal(term->plain);
         return Error{ErrorCode::out_of_range,
                      number + " radians are more than a full turn; did you mean " + number + "°?"};
     }
-    return value;
+    return term->value;
 }
 
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
@@ -229,7 +289,8 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
     std::vector<std::string_view> names = text::splitAtCommas(planes);
     if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // which is no plane
     std::vector<geometry::Plane> named;
-    for (const std::string_view name : names) {
+    for (const std::string_view written : names) {
+        const std::string_view name = text::trimmed(written);
         const auto plane = geometry::planeNamed(name);
         if (!plane)
             return bad("no plane is called " + text::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");

@@ -19,8 +19,10 @@ Result<double> evaluate(std::string_view text);
 Result<std::vector<double>> evaluateList(std::string_view text);
 
 /// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may
-/// follow a number, name or parenthesis. Errors: those of evaluate(); `out_of_range` if `text` is a number without a
-/// unit and larger than a full turn, since degrees are probably meant.
+/// follow a number, name or parenthesis. A unit is that of the whole product in which it stands: 45/2° is 22.5°.
+/// Errors: those of evaluate(); `bad_expression` for a product with two units, and for degrees of an angle in radians,
+/// such as pi/8°; `out_of_range` if the expression consists of numbers without a unit, or adds them, and they exceed a
+/// full turn, since degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names different planes, such as "xw" or "xw,yz" (see geometry::Turn). `angles` must

@@ -17,6 +17,7 @@
 #include "geometry/point_cloud.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/import/import.hpp"
+#include "session/example_fields.hpp"
 #include "text/message_text.hpp"
 #include "text_files/file_error.hpp"
 #include "text_files/plain_text.hpp"
@@ -50,7 +51,7 @@ Error errorOf(const FileError& error) {
 void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
     if (wanted.kind != geometry::Centering::Kind::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
-    for (int axis = 0; axis < 4; ++axis) center += (axis == 0 ? "" : ", ") + text::shortestDecimal(originInFile[axis]);
+    for (int axis = 0; axis < 4; ++axis) center += (axis == 0 ? "" : ", ") + text::roundedDecimal(originInFile[axis]);
     warnings.push_back("the object is far from the origin: it turns about its center, (" + center +
                        "), where the middle of the slices is, too; the option center=origin keeps the origin");
 }
@@ -292,6 +293,24 @@ std::string_view detectFormat(std::string_view text) {
     } catch (const FileError&) {
         return "points";  // its reader says what the file is
     }
+}
+
+std::string nameForFile(std::string_view fileName, const Limits& limits) {
+    const std::string printable = text::printable(fileName, fileName.size());
+    std::string name;
+    std::size_t length = 0;
+    for (const char c : printable) {
+        // A longer name ends after a whole character.
+        if (characters({&c, 1}) == 1 && ++length > kMaxName) break;
+        name += c;
+    }
+    if (name.empty()) name = "object";
+    const auto isTaken = [&] {
+        return exampleNamed(name) != nullptr ||
+               std::holds_alternative<polytopes::Design>(polytopes::designNamed(name, limits.maxVertices));
+    };
+    while (isTaken()) name += " (file)";
+    return name;
 }
 
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {

@@ -78,6 +78,11 @@ std::string_view detectFormat(std::string_view text);
 /// `unsupported_format`.
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
 
+/// Returns a name that checkLoad() accepts, for the object in a file of this name: with other characters in place of
+/// those that names must not contain, and with an addition to a name of the catalogue or of an example field, under
+/// which a state would be restored with the object of that name.
+std::string nameForFile(std::string_view fileName, const Limits& limits);
+
 /// Returns whether the files of this format are arrays.
 bool isArrayFormat(std::string_view format);
 

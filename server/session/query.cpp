@@ -15,6 +15,7 @@
 #include "session/settings.hpp"
 #include "slicing/object.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
@@ -75,6 +76,22 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
     return numbers;
 }
 
+// Returns the error for a name that no query has, or only that of a picture or of a file.
+Error unknownName(std::string_view name, std::span<const std::string_view> others) {
+    const auto isIn = [&](std::span<const std::string_view> names) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    if (isIn(others)) return {ErrorCode::unknown_command, std::string(name) + " does not apply to this object"};
+    const auto refused = [&](std::string_view use) {
+        return Error{ErrorCode::unknown_command, std::string(name) + " is a parameter of " + std::string(use)};
+    };
+    if (isIn(kPictureParameters)) return refused("pictures, which are measured in pixels, and not of files");
+    if (isIn(kFileParameters)) return refused("files, and not of pictures");
+    std::vector<std::string_view> all{"rotate", "toward", "formula", "values", "box"};
+    all.insert(all.end(), others.begin(), others.end());
+    return unknownSetting(name, all);
+}
+
 }  // namespace
 
 Result<fields::Box> parseBox(std::string_view text) {
@@ -87,7 +104,8 @@ Result<fields::Box> parseBox(std::string_view text) {
     return box;
 }
 
-Result<geometry::Centering> parseCenter(std::string_view text) {
+Result<geometry::Centering> parseCenter(std::string_view given) {
+    const std::string_view text = text::trimmed(given);
     using Kind = geometry::Centering::Kind;
     if (text == "object") return geometry::Centering{Kind::object};
     if (text == "origin") return geometry::Centering{Kind::origin};
@@ -96,13 +114,15 @@ Result<geometry::Centering> parseCenter(std::string_view text) {
     return geometry::Centering{Kind::point, {(*place)[0], (*place)[1], (*place)[2], (*place)[3]}};
 }
 
-Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state) {
+Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state,
+                             std::span<const std::string_view> others) {
     // Settings are collected and applied together, so that a count and a spacing in either order give the same state.
     Set set;
     std::vector<geometry::Turn> turns;
     std::optional<TurnToward> toward;
     LoadObject field{std::string(kFormula), std::string(kFormula), {}};
-    for (const auto& [name, value] : query) {
+    for (const auto& [name, written] : query) {
+        const std::string value = text::withPlainBlanks(written);
         if (name == "rotate") {
             const auto turn = parseTurn(value);
             if (!turn) return turn.error();
@@ -128,9 +148,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
                 toward->index = *index;
             }
         } else if (auto done = parseSetting(name, value, set); !done) {
-            Error error = done.error();
-            if (error.code == ErrorCode::unknown_command) error.message += ", rotate, toward, formula, values, box";
-            return error;
+            return done.error().code == ErrorCode::unknown_command ? unknownName(name, others) : done.error();
         }
     }
     const auto has = [&](std::string_view wanted) {

@@ -1,6 +1,8 @@
 #pragma once
 // Converts names and values, from the query of an address or the options of `oval4d render`, to a state, and back.
 
+#include <array>
+#include <span>
 #include <string_view>
 
 #include "errors/error.hpp"
@@ -11,6 +13,11 @@
 #include "session/session.hpp"
 
 namespace oval4d::session {
+
+/// The names that the query of a picture, and that of a file, have beside those that describe the state. Their callers
+/// read and remove them.
+inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"width", "height"});
+inline constexpr auto kFileParameters = std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit"});
 
 /// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. Errors: `bad_expression` and
 /// those of evaluate().
@@ -23,10 +30,11 @@ Result<geometry::Centering> parseCenter(std::string_view text);
 /// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "rotate",
 /// which may occur any number of times; and "toward", such as "cell" or "cell:3". Rotations are applied in the order
 /// given, and "toward" after everything else. Settings that the query does not contain are those of `state`. `loader`
-/// provides the polytopes. Errors: `unknown_command` for an unknown name, with the allowed names; those of
+/// provides the polytopes. Errors: `unknown_command` for an unknown name, with the allowed names, among them `others`,
+/// which the caller has read and removed; those of
 /// parseSetting(), parseTurn(), checkTurn(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader,
-                             State state = initialState());
+                             State state = initialState(), std::span<const std::string_view> others = {});
 
 /// Returns a query that describes the view that a state shows: stateFromQuery() makes a state from it that shows the
 /// same, with the same settings. It contains no settings that are those of a new object, and neither the last rotation

@@ -55,9 +55,17 @@ bool isOperand(char c, char parenthesis) {
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;
 }
 
+/// Returns whether a text begins with the unit of an angle. The function deg() is not a unit.
+bool startsWithUnit(std::string_view text) {
+    if (text.starts_with("°")) return true;
+    constexpr std::size_t kLetters = 3;
+    if (!text.starts_with("deg") && !text.starts_with("rad")) return false;
+    return text.size() == kLetters || (!text::isLetter(text[kLetters]) && text[kLetters] != '(');
+}
+
 /// Decodes the value of a parameter. As in a form (application/x-www-form-urlencoded), "+" is a blank; but in
 /// arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, where a blank has no
-/// meaning. Returns nothing if an escape is malformed.
+/// meaning. Before a unit, as in "30 °", it is a blank. Returns nothing if an escape is malformed.
 std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
     const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
     std::string value;
@@ -67,7 +75,7 @@ std::optional<std::string> decodedValue(std::string_view written, const std::str
         if (!piece) return {};
         if (!isFirst) {
             const bool adds = isArithmetic && !value.empty() && isOperand(value.back(), ')') && !piece->empty() &&
-                              isOperand(piece->front(), '(');
+                              isOperand(piece->front(), '(') && !startsWithUnit(*piece);
             value += adds ? '+' : ' ';
         }
         value += *piece;

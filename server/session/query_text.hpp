@@ -12,9 +12,9 @@ namespace oval4d::session {
 /// The parameters of a query: pairs of names and values, in the order given. A name may occur more than once.
 using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
-/// Parses a query, without the question mark. Decodes percent escapes and, in the values, "+" as a blank unless it
-/// stands between two operands of arithmetic. Reads "&amp;" as "&", and escapes that were escaped again, as mailers and
-/// forums do. Leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed.
+/// Parses a query, without the question mark. Decodes percent escapes and, in the values, "+" as a blank unless it adds
+/// two operands of arithmetic. Reads "&amp;" as "&", and escapes that were escaped again, as mailers and forums do.
+/// Leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed.
 std::optional<QueryParameters> parseQuery(std::string_view text);
 
 /// Returns the text of a query, without the question mark: the inverse of parseQuery() for names and values without

@@ -12,6 +12,7 @@
 #include "session/expression.hpp"
 #include "session/setting_table.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
@@ -123,7 +124,7 @@ struct ValueReader {
         }
         if (second == std::string_view::npos) return point;
         constexpr std::size_t kDigits = 6;
-        const std::string_view color = word.substr(second + 1);
+        const std::string_view color = oval4d::text::trimmed(word.substr(second + 1));
         const auto [end, error] = std::from_chars(color.data(), color.data() + color.size(), point.color.emplace(), 16);
         if (error != std::errc{} || end != color.data() + color.size() || color.size() != kDigits) return malformed();
         return point;
@@ -217,16 +218,23 @@ struct ValueWriter {
 
 }  // namespace
 
-Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set) {
-    if (name == kPolytope) return ValueReader{name, value}(set.object);
+Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set) {
+    if (name == kPolytope) return ValueReader{name, written}(set.object);
+    const std::string_view value = text::trimmed(written);
     std::optional<Result<std::monostate>> parsed;
     forEachSetting([&](const auto& setting) {
         if (setting.name.text == name) parsed = ValueReader{name, value, setting.isAngle()}(setting.ofSet(set));
     });
     if (parsed) return *parsed;
+    return unknownSetting(name);
+}
+
+Error unknownSetting(std::string_view name, std::span<const std::string_view> others) {
+    std::vector<std::string_view> all = names();
+    all.insert(all.end(), others.begin(), others.end());
     return refusal(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
-                                                   text::didYouMean(name, names()) + "; the settings are " +
-                                                   settingNames());
+                                                   text::didYouMean(name, all) + "; the settings are " +
+                                                   text::commaSeparated(all));
 }
 
 QueryParameters settingTexts(const Set& set) {
@@ -243,7 +251,8 @@ std::string settingNames() { return text::commaSeparated(names()); }
 
 std::string numberList(std::span<const double> numbers) { return joined(numbers, text::shortestDecimal); }
 
-Result<slicing::ElementKind> parseElementKind(std::string_view text) {
+Result<slicing::ElementKind> parseElementKind(std::string_view written) {
+    const std::string_view text = text::trimmed(written);
     const auto kind = text::valueNamed(slicing::kElementKinds, text);
     if (kind) return *kind;
     return refusal(
@@ -251,7 +260,8 @@ Result<slicing::ElementKind> parseElementKind(std::string_view text) {
         "an element is " + text::alternatives(text::namesOf(slicing::kElementKinds)) + ", not " + text::inQuotes(text));
 }
 
-Result<std::size_t> parseElementIndex(std::string_view text) {
+Result<std::size_t> parseElementIndex(std::string_view written) {
+    const std::string_view text = text::trimmed(written);
     std::uint32_t index = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error == std::errc{} && end == text.data() + text.size()) return std::size_t{index};

@@ -19,6 +19,10 @@ Result<std::monostate> parseSetting(std::string_view name, std::string_view valu
 /// Returns the names and values of the settings that `set` contains, from which parseSetting() reads the same values.
 QueryParameters settingTexts(const Set& set);
 
+/// Returns the error `unknown_command` for a name that is no setting, with a similar name, if there is one. `others`
+/// are names that are accepted, too.
+Error unknownSetting(std::string_view name, std::span<const std::string_view> others = {});
+
 /// Returns all names that parseSetting() accepts, separated by commas.
 std::string settingNames();
 

@@ -21,22 +21,18 @@ namespace oval4d::session {
 
 namespace {
 
-// The error for a value that is not within its bounds. Angles are told in radians and in degrees. Numbers are rounded,
-// unless the value would then seem to be within the bounds.
+// The error for a value that is not within its bounds. Angles are told in radians and in degrees.
 Error outOfRange(std::string_view name, const Bounds& bounds, double value) {
-    const std::string rounded = text::roundedDecimal(value);
-    const bool isClose = rounded == text::roundedDecimal(bounds.least) || rounded == text::roundedDecimal(bounds.most);
-    const auto plain = [&](double number) {
-        return isClose ? text::shortestDecimal(number) : text::roundedDecimal(number);
-    };
-    const auto degrees = [](double radians) { return text::roundedDecimal(radians * 180 / std::numbers::pi) + "°"; };
-    std::string range = plain(bounds.least) + " to " + plain(bounds.most) + std::string(bounds.unit);
-    std::string given = plain(value);
+    std::string range = text::outsideBounds(bounds.least, bounds.most, bounds.unit, value);
     if (bounds.unit == kRadians) {
-        range += " (" + degrees(bounds.least) + " to " + degrees(bounds.most) + ")";
-        given += std::string(kRadians) + " (" + degrees(value) + ")";
+        const auto degrees = [](double radians) {
+            return text::roundedDecimal(radians * 180 / std::numbers::pi) + "°";
+        };
+        range.insert(range.find(kRadians) + kRadians.size(),
+                     " (" + degrees(bounds.least) + " to " + degrees(bounds.most) + ")");
+        range += std::string(kRadians) + " (" + degrees(value) + ")";
     }
-    return {ErrorCode::out_of_range, std::string(name) + " must be from " + range + ", not " + given};
+    return {ErrorCode::out_of_range, std::string(name) + " must be " + range};
 }
 
 // Stores `value`, if there is one, in `into`. Error: `out_of_range`.
@@ -73,7 +69,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         if (*set.count < 1 || *set.count > limits.maxSlices || *set.count % 2 == 0) {
             return Error{ErrorCode::out_of_range, "the number of slices must be odd and from 1 to " +
                                                       std::to_string(limits.maxSlices) + ", not " +
-                                                      std::to_string(*set.count)};
+                                                      text::roundedDecimal(*set.count)};
         }
         setCount(state, *set.count);
     }
@@ -85,9 +81,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     }
     if (set.focus) {
         if (*set.focus < -kMaxFocus || *set.focus > kMaxFocus) {
-            return Error{ErrorCode::out_of_range, "the focus must be from -" + std::to_string(kMaxFocus) + " to " +
-                                                      std::to_string(kMaxFocus) + ", not " +
-                                                      std::to_string(*set.focus)};
+            return outOfRange("the focus", {-double{kMaxFocus}, double{kMaxFocus}, ""}, *set.focus);
         }
         state.slices.focus = *set.focus;
     }

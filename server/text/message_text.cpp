@@ -146,4 +146,14 @@ std::string roundedDecimal(double value) {
     return value < 0 ? "\u2212" + text : text;
 }
 
+std::string outsideBounds(double least, double most, std::string_view unit, double value) {
+    const std::string rounded = roundedDecimal(value);
+    const bool isClose = rounded == roundedDecimal(least) || rounded == roundedDecimal(most);
+    const auto plain = [&](double number) {
+        if (!isClose) return roundedDecimal(number);
+        return (number < 0 ? "\u2212" : "") + shortestDecimal(std::abs(number));
+    };
+    return "from " + plain(least) + " to " + plain(most) + std::string(unit) + ", not " + plain(value);
+}
+
 }  // namespace oval4d::text

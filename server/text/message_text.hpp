@@ -41,4 +41,8 @@ std::string shortestDecimal(double value);
 /// sign U+2212. Writes all digits of an integer within ±2^53, and an exponent only below 1e-5 and from 1e15.
 std::string roundedDecimal(double value);
 
+/// Returns what a message says of a number outside its bounds: "from −2 to 2 circumradii, not 3" for the unit
+/// " circumradii". Rounds the numbers as roundedDecimal() does, unless the number would then equal a bound.
+std::string outsideBounds(double least, double most, std::string_view unit, double value);
+
 }  // namespace oval4d::text

@@ -1,6 +1,7 @@
 #include "text/words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace oval4d::text {
@@ -48,6 +49,31 @@ std::string normalizedName(std::string_view text) {
         if (!isSeparator(c)) result += lower(c);
     }
     return result;
+}
+
+std::string withPlainBlanks(std::string_view text) {
+    using namespace std::string_view_literals;
+    // U+00A0, U+202F, U+205F, U+3000; U+2000 to U+200A differ in the last byte.
+    constexpr auto kBlanks = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv});
+    constexpr std::string_view kBegin = "\xE2\x80";
+    constexpr unsigned char kFirst = 0x80, kLast = 0x8A;
+    std::string plain;
+    plain.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view rest = text.substr(at);
+        const auto* const blank =
+            std::ranges::find_if(kBlanks, [&](std::string_view each) { return rest.starts_with(each); });
+        const auto third = static_cast<unsigned char>(rest.size() > 2 ? rest[2] : 0);
+        const bool isQuad = rest.starts_with(kBegin) && third >= kFirst && third <= kLast;
+        if (blank == kBlanks.end() && !isQuad) {
+            plain += rest[0];
+            ++at;
+        } else {
+            plain += ' ';
+            at += isQuad ? 3 : blank->size();
+        }
+    }
+    return plain;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -20,6 +20,10 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 /// their normalized names are equal.
 std::string normalizedName(std::string_view text);
 
+/// Returns the text with a space in place of each kind of space that is not ASCII, such as the no-break space that
+/// texts have between a number and its unit.
+std::string withPlainBlanks(std::string_view text);
+
 /// Returns the text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 

@@ -148,6 +148,42 @@ std::string withNulls(std::string_view text) {
     return out;
 }
 
+// Returns the code unit of an escape such as "\\ud83d" at the start of the text; 0 if there is none.
+unsigned escapedUnit(std::string_view text) {
+    constexpr std::size_t kLength = 6;
+    unsigned unit = 0;
+    if (text.size() < kLength || !text.starts_with("\\u")) return 0;
+    const auto [end, fault] = std::from_chars(text.data() + 2, text.data() + kLength, unit, 16);
+    return fault == std::errc{} && end == text.data() + kLength ? unit : 0;
+}
+
+// Returns the text with the replacement character in place of each escape of a lone surrogate, which is no character
+// (RFC 8259, section 8.2). Sets `first` to the position of the first one, or to npos.
+std::string withoutLoneSurrogates(std::string_view text, std::size_t& first) {
+    constexpr std::size_t kLength = 6;
+    const auto isBetween = [](unsigned unit, unsigned least, unsigned most) { return unit >= least && unit <= most; };
+    std::string out;
+    first = std::string_view::npos;
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned unit = escapedUnit(text.substr(i));
+        std::size_t length = text[i] == '\\' ? 2 : 1;
+        if (isBetween(unit, 0xD800, 0xDFFF)) {
+            const unsigned next = escapedUnit(text.substr(i + kLength));
+            const bool isPair = unit < 0xDC00 && isBetween(next, 0xDC00, 0xDFFF);
+            length = isPair ? 2 * kLength : kLength;
+            if (!isPair) {
+                first = std::min(first, i);
+                out += "\\ufffd";
+                i += length;
+                continue;
+            }
+        }
+        out += text.substr(i, length);
+        i += length;
+    }
+    return out;
+}
+
 }  // namespace
 
 ParsedJson parseJson(std::string_view text, int maxDepth) {
@@ -159,6 +195,17 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
         return result;
     }
     const std::string_view number = badNumberAt(text, builder);
+    std::size_t surrogate = 0;
+    const std::string characters = withoutLoneSurrogates(text, surrogate);
+    if (number.empty() && surrogate < builder.position()) {
+        result.fault = "the escape " + std::string(text.substr(surrogate, 6)) + " at byte " +
+                       std::to_string(surrogate + 1) + " is a lone surrogate, which is no character";
+        const std::string repaired = withNulls(characters);
+        Builder again(result.value, maxDepth);
+        result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);
+        result.notJson = !result.repaired && again.refusal().empty();
+        return result;
+    }
     if (number.empty()) {
         result.fault = "the text is not JSON: unexpected " +
                        (builder.position() > text.size() ? std::string("end") : text::inQuotes(builder.token())) +
@@ -171,7 +218,7 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
     // The rest is read all the same, so that the answer has the message's id.
-    const std::string repaired = withNulls(text);
+    const std::string repaired = withNulls(characters);
     Builder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);
     result.notJson = !result.repaired && again.refusal().empty();

@@ -1,5 +1,6 @@
 #include "wire/schema.hpp"
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -122,9 +123,22 @@ bool outOfBounds(const json& schema, const json& value) {
            (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
 }
 
+// Returns a number as a person reads it, but with all digits if it is too close to a bound of its schema.
+std::string numberText(const json& schema, const json& value) {
+    const auto number = value.get<double>();
+    std::string rounded = text::roundedDecimal(number);
+    for (const char* const keyword : {"minimum", "maximum", "exclusiveMinimum"}) {
+        const auto bound = schema.find(keyword);
+        if (bound == schema.end() || text::roundedDecimal(bound->get<double>()) != rounded) continue;
+        return (number < 0 ? "\u2212" : "") + text::shortestDecimal(std::abs(number));
+    }
+    return rounded;
+}
+
 // Returns ", not …" with the value. Returns an empty string for an array or object, because these may be long.
-std::string notThis(const json& value) {
+std::string notThis(const json& schema, const json& value) {
     if (value.is_structured()) return {};
+    if (value.is_number()) return ", not " + numberText(schema, value);
     return ", not " + (value.is_string() ? text::inQuotes(value.get<std::string>()) : value.dump());
 }
 
@@ -161,8 +175,9 @@ std::optional<Error> validationError(std::string_view type, const json& message)
     const std::string prefix = std::string(type) + ": ";
     if (std::string text = membersFault(*node, *value, path); !text.empty())
         return Error{ErrorCode::bad_message, prefix + text};
-    return Error{outOfBounds(*node, *value) ? ErrorCode::out_of_range : ErrorCode::bad_message,
-                 prefix + (path.empty() ? "the message" : path) + " must be " + expected(*node) + notThis(*value)};
+    return Error{
+        outOfBounds(*node, *value) ? ErrorCode::out_of_range : ErrorCode::bad_message,
+        prefix + (path.empty() ? "the message" : path) + " must be " + expected(*node) + notThis(*node, *value)};
 }
 
 }  // namespace oval4d::wire

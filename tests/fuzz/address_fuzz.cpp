@@ -74,7 +74,7 @@ void describe(session::QueryParameters query) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     for (const exports::Format& format : exports::formats()) {
         session::QueryParameters settings = query;
-        const auto request = pipeline::extractExportRequest(settings, format);
+        const auto request = pipeline::extractExportRequest(settings, format, fuzz::kLimits.maxSlices);
         if (!request) {
             fuzz::requireSentence(request.error());
             return;

@@ -89,6 +89,18 @@ async def test_malformed_messages_end_the_connection(server, data, error, close)
         await bystander.request("key", key="y")
 
 
+@pytest.mark.parametrize("text", ["\\ud800", "\\udc00", "\\ud83d!", "\\ud83d\\ud83d\\ude00", "\\\\\\udfff"])
+async def test_a_lone_surrogate_is_refused_with_the_id(server, text):
+    async with Client(server) as client:
+        await client.socket.send('{"type":"set","id":4711,"polytope":"%s"}' % text)
+        error = await client.wait_until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
+        assert error["code"] == "bad_json" and error["id"] == 4711 and "lone surrogate" in error["message"]
+        await client.socket.send('{"type":"set","id":4712,"polytope":"\\ud83d\\ude00"}')
+        error = await client.wait_until(lambda: next((m for m in client.messages if m.get("id") == 4712), None))
+        assert error["code"] == "unknown_polytope"
+        await client.request("key", key="y")
+
+
 async def test_invalid_utf8_ends_the_connection(server):
     from test_pacing import open_nonreading_socket, masked_frame
 

@@ -97,7 +97,7 @@ async def test_messages_queries_and_the_command_line_choose_the_same_slices(serv
 
 
 async def test_what_is_left_out_is_said(server):
-    expected = ["1 of 3 slices is empty and left out: w = -2", "1 of 3 slices is flat or too thin and left out: w = 1.41421"]
+    expected = ["1 of 3 slices is empty and left out: w = −2", "1 of 3 slices is flat or too thin and left out: w = 1.41421"]
     async with Client(server, stream="none") as client:
         await client.request("set", polytope="16-cell")
         done = await client.request("get", what="file", format="stl", at="0,-2,sqrt(2)")
@@ -145,8 +145,8 @@ async def test_the_nearest_points_of_a_cloud_belong_to_a_chosen_slice(server):
     ("at=0&of=critical", "bad_message", "not of critical"), ("at=99", "out_of_range", "not 99"),
     ("at=0,1,0", "out_of_range", "0 is given twice"), ("at=one", "bad_expression", "at: 'one'"),
     ("at=", "bad_expression", "a number is expected"), ("at=0,", "bad_expression", "a number is expected"),
-    ("fit=0", "out_of_range", "whole number of slices"), ("fit=1.5", "out_of_range", "whole number of slices"),
-    ("fit=202", "out_of_range", "at most 201, not 202"), ("fit=many", "bad_expression", "fit: 'many'"),
+    ("fit=0", "out_of_range", "whole number of slices from 1 to 201, not 0"), ("fit=1.5", "out_of_range", "whole number of slices"),
+    ("fit=202", "out_of_range", "from 1 to 201, not 202"), ("fit=-3", "out_of_range", "from 1 to 201, not −3"), ("fit=many", "bad_expression", "fit: 'many'"),
     ("at=" + ",".join(f"{i}/1000" for i in range(202)), "out_of_range", "at most 201, not 202"),
     ("at=2.5,3", "no_body", "choose other slices"),
 ])

@@ -106,3 +106,12 @@ async def test_a_cloud_is_restored_from_the_store(tmp_path):
     with Server("--store", store) as server:
         async with Client(server, stream="none", session=welcome["session"], token=welcome["token"]) as client:
             assert png.pixels(await client.request_frame(**SIZE)) == picture
+
+
+@pytest.mark.parametrize("points", ["0 0 0 0\n", "0 0 0 0\n1 0 0 0\n", "1 0 0 0.5\n0 1 0 0\n"])
+def test_a_cloud_has_no_solid(tmp_path, points):
+    (tmp_path / "points.txt").write_text("CLOUD\n" + points)
+    done = run_oval4d("export", "--load", tmp_path / "points.txt", "--format", "stl", "-o", "-")
+    assert done.returncode != 0 and b"points have no volume; choose body=skeleton" in done.stderr
+    done = run_oval4d("export", "--load", tmp_path / "points.txt", "--format", "stl", "-o", "-", "--body", "skeleton")
+    assert done.returncode == 0, done.stderr

@@ -239,8 +239,11 @@ def test_svg_of_many_vertices_shows_their_density(server, tmp_path):
 
 @pytest.mark.parametrize("query, code, expected_text", [
     ("focus=90", "no_body", "is empty"), ("of=all", "bad_message", "focus"), ("body=wood", "bad_message", "skeleton"),
-    ("size=0.5", "out_of_range", "10000"), ("size=thick", "out_of_range", "thick"), ("size=nan", "out_of_range", "nan"),
-    ("label=gold", "bad_message", "engraved"), ("width=30", "unknown_command", "width"),
+    ("size=0.5", "out_of_range", "from 1 to 10000 millimeters"), ("size=thick", "out_of_range", "thick"),
+    ("size=nan", "out_of_range", "nan"),
+    ("label=gold", "bad_message", "engraved"), ("width=30", "unknown_command", "width is a parameter of pictures"),
+    ("rotat=xw:1", "unknown_command", "did you mean 'rotate'?"), ("lable=none", "unknown_command", "did you mean 'label'?"),
+    ("focus=90", "no_body", "extends from w = −"),
     ("polytope=25-cell", "unknown_polytope", "24-cell"),
 ])
 def test_invalid_export_parameters_are_explained(server, query, code, expected_text):
@@ -427,7 +430,7 @@ def test_svg_and_pdf_have_the_same_size_in_millimeters(server, query, size):
 
 
 @pytest.mark.parametrize("format_", ["svg", "pdf"])
-@pytest.mark.parametrize("size", [9, 5001])
+@pytest.mark.parametrize("size", [0.5, 9, 5001])
 def test_the_size_of_a_drawing_is_bounded(server, format_, size):
     error = export_refusal(server, format_, f"polytope=5-cell&size={size}")
     assert error["code"] == "out_of_range" and "from 10 to 5000 millimeters" in error["message"]
@@ -464,6 +467,10 @@ async def test_files_of_objects_with_any_name_can_be_parsed(server, tmp_path, na
     info = subprocess.run(["mutool", "show", str(path), "trailer/Info/Title"], capture_output=True, text=True, check=True,
                           timeout=DEADLINE)
     assert info.returncode == 0
+    if not name.isascii():  # only PDF 2.0 has UTF-8
+        assert files["pdf"].startswith(b"%PDF-1.")
+        (written,) = re.findall(rb"/Title <FEFF([0-9A-F]+)>", files["pdf"])
+        assert bytes.fromhex(written.decode()).decode("utf-16-be").endswith(name)
 
 
 @pytest.mark.parametrize("polytope, vertices, edges", [("tesseract", 16, 32), ("120-cell", 600, 1200)])

@@ -258,6 +258,13 @@ def send_raw_bytes(server, data):
         return answer
 
 
+@pytest.mark.parametrize("path", ["/api/v1/frame.png?rotate=xw:30%", "/api/v1/file.stl?a=%zz", "/%4"])
+def test_a_malformed_escape_is_explained(server, path):
+    answer = server.get(path)
+    error = json.loads(answer.body)
+    assert answer.status == 400 and error["type"] == "error" and error["code"] == "bad_message" and "%" in error["message"]
+
+
 @pytest.mark.parametrize("data, status", [
     (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", b"400"),
     (b"GET / HTTP/9.9\r\n\r\n", b"400"),

@@ -1,6 +1,8 @@
 """The command line: help, how the server stops, and pictures without a server."""
 
 import asyncio
+import gzip
+import os
 import select
 import signal
 import socket
@@ -75,8 +77,43 @@ def test_render_writes_a_picture_to_standard_output():
 @pytest.mark.parametrize("words, expected_text", [
     (["--polytope", "25-cell"], "5-cell"), (["--width", "0"], "16"), (["--color", "red"], "color"),
     (["--rotate", "xw:pi/0"], ""), (["--slices"], "slices"), (["frame.png"], "frame.png"),
-    (["-o", "/nonexistent/frame.png"], "/nonexistent"),
+    (["-o", "/nonexistent/frame.png"], "/nonexistent"), (["--rotate", "xw:−30"], "did you mean −30°?"),
+    (["--load", "a", "--load", "b"], "--load is given twice"), (["--lod", "a"], "did you mean 'load'?"),
+    (["--rotat", "xw:1"], "did you mean 'rotate'?"), (["--fit", "3"], "fit is a parameter of files"),
 ])
 def test_render_explains_invalid_options(words, expected_text):
     done = run_oval4d("render", *words)
     assert done.returncode != 0 and expected_text in (done.stderr + done.stdout).decode()
+
+
+CORNERS = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n"
+
+
+@pytest.mark.parametrize("file, shown", [
+    (b"bad\xff\xfe.off", "bad??.off"), (b"line\nbreak", "line?break"), (b"24-cell", "24-cell (file)"),
+    (b"Two-Warm spots", "Two-Warm spots (file)"), ("π".encode() * 100, "π" * 64), (b"usual.txt", "usual.txt"),
+])
+def test_an_object_has_a_usable_name_whatever_its_file_is_called(tmp_path, file, shown):
+    path = os.path.join(tmp_path, os.fsdecode(file))
+    with open(path, "w", encoding="ascii") as stream:
+        stream.write(CORNERS)
+    done = run_oval4d("render", "--load", path, "--width=64", "--height=64", "-o", "-")
+    assert done.returncode == 0, done.stderr
+    state = png.state_in(done.stdout)["polytope"]
+    assert state["name"] == shown and state["vertices"] == 5
+    assert (b"the object is called" in done.stderr) == (file != b"usual.txt")
+    for format_ in ("glb", "x3d", "svg", "3mf"):
+        made = run_oval4d("export", "--load", path, "--format", format_, "-o", "-")
+        assert made.returncode == 0, made.stderr
+        made.stdout.decode(errors="strict" if format_ in ("x3d", "svg") else "replace")
+
+
+def test_compressed_files_and_folders_are_named(tmp_path):
+    (tmp_path / "x.off.gz").write_bytes(gzip.compress(CORNERS.encode()))
+    (tmp_path / "long.off.gz").write_bytes(gzip.compress(CORNERS.encode() * 100))
+    for name in ("x.off.gz", "long.off.gz"):
+        done = run_oval4d("render", "--load", tmp_path / name, "-o", "-")
+        assert done.returncode != 0 and b"is compressed with gzip" in done.stderr and b"unpack it first" in done.stderr
+    (tmp_path / "folder").mkdir()
+    done = run_oval4d("render", "--load", tmp_path / "folder", "-o", "-")
+    assert done.returncode != 0 and b"the folder contains no Zarr array or group" in done.stderr

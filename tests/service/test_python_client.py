@@ -64,6 +64,10 @@ def test_errors_are_raised_and_change_nothing(server):
         for unsendable in (float("nan"), numpy.array([0, float("inf")]), "\ud800"):
             with pytest.raises(ValueError, match="a message cannot contain"):
                 oval.set(point=[0, 0, 0, unsendable])
+        circle = []
+        circle.append(circle)
+        with pytest.raises(ValueError, match="a list or dict that contains itself"):
+            oval.set(point=circle)
         assert oval.state()["revision"] == 0
         oval.send({"type": "undo"})
         oval.state()
@@ -73,7 +77,10 @@ def test_errors_are_raised_and_change_nothing(server):
 def test_numbers_and_arrays_of_numpy_are_sent(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
+        with pytest.raises(TypeError, match="a message cannot contain"):
+            oval.set(alpha=numpy.clongdouble(1))
         oval.rotate("xw", numpy.float32(0.25))
+        oval.set(alpha=numpy.longdouble(0.5), point=numpy.zeros(4, numpy.longdouble))
         oval.set(orientation=numpy.eye(4), slices={"count": numpy.int64(5)})
         state = oval.state()
         assert state["last"]["angles"] == [0.25] and state["slices"]["count"] == 5

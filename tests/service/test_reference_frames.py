@@ -90,8 +90,8 @@ async def test_changes_are_undone_and_a_state_restores_them(server):
 @pytest.mark.parametrize("settings, code, text", [
     ({"pace": 0}, "out_of_range", "from 0.001 to 1000"), ({"pace": 1001}, "out_of_range", "from 0.001 to 1000"),
     ({"pace": "2"}, "bad_message", "pace"), ({"follow": [1, 2]}, "bad_message", "follow"),
-    ({"follow": [1, 2, 1001]}, "out_of_range", "from -1000 to 1000"), ({"boost": 0.5}, "bad_message", "boost"),
-    ({"boost": [1, 0, 0]}, "out_of_range", "from -0.999 to 0.999"),
+    ({"follow": [1, 2, 1001]}, "out_of_range", "from −1000 to 1000"), ({"boost": 0.5}, "bad_message", "boost"),
+    ({"boost": [1, 0, 0]}, "out_of_range", "from −0.999 to 0.999"),
     ({"boost": [0.8, 0.8, 0]}, "out_of_range", "from 0 to 0.999"), ({"boost": [0, 0, 0, 0]}, "bad_message", "boost"),
 ])
 async def test_wrong_frames_are_refused(server, settings, code, text):

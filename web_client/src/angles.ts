@@ -23,7 +23,7 @@ export function angleExpression(text: string): string {
     if (typed === "") throw new Error("an angle is expected, such as 10° or pi/8");
     const withoutExponents = typed.replace(/(\d)e(?=[-+]?\d)/g, "$1");
     if (!/[\p{L}°]/u.test(withoutExponents)) return `deg(${typed})`;
-    return typed.replace(/(\d+\.?\d*|\.\d+)\s*(?:°|deg(?!\w|\())/g, "deg($1)").replace(/\s*rad$/, "");
+    return typed.replace(/\s+(?=(?:deg|rad)(?![a-z(]))/g, "");
 }
 
 /** Removes the blanks around operators: the command line takes a value without blanks. */

@@ -101,8 +101,8 @@ function isIgnored(name: string): boolean {
 
 /**
  * The names and values of a query, without those that protocol/address.json ignores. As in a form, "+" is a blank; but in
- * arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands. The server reads the
- * queries of the API in the same way.
+ * arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, but not before a unit.
+ * The server reads the queries of the API in the same way.
  */
 function settingsOf(query: string): [name: string, value: string][] {
     const parts = repaired(query)
@@ -115,7 +115,7 @@ function settingsOf(query: string): [name: string, value: string][] {
             const isArithmetic = !address.texts.includes(decodePercents(name));
             const pieces = value.split("+").map(decodePercents);
             const text = pieces.reduce((before, after) => {
-                const adds = isArithmetic && /[\p{L}\p{N}.)°]$/u.test(before) && /^[\p{L}\p{N}.(]/u.test(after);
+                const adds = isArithmetic && /[\p{L}\p{N}.)°]$/u.test(before) && /^(?!(?:deg|rad)(?![a-z(]))[\p{L}\p{N}.(]/iu.test(after);
                 return before + (adds ? "+" : " ") + after;
             });
             return [decodePercents(name), text];
@@ -142,8 +142,9 @@ export function commandLines(query: string): string[] {
         .map(([name, value]) => {
             if (name === "polytope") return `polytope ${value}`;
             if (name === "toward") return `toward ${value.replace(":", " ")}`;
-            if (name !== "rotate") return `set ${name}=${value}`;
-            const [planes = "", angles = ""] = value.split(":");
+            const plain = value.replace(/\s*([,:])\s*/g, "$1").trim();
+            if (name !== "rotate") return `set ${name}=${plain}`;
+            const [planes = "", angles = ""] = plain.split(":");
             return `rotate ${planes} ${angles.replace(/\s/g, "").replaceAll(",", " ")}`;
         });
 }

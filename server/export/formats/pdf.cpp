@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <hpdf.h>
+#include <boost/locale/encoding_utf.hpp>
 
 namespace oval4d::exports {
 
@@ -126,11 +127,19 @@ class PageWriter {
     std::map<int, HPDF_ExtGState> states_;
 };
 
-// Returns a text string of the document information. ASCII is the same in all encodings; other text is UTF-8 with a
-// byte order mark (PDF 2.0, ISO 32000-2, section 7.9.2.2). libharu takes no zero bytes, which UTF-16 would need.
+// Returns a text string of the document information as a hexadecimal string: UTF-16BE with a byte order mark
+// (PDF 1.4, section 3.8.1).
 std::string textString(const std::string& text) {
-    const bool isAscii = std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    return isAscii ? text : "\xEF\xBB\xBF" + text;
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    std::string out = "<FEFF";
+    for (const char16_t unit : boost::locale::conv::utf_to_utf<char16_t>(text)) {
+        for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[(static_cast<unsigned>(unit) >> shift) % 16];
+    }
+    return out + '>';
+}
+
+bool isAscii(const std::string& text) {
+    return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
 }  // namespace
@@ -141,7 +150,11 @@ std::string pdf(const Drawing& drawing) {
                                                                                           HPDF_Free);
     if (!document) throw std::runtime_error("libharu cannot create a document");
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
-    HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, textString(drawing.title).c_str());
+    // ASCII is the same in all encodings. libharu takes no zero bytes, which UTF-16 needs, so the title is written in
+    // the place of another of the same length.
+    const std::string title = isAscii(drawing.title) ? "" : textString(drawing.title);
+    const std::string placeholder(title.size() - std::min<std::size_t>(title.size(), 2), 'T');
+    HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, title.empty() ? drawing.title.c_str() : placeholder.c_str());
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
     const HPDF_Page page = HPDF_AddPage(document.get());
     const double scale = drawing.unit() * kPointsPerMillimeter;
@@ -159,6 +172,12 @@ std::string pdf(const Drawing& drawing) {
     HPDF_ReadFromStream(document.get(), reinterpret_cast<HPDF_BYTE*>(out.data()), &size);
     out.resize(size);
     if (error != HPDF_OK) throw std::runtime_error("libharu cannot write the document: error " + std::to_string(error));
+    if (!title.empty()) {
+        const std::string written = '(' + placeholder + ')';
+        const std::size_t at = out.find(written);
+        if (at == std::string::npos) throw std::runtime_error("libharu has changed the title of the document");
+        out.replace(at, written.size(), title);
+    }
     return out;
 }
 

@@ -305,7 +305,14 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
     std::optional<GzipReader> gzip;
     if (isGzipStart(file.bytes)) {
         gzip.emplace(file.bytes);
-        if (const auto read = gzip->readUpTo(kHeader1, unzipped); !read) return read.error();
+        const auto begun = gzip->readUpTo(kHeader1, unzipped);
+        const auto isEmpty = [&] {
+            return std::ranges::all_of(unzipped, [](std::byte b) { return b == std::byte{}; });
+        };
+        const bool isNifti = isBigEndian(unzipped, kHeader1) || isBigEndian(unzipped, kHeader2);
+        if (!isNifti && (begun || !isEmpty()))
+            return badField("the file is compressed with gzip and contains no NIfTI image; unpack it first");
+        if (!begun) return begun.error();
         if (headerSize(unzipped) == kHeader2) {
             if (const auto read = gzip->readUpTo(kHeader2, unzipped); !read) return read.error();
         }

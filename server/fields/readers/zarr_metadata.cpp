@@ -419,6 +419,14 @@ Result<ZarrFolder::Choice> ZarrFolder::choose() const {
             for (const auto& [path, value] : members->items())
                 if (path.ends_with(kArray)) paths.insert(path.substr(0, path.size() - kArray.size()));
     }
+    const auto has = [&](const std::string& file) {
+        const auto found = json(file);
+        return !found || *found;
+    };
+    if (!has("zarr.json") && !has(".zmetadata") && !has(".zgroup") && !has(".zattrs")) {
+        return Error{ErrorCode::unsupported_format,
+                     "the folder contains no Zarr array or group: it has no file zarr.json, .zarray or .zgroup"};
+    }
     if (paths.empty() || paths.size() > kMaxArrays) {
         return Error{ErrorCode::out_of_range,
                      "the folder is a Zarr group without consolidated metadata; name its array as variable"};

@@ -300,7 +300,13 @@ std::optional<Reply> HttpConnection::refuseConnection() const {
 asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     if (auto refusal = refuseConnection()) co_return std::move(*refusal);
     auto target = targetOf(request);
-    if (!target) co_return plainReply(400, "the request target is malformed\n");
+    if (!target) {
+        co_return errorReply(
+            {ErrorCode::bad_message,
+             "the address is malformed: a % must be followed by two hexadecimal digits, as in %25, and "
+             "the path begins with /"},
+            400);
+    }
     std::string cookie;
     // Health probes may use any host name and need no token, because they reveal only whether the server works.
     const bool probe = target->path == "/healthz" || target->path == "/readyz";

@@ -16,6 +16,7 @@
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -61,8 +62,9 @@ unsigned statusFor(ErrorCode code) {
 /// Parses a number of pixels. `name`: the name of the query parameter, for the error message.
 Result<int> pixels(const std::string& name, const std::string& text) {
     int value = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc{} || end != text.data() + text.size()) {
+    const std::string_view number = text::trimmed(text);
+    const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (fault != std::errc{} || end != number.data() + number.size()) {
         return Error{ErrorCode::out_of_range, name + " must be a whole number of pixels, not " + text::inQuotes(text)};
     }
     return value;
@@ -94,9 +96,13 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
 }
 
 /// Returns the value of the header field Export-Warnings: the warnings, which contain no semicolons, separated by them.
+/// Minus signs are hyphens, because clients read header fields as ASCII or ISO 8859-1.
 std::string warningsField(const std::vector<std::string>& warnings) {
     std::string value;
     for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
+    constexpr std::string_view kMinus = "\u2212";
+    for (std::size_t at = value.find(kMinus); at != std::string::npos; at = value.find(kMinus, at))
+        value.replace(at, kMinus.size(), "-");
     return value;
 }
 
@@ -186,15 +192,16 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// Returns the state that a query describes. Builds the polytope on a worker if necessary. Throws what runOnPool()
-/// throws.
-asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query, ClientPtr client) {
+/// Returns the state that a query describes; `others` are the names that it may have beside. Builds the polytope on a
+/// worker if necessary. Throws what runOnPool() throws.
+asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
+                                                      std::span<const std::string_view> others, ClientPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
         limits, services_.polytopes, session::ObjectLoader::Mode::deferred, session::FileReader());
     for (;;) {
-        auto state = session::stateFromQuery(query, limits, *loader);
+        auto state = session::stateFromQuery(query, limits, *loader, session::initialState(), others);
         if (!loader->isPending()) co_return state;
         const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
         if (!reservation) co_return kTooManyBytes;
@@ -221,7 +228,7 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr c
     try {
         const auto viewport = takeViewport(query, services_.options.frame);
         if (!viewport) co_return countedError(viewport.error());
-        const auto requested = co_await state(std::move(query), client);
+        const auto requested = co_await state(std::move(query), session::kPictureParameters, client);
         if (!requested) co_return countedError(requested.error());
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
@@ -238,9 +245,9 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr c
 
 asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format, ClientPtr client) {
     try {
-        const auto exported = pipeline::extractExportRequest(query, format);
+        const auto exported = pipeline::extractExportRequest(query, format, services_.options.session.maxSlices);
         if (!exported) co_return countedError(exported.error());
-        const auto requested = co_await state(std::move(query), client);
+        const auto requested = co_await state(std::move(query), session::kFileParameters, client);
         if (!requested) co_return countedError(requested.error());
         const ExportResult made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportLane(),

@@ -55,7 +55,8 @@ class Routes {
     boost::asio::awaitable<Reply> catalogue(ClientPtr client);
     boost::asio::awaitable<Reply> frame(session::QueryParameters query, ClientPtr client);
     boost::asio::awaitable<Reply> file(session::QueryParameters query, const exports::Format& format, ClientPtr client);
-    boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query, ClientPtr client);
+    boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query,
+                                                         std::span<const std::string_view> others, ClientPtr client);
     Reply countedError(const Error& error);
     Reply readiness() const;
     Reply metrics();

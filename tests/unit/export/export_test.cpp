@@ -83,12 +83,12 @@ TEST(File, tellsWhatItLacks) {
     };
     using Warnings = std::vector<std::string>;
     EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval}),
-              (Warnings{"2 of 5 slices are empty and left out: w = -2, 3",
+              (Warnings{"2 of 5 slices are empty and left out: w = −2, 3",
                         "1 of 5 slices is flat or too thin and left out: w = 1.41421"}));
     EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval, .body = Body::skeleton}),
-              Warnings{"2 of 5 slices are empty and left out: w = -2, 3"});
+              Warnings{"2 of 5 slices are empty and left out: w = −2, 3"});
     EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContents::oval}),
-              Warnings{"3 of 5 slices are without faces and left out: w = -2, 1.41421, 3"});
+              Warnings{"3 of 5 slices are without faces and left out: w = −2, 1.41421, 3"});
     EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContents::oval}), Warnings{});
     // The slice at 1.2 is too small for letters, and the others are large enough.
     const Hyperplanes labeled{0, 2, 0.1, 0, {0, 1.2}};
@@ -103,7 +103,7 @@ TEST(File, listsOnlySomeOfManySlices) {
     std::vector<int> slices;
     for (int i = 0; i < 30; ++i) slices.push_back(i);
     EXPECT_EQ(warningOfOmission({-2, 40, 0.5}, slices, "empty"),
-              "30 of 40 slices are empty and left out: w = -1, -0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5 and 18 "
+              "30 of 40 slices are empty and left out: w = −1, −0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5 and 18 "
               "more");
     EXPECT_EQ(warningOfOmission({4, 1, 0.5}, std::vector<int>{0}, "empty"), "the slice is empty and left out: w = 2");
     EXPECT_EQ(warningOfOmission({4, 1, 0.5}, std::vector<int>{0}, "empty", 98),

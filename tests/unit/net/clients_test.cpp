@@ -63,6 +63,9 @@ TEST(Clients, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
     };
     EXPECT_EQ(addressOf("forged, 198.51.100.7:51000, 10.9.9.9:3128"), "198.51.100.7");
     EXPECT_EQ(addressOf("\"[2001:db8::7]:4711\""), "2001:db8::7");
+    for (const char* list : {"198.51.100.21,", "198.51.100.21 , ,", ",198.51.100.21,,10.9.9.9,"})
+        EXPECT_EQ(addressOf(list), "198.51.100.21") << list;
+    EXPECT_EQ(addressOf(", ,"), "10.1.2.3");
 }
 
 TEST(Network, RejectsMalformedText) {

@@ -103,6 +103,36 @@ TEST(Query, ContainsOnlyWhatDiffersFromANewObject) {
     EXPECT_EQ(queryText(*query), "polytope=two%20warm%20spots&slices=11&spacing=" + spacing + "&fog=0:0.25:ff8800,1:0");
 }
 
+TEST(Query, IgnoresBlanksAroundValues) {
+    const auto shown = stateFromQuery({{"rotate", "xw, yz: 30\u00a0°, 0.2 rad"},
+                                       {"view", "single "},
+                                       {"highlight", "cell: 3"},
+                                       {"hidden", " none "}});
+    ASSERT_TRUE(shown) << shown.error().message;
+    EXPECT_EQ(shown->look.view, scene::View::single);
+    EXPECT_EQ(shown->look.highlight, (slicing::Element{slicing::ElementKind::cell, 3}));
+    EXPECT_EQ(shown->orientation.matrix(), stateFromQuery({{"rotate", "xw,yz:30°,0.2"}})->orientation.matrix());
+}
+
+TEST(Query, SuggestsTheNamesOfItsContext) {
+    const auto refused = [](const char* name, std::span<const std::string_view> others) {
+        ObjectLoader loader(Limits{}, support::cache());
+        return session::stateFromQuery({{name, "1"}}, {}, loader, initialState(), others).error().message;
+    };
+    const auto says = [&](const char* name, std::span<const std::string_view> others, std::string_view text) {
+        const std::string message = refused(name, others);
+        EXPECT_NE(message.find(text), std::string::npos) << message;
+    };
+    says("rotat", {}, "did you mean 'rotate'?");
+    says("Rotate", {}, "did you mean 'rotate'?");
+    says("formulla", kFileParameters, "did you mean 'formula'?");
+    says("widht", kPictureParameters, "did you mean 'width'?");
+    says("lable", kFileParameters, "did you mean 'label'?");
+    says("height", kFileParameters, "height is a parameter of pictures");
+    says("fit", kPictureParameters, "fit is a parameter of files");
+    says("zzz", kFileParameters, "values, box, of, body, size, label, at, fit");
+}
+
 TEST(Query, CannotContainAnObjectFromAFile) {
     Session session;
     must(session, LoadObject{"mine", "points", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0\n"});
@@ -209,6 +239,23 @@ TEST(CommandLine, ActsOnTheHighlightedElement) {
     expectRefused(session, CommandLine{"hide"}, ErrorCode::bad_expression, "kind");
 }
 
+TEST(CommandLine, IgnoresBlanksWithinValues) {
+    const auto turned = [](const std::string& text) {
+        Session session;
+        line(session, text.c_str());
+        return session.current.orientation.matrix();
+    };
+    const glm::dmat4 expected = turned("rotate xw 30°");
+    for (const char* text : {"rotate xw 30 °", "rotate xw 30\u00a0°", "rotate\u00a0xw 30 deg"})
+        EXPECT_EQ(turned(text), expected) << text;
+    EXPECT_EQ(turned("rotate xw, yz 30 ° 0.2 rad"), turned("rotate xw,yz 30° 0.2"));
+    Session session;
+    line(session, "set azimuth=30 ° highlight=cell: 3  view= single");
+    EXPECT_DOUBLE_EQ(session.current.look.orbit.azimuth, std::numbers::pi / 6);
+    EXPECT_EQ(session.current.look.highlight, (slicing::Element{slicing::ElementKind::cell, 3}));
+    EXPECT_EQ(session.current.look.view, scene::View::single);
+}
+
 TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     Session session;
     press(session, "r");
@@ -256,13 +303,18 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set point=0,0,0,", ErrorCode::bad_expression, "a number is expected");
     refused("set point=0,1e9,0,0", ErrorCode::out_of_range, "the point's y must be from");
     refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "did you mean 99°?");
-    refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
+    refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from −1000000 to 1000000, not 100000000");
+    refused("focus -1e8", ErrorCode::out_of_range, "to 1000000, not −100000000");
+    refused("set slices=-3", ErrorCode::out_of_range, "not −3");
+    refused("rotate xw −30", ErrorCode::out_of_range, "did you mean −30°?");
+    refused("set azimuth=−30", ErrorCode::out_of_range, "did you mean −30°?");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
     refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle, not 2; write xw pi/8 or");
     refused("rotate xw,xw 1 2", ErrorCode::bad_expression, "the plane xw is named twice");
-    refused("rotate xw, 1", ErrorCode::bad_expression, "no plane is called ''");
+    refused("rotate xw, 1", ErrorCode::bad_expression, "no plane is called '1'");
+    refused("rotate xw, ", ErrorCode::bad_expression, "no plane is called ''");
     refused("rotate xw,yw,zw", ErrorCode::bad_expression, "3 planes need 3 angles, not 2");
-    refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
+    refused("rotate xw 1e7rad", ErrorCode::out_of_range, "an angle must be from");
     refused("key", ErrorCode::unknown_key, "needs one key");
     refused("key q", ErrorCode::unknown_key, "'q' has no meaning");
     refused("reset all", ErrorCode::bad_expression, "takes no arguments");
@@ -300,7 +352,7 @@ TEST(Query, MistakesAreExplained) {
     refused({{"polytop", "5-cell"}}, ErrorCode::unknown_command, "did you mean 'polytope'?");
     refused({{"polytop", "5-cell"}}, ErrorCode::unknown_command, ", rotate");
     refused({{"rotate", "xw"}}, ErrorCode::bad_expression, "write xw:pi/8");
-    refused({{"rotate", "xw:1e9"}}, ErrorCode::out_of_range, "an angle must be from");
+    refused({{"rotate", "xw:1e9rad"}}, ErrorCode::out_of_range, "an angle must be from");
     refused({{"polytope", "6-cell"}}, ErrorCode::unknown_polytope, "did you mean");
     refused({{"slices", "4"}}, ErrorCode::out_of_range, "odd");
 }

@@ -19,7 +19,8 @@ struct Arithmetic {
 class Expressions : public testing::TestWithParam<Arithmetic> {};
 
 TEST_P(Expressions, HaveTheirValue) {
-    const auto result = evaluateAngle(GetParam().text + "+0");  // a sum: numbers above 2π are accepted
+    // A function, so numbers above 2π are accepted.
+    const auto result = evaluateAngle("(" + GetParam().text + ")/sqrt(1)");
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_DOUBLE_EQ(*result, GetParam().value);
 }
@@ -36,19 +37,44 @@ INSTANTIATE_TEST_SUITE_P(
                     Arithmetic{"tan(0.5)", std::tan(0.5)}, Arithmetic{"asin(1)", pi / 2}, Arithmetic{"acos(1)", 0},
                     Arithmetic{"atan(1)*4", pi}, Arithmetic{"30°", pi / 6}, Arithmetic{"30 deg", pi / 6},
                     Arithmetic{"-90°/2", -pi / 4}, Arithmetic{"(10+20)°", pi / 6}, Arithmetic{"2rad", 2},
-                    Arithmetic{"45deg+pi/4", pi / 2}));
+                    Arithmetic{"45deg+pi/4", pi / 2}, Arithmetic{"45/2°", pi / 8}, Arithmetic{"45°/2", pi / 8},
+                    Arithmetic{"2*45/3 deg", pi / 6}, Arithmetic{"-1/2rad", -0.5}, Arithmetic{"pi/8rad", pi / 8},
+                    Arithmetic{"30\u00a0°", pi / 6}, Arithmetic{"30\u202f\u2009deg", pi / 6},
+                    Arithmetic{"3*10^1°", pi / 6}, Arithmetic{"sqrt(900)°", pi / 6}));
 
 TEST(Expressions, AskAboutAnglesThatAreProbablyDegrees) {
-    for (const char* text : {"30", "-30", " 45.5 ", "6.3"}) {
+    for (const char* text : {"30", "-30", " 45.5 ", "6.3", "−30", "9e1", "1E2", "(90)", "+(−(90))", "360/5", "45+45",
+                             "2^5", "−90+pi/8", "30+15°", "2*(30)"}) {
         const auto angle = evaluateAngle(text);
         ASSERT_FALSE(angle) << text;
         EXPECT_EQ(angle.error().code, ErrorCode::out_of_range);
         EXPECT_NE(angle.error().message.find("°?"), std::string::npos) << angle.error().message;
     }
-    EXPECT_NE(evaluateAngle(" -30 ").error().message.find("did you mean -30°?"), std::string::npos);
-    for (const char* text : {"30°", "30deg", "30rad", "6.28", "4*pi", "2e1"}) EXPECT_TRUE(evaluateAngle(text)) << text;
+    for (const char* text : {" -30 ", "−30", "-(3e1)"}) {
+        EXPECT_EQ(evaluateAngle(text).error().message, "−30 radians are more than a full turn; did you mean −30°?");
+    }
+    EXPECT_EQ(evaluateAngle("360/7").error().message,
+              "51.4286 radians are more than a full turn; did you mean 51.4286°?");
+    for (const char* text : {"30°", "30deg", "30rad", "6.28", "4*pi", "30*phi", "90-90+1", "sqrt(900)", "0.06e2"})
+        EXPECT_TRUE(evaluateAngle(text)) << text;
     EXPECT_DOUBLE_EQ(*evaluateAngle("30rad"), 30);
     EXPECT_EQ(evaluateAngle("x").error().code, ErrorCode::bad_expression);
+}
+
+TEST(Expressions, HaveOneUnitInAProduct) {
+    const auto says = [](std::string_view text, std::string_view part) {
+        const auto value = evaluateAngle(text);
+        ASSERT_FALSE(value) << text << " = " << *value;
+        EXPECT_EQ(value.error().code, ErrorCode::bad_expression);
+        EXPECT_NE(value.error().message.find(part), std::string::npos) << value.error().message;
+    };
+    for (const char* text : {"pi/8°", "π°", "(pi/8)°", "pi*30°", "deg(30)°", "atan(1)deg", "(1+pi)°"})
+        says(text, "in radians already");
+    says("pi/8°", "position 5");
+    for (const char* text : {"60°/2°", "30°*2rad", "2*(30°)*1°"}) says(text, "one unit");
+    for (const char* text : {"(30°)°", "(1rad+2)deg"}) says(text, "has a unit already");
+    for (const char* text : {"45/(2°)", "1/(1rad)"}) says(text, "cannot be divided by an angle");
+    says("(30°)^2", "power of an angle");
 }
 
 TEST(Expressions, HaveUnitsOnlyWhereAnAngleIsExpected) {
@@ -109,6 +135,7 @@ TEST(Turn, IsReadFromPlanesAndAngles) {
     ASSERT_TRUE(doubled);
     EXPECT_EQ(*doubled, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
     EXPECT_EQ(*parseTurn("xw:180°"), (geometry::Turn{geometry::Plane::xw, pi, {}}));
+    EXPECT_EQ(*parseTurn(" xw , yz : pi/8 , 1 "), *parseTurn("xw,yz:pi/8,1"));
 }
 
 TEST(Turn, MistakesAreExplained) {
@@ -123,7 +150,8 @@ TEST(Turn, MistakesAreExplained) {
     says("xw:1,2", "one plane needs one angle, not 2; write xw:pi/8 or xw,yz:pi/8,pi/5");
     says("xw,yz:1", "2 planes need 2 angles, not 1");
     says("xw:30", "30 radians are more than a full turn; did you mean 30°?");
-    says("xw,yz:1,-400", "did you mean -400°?");
+    says("xw,yz:1,-400", "did you mean −400°?");
+    says("xw:−90", "did you mean −90°?");
     says("xw:pi/", "a number, a name or '(' is expected");
     says(":", "no plane is called ''");
     says("", "not a rotation");

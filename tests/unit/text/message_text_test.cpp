@@ -1,4 +1,5 @@
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 #include <numbers>
 #include <string>
@@ -28,6 +29,16 @@ TEST(RoundedDecimal, HasSixDigitsAndNoTrailingZeros) {
         {1e300, "1e+300"},
     };
     for (const auto& [value, expected] : rows) EXPECT_EQ(roundedDecimal(value), expected);
+}
+
+TEST(OutsideBounds, RoundsUnlessTheNumberIsCloseToABound) {
+    EXPECT_EQ(outsideBounds(-2, 0.1234567, " m", -7.1234567), "from −2 to 0.123457 m, not −7.12346");
+    EXPECT_EQ(outsideBounds(-2, 2, "", -2.0000001), "from −2 to 2, not −2.0000001");
+}
+
+TEST(PlainBlanks, ReplaceEachKindOfSpace) {
+    EXPECT_EQ(withPlainBlanks("a\u00a0b\u2009c\u202fd\u3000e\u2000f\u200ag"), "a b c d e f g");
+    EXPECT_EQ(withPlainBlanks("−π \xE2\x80 \xC2"), "−π \xE2\x80 \xC2");
 }
 
 }  // namespace

@@ -90,10 +90,15 @@ TEST(RequestTarget, ReadsPlusAsBlankUnlessItAdds) {
     EXPECT_EQ(value("formula=sqrt(x)+%CF%80+.5"), "sqrt(x)+\u03C0+.5");
     EXPECT_EQ(value("formula=x+-+y+"), "x - y ");
     EXPECT_EQ(value("rotate=xw,yz:0.1,+pi/8"), "xw,yz:0.1, pi/8");
+    EXPECT_EQ(value("rotate=xw:30+%C2%B0"), "xw:30 °");  // a unit is no operand
+    EXPECT_EQ(value("rotate=xw,yz:30+deg,0.5+rad"), "xw,yz:30 deg,0.5 rad");
+    EXPECT_EQ(value("alpha=0.5+deg(30)+degree"), "0.5+deg(30)+degree");
 }
 
 TEST(RequestTarget, LeavesOutWhatOtherSitesAppend) {
-    const auto target = parseRequestTarget("/?fbclid=1&polytope=5-cell&utm_source=a&utm_medium=b&gclid=c&fb=2");
+    const auto target = parseRequestTarget(
+        "/?fbclid=1&polytope=5-cell&utm_source=a&utm_medium=b&gclid=c&fb=2&gad_source=1&gad_campaignid=2&srsltid=d&"
+        "gbraid=e&wbraid=f&dclid=g&mc_eid=h&igshid=i&twclid=j&li_fat_id=k&_ga=l&ref_src=m");
     const session::QueryParameters expected{{"polytope", "5-cell"}, {"fb", "2"}};
     EXPECT_EQ(target->query, expected);
 }
