@@ -54,7 +54,7 @@ const kNoGraphics = "The graphics card is unavailable; the server renders the pi
 const kLeastDisc = 12; // pixels: the radius within which a click hits a slice, however small it is
 const kResizeDelay = 120; // milliseconds after the last change of the window's size
 
-type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
+type Command = Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>;
 
 export class App {
     private readonly drawing = byId("drawing");
