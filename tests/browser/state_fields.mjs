@@ -239,3 +239,17 @@ test("state fields: Tab leaves a field that the mouse has opened for what is bes
     assert.equal(await focused(), "export-button", "forward");
     await close();
 });
+
+test("state fields: the note below a field stays in the window when this becomes smaller", async () => {
+    const { page, press, close } = await openWithScript();
+    await press("y");
+    await page.click(".state-field:has([data-field=last]) button");
+    for (const [width, height] of [[640, 360], [1280, 720], [800, 600]]) {
+        await page.setViewportSize({ width, height });
+        await page.waitForFunction(() => {
+            const { left, right } = document.querySelector(".state-field-note:not([hidden])").getBoundingClientRect();
+            return left >= 0 && right <= innerWidth;
+        });
+    }
+    await close();
+});
