@@ -202,8 +202,8 @@ test("accessibility: in a toolbar, the arrows, Home and End move the focus, and 
         ["ArrowUp", at("2")],
         ["ArrowUp", at("2")],
         ["Home", at("Shift+2")],
-        ["ArrowLeft", at("y")],
-        ["End", at("y")],
+        ["ArrowLeft", at("r")], // at the lower right
+        ["End", at("r")],
         ["ArrowRight", at("Shift+2")],
     ]) {
         await page.keyboard.press(key);
@@ -221,6 +221,25 @@ test("accessibility: in a toolbar, the arrows, Home and End move the focus, and 
     await page.evaluate((selector) => (document.querySelector(selector).disabled = true), at("3"));
     await page.waitForSelector(`${at("Shift+2")}[tabindex="0"]`);
     assert.equal(await page.locator("#tools [data-group=turn] [tabindex='0']").count(), 1);
+    await close();
+});
+
+test("accessibility: the arrows move the focus among the rotations as they are seen", async () => {
+    const { page, close } = await openWithScript();
+    const buttons = page.locator("[data-group=turn] button");
+    await buttons.first().focus();
+    const place = () =>
+        page.evaluate(() => {
+            const { left, top } = document.activeElement.getBoundingClientRect();
+            return { left, top };
+        });
+    for (let i = 1, before = await place(); i < (await buttons.count()); ++i) {
+        await page.keyboard.press("ArrowRight");
+        const after = await place();
+        const isNext = after.top === before.top ? after.left > before.left : after.top > before.top;
+        assert.ok(isNext, `button ${i}: ${JSON.stringify([before, after])}`);
+        before = after;
+    }
     await close();
 });
 
@@ -337,6 +356,25 @@ async function assertContrast(colorScheme) {
     await close();
 }
 
+/** The texts in what is pressed, chosen or disabled whose colors are not those of the theme for it. */
+async function otherColors(page) {
+    return page.evaluate(() => {
+        const probe = document.body.appendChild(document.createElement("span"));
+        probe.style.forcedColorAdjust = "none";
+        const theme = (name) => ((probe.style.color = name), getComputedStyle(probe).color);
+        const [chosen, text, gray] = ["SelectedItem", "SelectedItemText", "GrayText"].map(theme);
+        probe.remove();
+        const controls = document.querySelectorAll("button[aria-pressed=true], button:disabled, .segments :checked + span");
+        return [...controls].filter((one) => one.checkVisibility()).flatMap((one) => {
+            const isGray = one.matches(":disabled");
+            const isGround = getComputedStyle(one).backgroundColor === chosen;
+            const parts = [one, ...one.querySelectorAll("*")];
+            const wrong = parts.filter((part) => getComputedStyle(part).color !== (isGray ? gray : text));
+            return [...wrong.map((part) => part.textContent), ...(isGround === isGray ? [`${one.textContent}: ground`] : [])];
+        });
+    });
+}
+
 test("accessibility: forced colors show which controls are pressed and which row is active", async () => {
     const { page, close } = await openWithScript({ forcedColors: "active", viewport: { width: 1280, height: 1100 } });
     /** The color of an element inside its lower left corner. */
@@ -359,6 +397,9 @@ test("accessibility: forced colors show which controls are pressed and which row
     await withDialogs(page, async (id) => {
         if (id === "picker") await differs("[role=option][aria-selected=true]", "[role=option][aria-selected=false]");
         if (id === "export") await differs("#export :checked + span", "#export input:not(:checked) + span");
+        if (id === "export") assert.deepEqual(await otherColors(page), []);
     });
+    await page.waitForSelector("[data-action=back][aria-pressed=true]:disabled"); // there is no projection
+    assert.deepEqual(await otherColors(page), []);
     await close();
 });

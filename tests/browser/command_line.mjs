@@ -69,6 +69,28 @@ test("command line: errors are readable, and the typed line stays for correction
     await close();
 });
 
+test("command line: in a low window, Page Down shows the rest of a long error", async () => {
+    const { page, close } = await openWithScript({ viewport: { width: 320, height: 256 } });
+    await type(page, `polytope ${"nonesuch of a long name ".repeat(8)}`);
+    await page.waitForFunction(() => document.getElementById("command-error").textContent !== "");
+    const ends = () =>
+        page.evaluate(() => {
+            const range = document.createRange();
+            range.selectNodeContents(document.getElementById("command-error"));
+            const { top, bottom } = range.getBoundingClientRect();
+            const panel = document.getElementById("command-line").getBoundingClientRect();
+            const [least, most] = [Math.max(0, panel.top), Math.min(innerHeight, panel.bottom)];
+            return { top: top >= least, bottom: bottom <= most };
+        });
+    assert.deepEqual(await ends(), { top: true, bottom: false });
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("PageDown");
+    assert.equal((await ends()).bottom, true);
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("PageUp");
+    assert.equal((await ends()).top, true);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "command");
+    await close();
+});
+
 test("command line: a line that is being typed is not closed by the answer to the line before", async () => {
     const { page, script, errors, close } = await openWithScript({
         before: () => {
@@ -181,7 +203,7 @@ test("command line: Tab completes what is unique, or what the possible words hav
         ":po": ":polytope ",
         res: "reset",
         "rotate xy,": "rotate xy,zw",
-        "view s": "view single",
+        "view si": "view single",
         "view m": "view matrix",
         "set poi": "set point=",
         "set view=m": "set view=matrix",

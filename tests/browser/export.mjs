@@ -208,6 +208,39 @@ test("export: a field and a polytope have different formats", async () => {
     await close();
 });
 
+test("export: of a field, only what each format can contain is offered, and is saved", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await script.request({ type: "load", name: "ball", format: "formula", data: "x^2 + y^2 + z^2 + w^2 < 1" });
+    await named(page, "ball");
+    const small = { svg: /^<(\?xml|svg)/, pdf: /^%PDF-1/, csv: /^n,w,volume/ };
+    for (const [format, expected] of Object.entries(small)) {
+        await openExport(page);
+        await choose(page, "format", "stl");
+        await choose(page, "of", "focus"); // which drawings of fields do not have
+        await choose(page, "format", format);
+        const offered = await page
+            .locator("#export label:visible:has([name=of])")
+            .evaluateAll((all) => all.map((label) => [label.firstElementChild.value, label.innerText.split("\n")[0]]));
+        const names = offered.map(([, name]) => name.replace(/ (w =|\d).*/, ""));
+        assert.deepEqual(names, format === "csv" ? ["Focus slice", "Whole oval"] : ["Histogram", "Projection", "Matrix"]);
+        if (format !== "csv") assert.match(await page.locator("#export-about").textContent(), /^The histogram/);
+        await page.keyboard.press("Escape");
+        for (const [of] of offered) {
+            const { name, bytes } = await exported(page, { of });
+            assert.match(text(bytes, 400), expected, `${format} of ${of}`);
+            if (of === "coordinates") assert.equal(name, `ball-histogram.${format}`);
+        }
+    }
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    await openExport(page);
+    await choose(page, "format", "svg");
+    assert.equal(await page.locator("#export-coordinates").textContent(), "Parallel coordinates");
+    assert.ok(await page.locator("#export label:has([name=of][value=oval])").isVisible());
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("export: only the options of the format are shown", async () => {
     const { page, close } = await openWithScript();
     await openExport(page);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript, presented } from "./support/browser.mjs";
+import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { openPanel } from "./support/field.mjs";
 
 // Desktops, a phone upright and lying, and desktops at 200 and 400 %, which leave fewer CSS pixels.
@@ -116,4 +116,43 @@ test("layout: a long name leaves room for the last rotation", async () => {
         .evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth);
     assert.ok(hidden <= 0, `${hidden} pixels of the last rotation are hidden`);
     await close();
+});
+
+/** By how much a short drag orbits. */
+async function angleOfDrag(page, script) {
+    const { camera } = await script.state();
+    await page.mouse.move(300, 300);
+    await page.mouse.down();
+    await page.mouse.move(310, 300, { steps: 4 });
+    await page.mouse.up();
+    return Math.abs((await stateAfter(page, script)).camera.azimuth - camera.azimuth);
+}
+
+test("layout: a page that moves to a screen with smaller pixels draws its picture anew, and drags orbit as far", async () => {
+    const { page, script, close } = await openWithScript({ viewport: null }); // otherwise its pixels are not those of the screen
+    const ratio = () =>
+        page.evaluate(() => {
+            return document.querySelector("canvas.overlay").height / document.getElementById("drawing").clientHeight;
+        });
+    assert.equal(await ratio(), 1);
+    const angle = await angleOfDrag(page, script);
+    const { width, height } = await page.evaluate(() => ({ width: innerWidth, height: innerHeight }));
+    const session = await page.context().newCDPSession(page);
+    const screen = { width, height, deviceScaleFactor: 2, mobile: false };
+    await session.send("Emulation.setDeviceMetricsOverride", screen);
+    await page.waitForFunction(() => {
+        return document.querySelector("canvas.overlay").height === 2 * document.getElementById("drawing").clientHeight;
+    });
+    assert.ok(Math.abs((await angleOfDrag(page, script)) - angle) < 1e-9, "the drag orbits as far");
+    await close();
+});
+
+test("layout: drags orbit as far where the picture has fewer pixels than the screen", async () => {
+    const angles = [];
+    for (const deviceScaleFactor of [1, 4]) {
+        const { page, script, close } = await openWithScript({ deviceScaleFactor });
+        angles.push(await angleOfDrag(page, script));
+        await close();
+    }
+    assert.ok(Math.abs(angles[0] - angles[1]) < 1e-9, angles.join(" and "));
 });

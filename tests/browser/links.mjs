@@ -32,6 +32,66 @@ test("links: a query opens its view", async () => {
     await close();
 });
 
+test("links: Back and Forward return to the sessions of the pages before; a link that is opened again is a new one", async () => {
+    const { url } = await common();
+    const { page, script, press, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "16-cell" });
+    const first = await press("y");
+    const sessionOf = async (name) => {
+        await named(page, name);
+        await ready(page);
+        const joined = await scriptFor(page);
+        joined.leave();
+        return joined.client.credentials.session;
+    };
+    const { session } = script.client.credentials;
+    await page.goto(`${url}?polytope=tesseract`);
+    const second = await sessionOf("8-cell");
+    assert.notEqual(second, session);
+    const other = await scriptFor(page);
+    await other.request({ type: "set", slices: { count: 5 } });
+
+    await page.goBack();
+    assert.equal(await sessionOf("16-cell"), session);
+    assert.equal((await script.state()).revision, first.revision, "the session is as it was left");
+    await page.goForward();
+    assert.equal(await sessionOf("8-cell"), second);
+    await page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "5");
+    await page.reload();
+    assert.equal(await sessionOf("8-cell"), second);
+
+    await page.goto(`${url}favicon.svg`);
+    await page.goto(`${url}?polytope=tesseract`);
+    assert.notEqual(await sessionOf("8-cell"), second, "the link opens its view");
+    await page.goBack();
+    await page.goBack();
+    assert.equal(await sessionOf("8-cell"), second);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    assert.deepEqual(errors, []);
+    other.leave();
+    script.leave();
+    await close();
+});
+
+test("links: Back leaves a session that was joined without loading the page again", async () => {
+    const { url } = await common();
+    const joined = await openWithScript();
+    await joined.script.request({ type: "set", polytope: "24-cell" });
+    const { session, token } = joined.script.client.credentials;
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "16-cell" });
+    await named(page, "16-cell");
+    await page.goto(`${url}#session=${session}&token=${token}`);
+    await named(page, "24-cell");
+    await ready(page);
+    await page.goBack();
+    await named(page, "16-cell");
+    await page.goForward();
+    await named(page, "24-cell");
+    await close();
+    await joined.close();
+});
+
 test("links: a query is read as standard clients encode it, without what other sites append", async () => {
     const { url } = await common();
     const sum = new URLSearchParams({ rotate: "xw:0.1 + 0.2", polytope: "truncated 5-cell" });

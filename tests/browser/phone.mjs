@@ -79,6 +79,48 @@ test("phone: zoomed to 400%, the picture is as wide as the window, and every con
     await close();
 });
 
+test("phone: in small pictures, no name below the parallel coordinates is cut", async () => {
+    /** Records the texts that are drawn. */
+    const record = () => {
+        const { fillText } = CanvasRenderingContext2D.prototype;
+        window.drawn = [];
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            const half = this.measureText(text).width / 2;
+            const { width, height } = this.canvas;
+            window.drawn.push({ text, isWhole: y <= height && x >= half - 1 && x <= width - half + 1 });
+            fillText.call(this, text, x, y);
+        };
+    };
+    for (const [width, height] of [[320, 256], [320, 568], [800, 600]]) {
+        const { page, script, close } = await openWithScript({ viewport: { width, height }, before: record });
+        const named = { polytope: "5-cell", array: "x^2 + y^2 + z^2 + w^2 < 1" };
+        for (const [kind, value] of Object.entries(named)) {
+            await page.evaluate(() => void (window.drawn = []));
+            const load = { type: "load", name: "ball", format: "formula", data: value };
+            const { revision } = await script.request(kind === "array" ? load : { type: "set", [kind]: value, alpha: 0.5 });
+            await presented(page, revision);
+            const names = await page.evaluate(() => window.drawn.filter(({ text }) => /^(P\d+|[xyzw])$/.test(text)));
+            assert.deepEqual(names.filter(({ isWhole }) => !isWhole), [], `${value} at ${width} × ${height}`);
+            if (width === 800) assert.ok(names.some(({ text }) => /^P|w/.test(text)), "there are names where they fit");
+        }
+        await close();
+    }
+});
+
+test("phone: in the narrowest window, the buttons of the header are in its first line", async () => {
+    const { page, script, close } = await openWithScript({ viewport: { width: 320, height: 568 } });
+    for (const polytope of ["24-cell", "omnitruncated 120-cell"]) {
+        const { revision } = await script.request({ type: "set", polytope });
+        await presented(page, revision);
+        const tops = await page
+            .locator("header > button:visible")
+            .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().top));
+        assert.equal(tops.length, 3);
+        assert.equal(new Set(tops).size, 1, `${polytope}: ${tops}`);
+    }
+    await close();
+});
+
 test("phone: the header is not cut at any width", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "omnitruncated 120-cell", alpha: 2.1432, beta: 2.9876 });

@@ -196,3 +196,21 @@ test("picker: says that the server cannot be reached, and lists the polytopes on
     await close();
     await proxy.stop();
 });
+
+test("picker: in a narrow window, no name is broken within a word", async () => {
+    const { page, close } = await openWithScript({ viewport: { width: 320, height: 568 } });
+    await page.click("#polytope");
+    await page.waitForSelector("#picker-list [data-name]");
+    const broken = await page.locator("#picker-list [data-name] b").evaluateAll((names) =>
+        names.flatMap(({ firstChild: text }) => {
+            return [...text.data.matchAll(/\S+/g)].filter(({ 0: word, index }) => {
+                const range = document.createRange();
+                range.setStart(text, index);
+                range.setEnd(text, index + word.length);
+                return new Set([...range.getClientRects()].map(({ top }) => top)).size > 1 && !word.includes("-");
+            });
+        }),
+    );
+    assert.deepEqual(broken, []);
+    await close();
+});

@@ -316,3 +316,26 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("pointing: the menu of an element stays in the window when this becomes smaller", async () => {
+    const { page, size, picture, moveTo, close } = await openTurned();
+    const menu = page.locator("#element-menu");
+    await moveTo(...faceIn(await picture(), size, 1).at);
+    await page.mouse.down({ button: "right" });
+    await page.mouse.up({ button: "right" });
+    await menu.waitFor();
+    for (const [width, height] of [[640, 360], [320, 256]]) {
+        await page.setViewportSize({ width, height });
+        await page.waitForFunction(() => {
+            const [inner, outer] = ["element-menu", "drawing"].map((id) => document.getElementById(id).getBoundingClientRect());
+            return inner.right <= outer.right && inner.bottom <= outer.bottom && inner.top >= outer.top;
+        });
+    }
+    await page.keyboard.press("End");
+    const isVisible = await page.evaluate(() => {
+        const [item, around] = [document.activeElement, document.getElementById("element-menu")].map((one) => one.getBoundingClientRect());
+        return item.top >= around.top && item.bottom <= around.bottom;
+    });
+    assert.ok(isVisible, "the last item can be reached");
+    await close();
+});

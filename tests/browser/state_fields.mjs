@@ -216,3 +216,40 @@ test("state fields: on a phone, a field and its message fit into the window", as
     }
     await closePage();
 });
+
+test("state fields: Tab leaves a field that the mouse has opened for what is beside the fields", async () => {
+    const { page, press, close } = await openWithScript();
+    await press("y");
+    const focused = () => page.evaluate(() => document.activeElement.id);
+    const field = (name) => page.locator(`.state-field:has([data-field=${name}]) button`);
+    for (const name of ["beta", "w", "spacing", "slices", "last"]) {
+        await page.locator("#drawing").focus();
+        await field(name).click();
+        await page.waitForSelector(`[data-field=${name}]:focus`);
+        await page.keyboard.press("Shift+Tab");
+        assert.equal(await focused(), "polytope", `backward from ${name}`);
+    }
+    await field("last").focus();
+    await page.keyboard.press("Escape");
+    await field("alpha").click();
+    await page.waitForSelector("[data-field=alpha]:focus");
+    await field("w").click(); // another one, while the first is open
+    await page.waitForSelector("[data-field=w]:focus");
+    await page.keyboard.press("Tab");
+    assert.equal(await focused(), "export-button", "forward");
+    await close();
+});
+
+test("state fields: the note below a field stays in the window when this becomes smaller", async () => {
+    const { page, press, close } = await openWithScript();
+    await press("y");
+    await page.click(".state-field:has([data-field=last]) button");
+    for (const [width, height] of [[640, 360], [1280, 720], [800, 600]]) {
+        await page.setViewportSize({ width, height });
+        await page.waitForFunction(() => {
+            const { left, right } = document.querySelector(".state-field-note:not([hidden])").getBoundingClientRect();
+            return left >= 0 && right <= innerWidth;
+        });
+    }
+    await close();
+});

@@ -1,7 +1,7 @@
 // The page: connects the session to the picture, the keys, the buttons and the display of the state.
 
 import { Client, RequestError } from "@oval4d/protocol";
-import type { Done, KeyBinding, Keymap, PolytopeElement, Request, Settings, State } from "@oval4d/protocol";
+import type { Credentials, Done, KeyBinding, Keymap, PolytopeElement, Request, Settings, State } from "@oval4d/protocol";
 
 import { ColorScheme, groundOf, type SchemeChoice } from "./color_scheme";
 import { Colors } from "./colors";
@@ -31,7 +31,7 @@ import type { Point } from "./hover";
 import { KeyRepeat } from "./key_repeat";
 import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
 import { Latency } from "./latency";
-import { extractSharedSession, readInitialView, rememberSession } from "./link";
+import { extractSharedSession, readInitialView, rememberSession, sessionOfEntry } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { markFullScreen, markMode, markScheme, pageSections } from "./page_tools";
@@ -210,6 +210,7 @@ export class App {
         window.addEventListener("online", () => this.requestStream());
         window.addEventListener("offline", () => this.client.test()); // a server on this computer still answers
         window.addEventListener("hashchange", () => this.joinSharedSession());
+        window.addEventListener("popstate", () => this.joinSessionOfEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
         this.welcomeFirstVisit();
@@ -235,7 +236,17 @@ export class App {
     private joinSharedSession(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.notice.show(fault);
-        if (!credentials) return;
+        if (credentials) this.join(credentials);
+        else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
+    }
+
+    /** Returns to the session of an entry of the browser's history that does not load the page again. */
+    private joinSessionOfEntry(): void {
+        const credentials = sessionOfEntry();
+        if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
+    }
+
+    private join(credentials: Credentials): void {
         this.clearInitialView(); // another session's view does not apply to this one
         this.state = this.lostState = undefined;
         this.client.credentials = credentials;

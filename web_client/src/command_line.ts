@@ -7,6 +7,7 @@ import { readStored, writeStored } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // lines
+const kPage = 0.8; // of the panel's height, by which Page Down scrolls
 
 export interface CommandLineEvents {
     /** Executes a line; throws an Error, whose message the user sees. */
@@ -48,6 +49,8 @@ export class CommandLine {
             this.complete(1);
         });
         this.form.addEventListener("keydown", (event) => {
+            const page = { PageDown: 1, PageUp: -1 }[event.key];
+            if (page !== undefined) this.scroll(event, page);
             if (event.key !== "Escape") return;
             if (this.list.hidden) this.close();
             else this.hideList();
@@ -88,6 +91,13 @@ export class CommandLine {
         event.preventDefault();
         if (this.list.hidden) this.recall(step);
         else this.complete(-step);
+    }
+
+    /** Scrolls by most of a page, if the panel is too low for an error. */
+    private scroll(event: KeyboardEvent, pages: number): void {
+        event.preventDefault();
+        this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });
+        this.form.scrollIntoView({ block: "nearest" }); // the page may scroll, too
     }
 
     /** Completes the line; returns false if there is nothing to complete, so that Tab moves the focus. */
@@ -190,6 +200,7 @@ export class CommandLine {
 
     private showError(error: string): void {
         this.error.textContent = error === "" ? "" : toSentence(error);
+        if (error !== "") this.form.scrollIntoView({ block: "nearest" });
         this.input.setAttribute("aria-invalid", String(error !== ""));
     }
 

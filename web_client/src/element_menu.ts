@@ -13,11 +13,13 @@ const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1 };
 
 export class ElementMenu {
     private readonly menu = byId("element-menu");
+    private at: Point = { x: 0, y: 0 }; // where it was opened
 
     constructor(private readonly drawing: HTMLElement) {
         document.addEventListener("pointerdown", ({ target }) => this.menu.contains(target as Node) || this.hide());
         this.menu.addEventListener("keydown", (event) => this.keydown(event));
         this.menu.addEventListener("focusout", ({ relatedTarget }) => this.menu.contains(relatedTarget as Node) || this.hide());
+        new ResizeObserver(() => this.place()).observe(drawing);
     }
 
     /** Opens the menu at a point of the drawing, with the focus on its first item. */
@@ -33,12 +35,19 @@ export class ElementMenu {
         this.menu.setAttribute("aria-label", title);
         this.menu.replaceChildren(element("b", { role: "presentation" }, title), ...buttons);
         this.menu.hidden = false;
+        this.at = at;
+        this.place();
+        buttons[0]!.focus();
+    }
+
+    /** Places the menu where it was opened, but within the drawing. */
+    private place(): void {
+        const { at } = this;
         const { offsetWidth: width, offsetHeight: height } = this.menu;
         const { clientWidth, clientHeight } = this.drawing;
         const left = Math.max(kMargin, Math.min(at.x, clientWidth - width - kMargin));
         const top = Math.max(kMargin, Math.min(at.y, clientHeight - height - kMargin));
         this.menu.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
-        buttons[0]!.focus();
     }
 
     private hide(): void {

@@ -90,6 +90,7 @@ export class ExportDialog {
         byId("export-focus").textContent = `w = ${focusW(state)}`;
         byId("export-oval").textContent = `${state.slices.count} slices`;
         byId("export-highlight").textContent = nameOf(state.highlight);
+        byId("export-coordinates").textContent = state.field ? "Histogram" : "Parallel coordinates";
         const { limits = {} } = this.client.welcome ?? {};
         const { width, height } = this.size();
         for (const [name, pageSize] of Object.entries({ width, height })) {
@@ -175,7 +176,7 @@ export class ExportDialog {
     /** Shows the options that the chosen format offers, and hides the others. */
     private showOptions(): void {
         const { format } = this;
-        this.description.textContent = format.about;
+        this.description.textContent = this.state?.field ? format.forFields.about : format.about;
         for (const set of this.form.querySelectorAll<HTMLFieldSetElement>("[data-choice]")) {
             const used = (format.choices as string[]).includes(set.dataset["choice"]!);
             set.hidden = set.disabled = !used;
@@ -188,7 +189,8 @@ export class ExportDialog {
 
     /** Offers what files of the format can contain, and chooses the default if they cannot contain what is chosen. */
     private showContents(format: Format): void {
-        const of = format.of.filter((one) => one !== "highlight" || this.state?.highlight);
+        const all = this.state?.field ? format.forFields.of : format.of;
+        const of = all.filter((one) => one !== "highlight" || this.state?.highlight);
         if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.field("of").value = of[0]!;
         for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=of]")) {
             radio.disabled = radio.parentElement!.hidden = !of.includes(radio.value);
@@ -276,6 +278,7 @@ export class ExportDialog {
         else if (at !== undefined) parts.push("slices");
         else if (of === "highlight") parts.push(nameOf(state.highlight));
         else if (of === "focus") parts.push(`w ${focusW(state).replace("\u2212", "-")}`);
+        else if (of === "coordinates" && state.field) parts.push("histogram");
         else if (of !== undefined && choices.includes("of")) parts.push(String(of));
         if (body === "skeleton") parts.push("skeleton");
         return fileName(parts, name);

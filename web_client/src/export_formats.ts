@@ -16,17 +16,21 @@ export interface Format {
     choices: Choice[];
     /** What the file can contain; the first is the default. */
     of: string[];
+    /** The line, and what the file can contain, for fields. */
+    forFields: { about: string; of: string[] };
     /** The only objects that the format describes, if it does not describe all. */
     objects?: "fields" | "polytopes";
 }
 
+const kAboutPng = "The picture; scripts can restore its state from the file";
 const kPng: Format = {
     name: "png",
     label: "PNG",
-    about: "The picture; scripts can restore its state from the file",
+    about: kAboutPng,
     type: "image/png",
     choices: ["pixels", "background"],
     of: [],
+    forFields: { about: kAboutPng, of: [] },
 };
 
 export const kFormats: { title: string; formats: Format[] }[] = table.groups.map(({ name: group, title }) => ({
@@ -42,6 +46,8 @@ interface Row {
     group: string;
     bodies?: string;
     of: string[];
+    of_fields?: string[];
+    about_fields?: string;
     objects?: string;
 }
 
@@ -54,6 +60,7 @@ function format(row: Row): Format {
         type: row.media_type,
         choices: choicesOf(row),
         of,
+        forFields: { about: row.about_fields ?? about, of: row.of_fields ?? of },
         ...(objects && { objects: objects as "fields" | "polytopes" }),
     };
 }

@@ -1,5 +1,5 @@
-// Determines what the page shows at the start: a shared session (URL fragment), a view (URL query), or the session from
-// before a reload.
+// Determines what the page shows at the start: a shared session (URL fragment), the session that this entry of the
+// browser's history had, as after a reload or Back, or a view (URL query).
 
 import type { Credentials } from "@oval4d/protocol";
 
@@ -23,16 +23,21 @@ interface StoredSession {
     query: string;
 }
 
+/** The state of an entry of the browser's history. */
+interface HistoryEntry {
+    credentials?: Credentials;
+}
+
 const kIgnoredParameters = ["width", "height", "token"]; // not part of the view
 const kFieldParameters = ["formula", "values", "box"]; // not commands
-const kSessionKey = `oval4d.session ${location.pathname}`;
+const kSessionKey = `oval4d.session ${location.pathname}`; // storage key of the tab's newest session
 
 export function readInitialView(): InitialView {
     const { credentials, fault } = extractSharedSession();
     const faults = fault ? [fault] : [];
     if (credentials) return { credentials, lines: [], faults };
-    const stored = readStored<StoredSession>(kSessionKey);
-    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [], faults };
+    const known = sessionOfEntry() ?? sessionOfTab();
+    if (known) return { credentials: known, lines: [], faults };
     const view = fieldOf(location.search);
     return { ...view, lines: commandLines(location.search), faults: [...faults, ...view.faults] };
 }
@@ -55,8 +60,25 @@ export function extractSharedSession(): { credentials?: Credentials; fault?: str
     return { credentials: { session, token } };
 }
 
-/** Remembers the session across a reload. */
-export function rememberSession(credentials: Credentials): void {
+/** The session that the present entry of the browser's history has, if any. */
+export function sessionOfEntry(): Credentials | undefined {
+    return (history.state as HistoryEntry | null)?.credentials;
+}
+
+/**
+ * The newest session of this tab, if the address was opened anew and names no view; a link to a view opens a new session.
+ */
+function sessionOfTab(): Credentials | undefined {
+    const stored = readStored<StoredSession>(kSessionKey);
+    return location.search === "" && stored?.query === "" ? stored.credentials : undefined;
+}
+
+/** Remembers the session for reloads, and for the return to this entry of the browser's history. */
+export function rememberSession({ session, token }: Credentials): void {
+    const credentials = { session, token };
+    const entry: HistoryEntry = { credentials };
+    // Browsers limit how often the state is replaced.
+    if (JSON.stringify(history.state) !== JSON.stringify(entry)) history.replaceState(entry, "");
     const stored: StoredSession = { credentials, query: location.search };
     writeStored(kSessionKey, stored);
 }

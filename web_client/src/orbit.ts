@@ -45,7 +45,7 @@ export class OrbitControl {
 
     /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
     drag(dx: number, dy: number): void {
-        const part = Math.PI / Math.max(1, this.stage.size.height / devicePixelRatio);
+        const part = Math.PI / Math.max(1, this.stage.shownHeight);
         this.orbitBy(-dx * part, dy * part);
     }
 

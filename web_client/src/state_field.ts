@@ -3,6 +3,8 @@
 import { byId, element } from "./element";
 import { toSentence } from "./format";
 
+const kMargin = 4; // pixels between the note and the edge of the window
+
 export interface FieldEvents {
     /** The value for editing. */
     editable(): string;
@@ -54,6 +56,7 @@ export class StateField {
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         this.input.addEventListener("input", () => this.showError(""));
         this.input.addEventListener("blur", () => this.blurred());
+        window.addEventListener("resize", () => this.placeNote());
     }
 
     /** Shows a value; a field that is open keeps its text. */
@@ -76,6 +79,15 @@ export class StateField {
     private setOpen(open: boolean): void {
         this.button.hidden = open;
         this.label.hidden = this.note.hidden = !open;
+        this.placeNote();
+    }
+
+    /** Places the note below the field, but within the window. */
+    private placeNote(): void {
+        if (this.note.hidden) return;
+        this.note.style.translate = "";
+        const beyond = this.note.getBoundingClientRect().right - (innerWidth - kMargin);
+        if (beyond > 0) this.note.style.translate = `${-Math.ceil(beyond)}px 0`;
     }
 
     /** Closes the field, and moves the focus to where it was. */
@@ -117,5 +129,6 @@ export class StateField {
     private showError(error: string): void {
         this.error.textContent = error === "" ? "" : toSentence(error);
         this.input.setAttribute("aria-invalid", String(error !== ""));
+        this.placeNote();
     }
 }

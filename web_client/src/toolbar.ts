@@ -1,5 +1,5 @@
 // A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
-// Practices Guide. The button that had the focus last is the tab stop.
+// Practices Guide. The button that had the focus last is the tab stop, also if it has become a text field since.
 
 const kRowWeight = 3; // Up and Down prefer a button in the next row to one in the same column
 
@@ -10,9 +10,9 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     const setTabStop = (wanted?: Element): void => {
         const focused = document.activeElement;
         // A button that became a text field stays the tab stop while the field has the focus, although it is hidden.
-        if (focused instanceof HTMLInputElement && root.contains(focused)) return;
+        if (!wanted && focused instanceof HTMLInputElement && root.contains(focused)) return;
         const buttons = [...root.querySelectorAll("button")];
-        const enabled = buttons.filter(isUsable);
+        const enabled = buttons.filter((button) => button === wanted || isUsable(button));
         const stop = enabled.find((button) => button === wanted) ?? enabled.find((button) => button.tabIndex === 0);
         for (const button of buttons) button.tabIndex = button === (stop ?? enabled[0]) ? 0 : -1;
     };
@@ -22,7 +22,10 @@ export function makeToolbar(root: HTMLElement, label: string): void {
         attributeFilter: ["disabled"],
     });
     new ResizeObserver(() => setTabStop()).observe(root); // the window's width may hide or show buttons
-    root.addEventListener("focusin", ({ target }) => target instanceof HTMLButtonElement && setTabStop(target));
+    root.addEventListener("focusin", ({ target }) => {
+        const button = target instanceof HTMLInputElement ? buttonOf(target, root) : target;
+        if (button instanceof HTMLButtonElement) setTabStop(button);
+    });
     root.addEventListener("keydown", (event) => {
         if (!(event.target instanceof HTMLButtonElement) || isModified(event)) return;
         const buttons = [...root.querySelectorAll("button")].filter(isUsable);
@@ -31,6 +34,14 @@ export function makeToolbar(root: HTMLElement, label: string): void {
         event.preventDefault();
         next.focus();
     });
+}
+
+/** The button that became this text field: the mouse opens a field without giving its button the focus before. */
+function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
+    if (field.type !== "text") return undefined;
+    let around: Element = field;
+    while (around !== root && !around.querySelector("button")) around = around.parentElement!;
+    return around === root ? undefined : around.querySelector("button")!;
 }
 
 function isUsable(button: HTMLButtonElement): boolean {

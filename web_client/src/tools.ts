@@ -89,7 +89,7 @@ export class Tools {
 
     show(keymap: Keymap, pageSections: Section[]): void {
         this.toggleButtons.clear();
-        const rotations = keymap.keys.filter((key) => key.action === "rotate");
+        const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareCells);
         const sections = keymap.groups
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
             .filter(({ keys }) => keys.some((key) => key.action !== "rotate"))
@@ -173,8 +173,9 @@ export class Tools {
     private rotationStepper(binding: KeyBinding): HTMLElement {
         const planes = binding.planes ?? [];
         const made = this.stepper(binding, true, planes.map(planeName), binding.name, binding);
-        made.style.gridColumn = String(1 + columnOf(planes[0]!));
-        made.style.gridRow = planes.length > 1 ? "3" : kPadColumns.includes(planes[0]!) ? "1" : "2";
+        const { row, column } = cellOf(planes);
+        made.style.gridColumn = String(column);
+        made.style.gridRow = String(row);
         return made;
     }
 
@@ -234,6 +235,18 @@ function uncapitalized(text: string): string {
 function columnOf(plane: Plane): number {
     const column = kPadColumns.indexOf(plane);
     return column >= 0 ? column : kPadColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
+}
+
+/** The cell of the grid in which a rotation is, counted from 1. */
+function cellOf(planes: readonly Plane[]): { row: number; column: number } {
+    const row = planes.length > 1 ? 3 : kPadColumns.includes(planes[0]!) ? 1 : 2;
+    return { row, column: 1 + columnOf(planes[0]!) };
+}
+
+/** The order of the grid, so that Tab and the arrow keys follow what is seen. */
+function compareCells(a: KeyBinding, b: KeyBinding): number {
+    const [one, other] = [cellOf(a.planes ?? []), cellOf(b.planes ?? [])];
+    return one.row - other.row || one.column - other.column;
 }
 
 function compareFocusOrder(a: KeyBinding, b: KeyBinding): number {

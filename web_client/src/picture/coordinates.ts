@@ -83,22 +83,29 @@ function drawLines(
     const digits = setFont(pen, Math.max(wanted, leastText));
     const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1; // enlarged names need more room
     pen.fillStyle = cssColor(scene.colors.text);
+    const lastRow = Math.floor((count - 1) / perRow);
     for (let i = 0; i < count; i += every) {
+        const row = Math.floor(i / perRow);
         const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
-        pen.fillText(
-            `P${i}`,
-            Math.round(x),
-            Math.round(zeroOf(Math.floor(i / perRow)) + amplitude * height + 1.4 * digits),
-        );
+        const y = zeroOf(row) + amplitude * height + 1.4 * digits;
+        const isOverNextRow = wanted < leastText && row < lastRow && y > zeroOf(row + 1) - amplitude * height;
+        if (!isOverNextRow) drawName(pen, `P${i}`, x, y, viewport);
     }
+}
+
+/** Draws a name with this middle and baseline, unless the edge of the picture would cut it: it may be enlarged. */
+function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
+    const half = pen.measureText(name).width / 2;
+    if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));
 }
 
 function drawDensityStrip(
     pen: CanvasRenderingContext2D,
     picture: Slices,
-    { height }: Viewport,
+    viewport: Viewport,
     leastText: number,
 ): void {
+    const { height } = viewport;
     const { colors, circumradius, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
     const centerOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
@@ -111,7 +118,7 @@ function drawDensityStrip(
         const left = Math.round(centerOf(k) - thickness / 2);
         pen.fillStyle = cssColor(colors.axes[k]!);
         pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
-        if (layout.named) pen.fillText("xyzw"[k]!, left + thickness / 2, Math.round(zero + amplitude + 1.4 * digits));
+        if (layout.named) drawName(pen, "xyzw"[k]!, left + thickness / 2, zero + amplitude + 1.4 * digits, viewport);
     }
     const focus = picture.slices.find((slice) => slice.focus);
     if (!focus || Math.abs(focus.w) > circumradius) return;
@@ -124,9 +131,10 @@ function drawHistogram(
     pen: CanvasRenderingContext2D,
     picture: Slices,
     { reach, range: [least, greatest], levels }: Histogram,
-    { height }: Viewport,
+    viewport: Viewport,
     leastText: number,
 ): void {
+    const { height } = viewport;
     const { colors, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
     const [top, bottom] = [Math.round(zero - amplitude), Math.round(zero + amplitude)];
@@ -154,6 +162,6 @@ function drawHistogram(
         pen.globalAlpha = 1;
         pen.fillStyle = cssColor(colors.axes[k]!);
         pen.fillRect(left, bottom, width, thickness);
-        pen.fillText("xyzw"[k]!, left + width / 2, Math.round(bottom + 1.4 * digits));
+        drawName(pen, "xyzw"[k]!, left + width / 2, bottom + 1.4 * digits, viewport);
     }
 }

@@ -78,6 +78,7 @@ export class Stage {
         this.painted.port1.onmessage = () => this.reportPresented();
         this.updateSize();
         new ResizeObserver(() => this.updateSize()).observe(root);
+        this.followPixelRatio();
     }
 
     get canDrawGeometry(): boolean {
@@ -165,12 +166,16 @@ export class Stage {
         this.drawNow();
     }
 
+    /** The height of the picture on the page, in CSS pixels. It has fewer device pixels if there would be too many. */
+    get shownHeight(): number {
+        return this.root.clientHeight || this.size.height / devicePixelRatio; // nothing has a height in print
+    }
+
     /** The least height of texts in the picture, in its pixels. */
     private get leastText(): number {
         const isFull = document.documentElement.hasAttribute("data-full-screen");
         const least = isFull ? Math.max(kLeastText, kLeastTextInFullScreen * innerHeight) : kLeastText;
-        const height = this.root.clientHeight || this.size.height / devicePixelRatio; // nothing has a height in print
-        return Math.ceil((least * this.size.height) / height);
+        return Math.ceil((least * this.size.height) / this.shownHeight);
     }
 
     private draw(): void {
@@ -192,6 +197,15 @@ export class Stage {
         this.events.presented(revision, by);
     }
 
+    /** Updates the size when the window moves to a screen with another ratio, where its size stays the same. */
+    private followPixelRatio(): void {
+        const changed = (): void => {
+            this.updateSize();
+            this.followPixelRatio(); // the query matches only the ratio for which it was made
+        };
+        matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", changed, { once: true });
+    }
+
     private updateSize(): void {
         const { clientWidth, clientHeight } = this.root;
         if (clientWidth === 0 || clientHeight === 0) return;
@@ -199,9 +213,9 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
+        this.redraw(); // zooming the page can change the size of texts alone
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
-        this.redraw();
         this.events.resized(size);
     }
 }
