@@ -8,7 +8,7 @@ import { assertMatrix, turned } from "./support/rotation.mjs";
 
 test("keys: the table is complete, and the server has the same", async () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNompafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNoOmpafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
     assert.deepEqual(names, expected);
     const { script, close } = await openWithScript();
     assert.deepEqual((await script.request({ type: "get", what: "keymap" })).keys, table);

@@ -47,6 +47,7 @@ export const effects = {
     polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
+    strip: (_, after) => assert.equal(after.view, "strip"),
     matrix: (_, after) => assert.equal(after.view, "matrix"),
     projection: (_, after) => assert.equal(after.projection, "perspective"),
     cells: toggles("cells"),
