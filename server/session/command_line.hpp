@@ -13,6 +13,6 @@ namespace oval4d::session {
 /// "reset". `state` is the current state: its angles are used if "rotate" gives none, and "hide", "fade" and "show"
 /// change its lists of cell types. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`,
 /// `unknown_key`.
-Result<Command> parseCommandLine(std::string_view line, const State& state);
+Result<Command> parseCommandLine(std::string_view written, const State& state);
 
 }  // namespace oval4d::session

@@ -104,8 +104,8 @@ Result<fields::Box> parseBox(std::string_view text) {
     return box;
 }
 
-Result<geometry::Centering> parseCenter(std::string_view given) {
-    const std::string_view text = text::trimmed(given);
+Result<geometry::Centering> parseCenter(std::string_view written) {
+    const std::string_view text = text::trimmed(written);
     using Kind = geometry::Centering::Kind;
     if (text == "object") return geometry::Centering{Kind::object};
     if (text == "origin") return geometry::Centering{Kind::origin};

@@ -25,7 +25,7 @@ Result<fields::Box> parseBox(std::string_view text);
 
 /// Parses the point about which an object turns: "object", "origin", or four numbers or expressions, separated by
 /// commas. Errors: `bad_expression` and those of evaluate().
-Result<geometry::Centering> parseCenter(std::string_view text);
+Result<geometry::Centering> parseCenter(std::string_view written);
 
 /// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "rotate",
 /// which may occur any number of times; and "toward", such as "cell" or "cell:3". Rotations are applied in the order

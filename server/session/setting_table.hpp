@@ -38,9 +38,9 @@ struct NotInState {};
 /// State, by reference unless the rule is OwnRule.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
-    static constexpr bool isInState = !std::is_same_v<OfState, NotInState>;
-    static constexpr bool hasBounds = std::is_same_v<Rule, Within>;
-    static constexpr bool hasOwnRule = std::is_same_v<Rule, OwnRule>;
+    static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
+    static constexpr bool kHasBounds = std::is_same_v<Rule, Within>;
+    static constexpr bool kHasOwnRule = std::is_same_v<Rule, OwnRule>;
 
     SettingName name;
     OfSet ofSet;
@@ -50,7 +50,7 @@ struct Setting {
 
     /// Returns whether it is an angle in radians, which is read with a unit.
     bool isAngle() const {
-        if constexpr (hasBounds) return rule.bounds.unit == kRadians;
+        if constexpr (kHasBounds) return rule.bounds.unit == kRadians;
         return false;
     }
 };

@@ -14,7 +14,7 @@ namespace oval4d::session {
 /// Parses the value of one setting and writes it to `set`. Examples of a name and a value: "slices" and "31", "alpha"
 /// and "pi/12", "faces" and "off". Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range`
 /// for an invalid value.
-Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set);
+Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set);
 
 /// Returns the names and values of the settings that `set` contains, from which parseSetting() reads the same values.
 QueryParameters settingTexts(const Set& set);
@@ -30,9 +30,9 @@ std::string settingNames();
 std::string numberList(std::span<const double> numbers);
 
 /// Parses the kind of an element, such as "cell". Error: `bad_expression`.
-Result<slicing::ElementKind> parseElementKind(std::string_view text);
+Result<slicing::ElementKind> parseElementKind(std::string_view written);
 
 /// Parses the index of an element. Error: `bad_expression`.
-Result<std::size_t> parseElementIndex(std::string_view text);
+Result<std::size_t> parseElementIndex(std::string_view written);
 
 }  // namespace oval4d::session

@@ -252,9 +252,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     if (auto done = setSlices(state, set, limits); !done) return done;
     Result<std::monostate> plain = std::monostate{};
     forEachSetting([&]<typename Row>(const Row& setting) {
-        if constexpr (Row::hasBounds) {
+        if constexpr (Row::kHasBounds) {
             if (plain) plain = put(setting.rule.what, setting.ofSet(set), setting.rule.bounds, setting.ofState(state));
-        } else if constexpr (!Row::hasOwnRule) {
+        } else if constexpr (!Row::kHasOwnRule) {
             setting.ofState(state) = setting.ofSet(set).value_or(setting.ofState(state));
         }
     });
@@ -278,7 +278,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 Set settingsOf(const State& state) {
     Set set;
     forEachSetting([&]<typename Row>(const Row& setting) {
-        if constexpr (Row::isInState) {
+        if constexpr (Row::kIsInState) {
             if (!setting.forFields || slicing::fieldIn(state.object) != nullptr)
                 setting.ofSet(set) = setting.ofState(state);
         }

@@ -206,7 +206,7 @@ void writeSettings(JsonWriter& w, const session::State& state) {
         object = next;
     };
     session::forEachSetting([&]<typename Row>(const Row& setting) {
-        if constexpr (Row::isInState) {
+        if constexpr (Row::kIsInState) {
             if (setting.forFields && slicing::fieldIn(state.object) == nullptr) return;
             continueIn(setting.name.object);
             writeMember(w, setting.name.member, setting.ofState(state));

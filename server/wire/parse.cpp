@@ -259,7 +259,7 @@ struct RequestType {
 };
 // The parser of messages that are commands without members.
 template <typename T>
-constexpr Body (*plain)(const json&) = [](const json& /*message*/) -> Body { return session::Command{T{}}; };
+constexpr Body (*kPlain)(const json&) = [](const json& /*message*/) -> Body { return session::Command{T{}}; };
 
 constexpr auto kRequestTypes = std::to_array<RequestType>({
     {"hello", [](const json& message) -> Body { return helloOf(message); }},
@@ -268,9 +268,9 @@ constexpr auto kRequestTypes = std::to_array<RequestType>({
     {"toward", [](const json& message) -> Body { return session::Command{towardOf(message)}; }},
     {"set", [](const json& message) -> Body { return session::Command{setOf(message)}; }},
     {"load", [](const json& message) -> Body { return session::Command{loadOf(message)}; }},
-    {"undo", plain<session::Undo>},
-    {"redo", plain<session::Redo>},
-    {"reset", plain<session::Reset>},
+    {"undo", kPlain<session::Undo>},
+    {"redo", kPlain<session::Redo>},
+    {"reset", kPlain<session::Reset>},
     {"command", [](const json& message) -> Body { return session::Command{session::CommandLine{message.at("line")}}; }},
     {"address",
      [](const json& message) -> Body { return session::Command{session::OpenAddress{message.at("query")}}; }},

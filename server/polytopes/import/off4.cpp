@@ -98,13 +98,13 @@ struct Noun {
 };
 
 // Whether the records of a kind begin on lines of their own, and whether they also end there.
-enum class Layout { lines, continuous, ownLines };
+enum class Layout { lines, continuous, own_lines };
 
 // Returns the next word of a record, which may be on a further line unless the record has a line of its own. Throws a
 // FileError if such a line ends before: `record` has `found` of its words.
 std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& record, std::uint32_t found,
                         std::uint32_t needed, const char* members) {
-    if (layout != Layout::ownLines) return file.next();
+    if (layout != Layout::own_lines) return file.next();
     const std::string_view word = file.nextOnLine();
     if (word.empty())
         throwFileError(file.line(),
@@ -191,7 +191,7 @@ std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     for (; lines <= records && !counted.next().empty(); ++lines) counted.skipLine();
     if (lines != records) return {};
     try {
-        readRecords(file, header, {Layout::ownLines, Layout::ownLines, Layout::ownLines});
+        readRecords(file, header, {Layout::own_lines, Layout::own_lines, Layout::own_lines});
     } catch (const FileError& fault) {
         return fault;
     }

@@ -242,7 +242,7 @@ TEST(CommandLine, ActsOnTheHighlightedElement) {
 TEST(CommandLine, IgnoresBlanksWithinValues) {
     const auto turned = [](const std::string& text) {
         Session session;
-        line(session, text.c_str());
+        line(session, text);
         return session.current.orientation.matrix();
     };
     const glm::dmat4 expected = turned("rotate xw 30°");
