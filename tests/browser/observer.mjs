@@ -44,7 +44,7 @@ test("observer: mistakes are explained, and the controls show the session's obse
         );
     for (const [name, text, expected] of [
         ["boost", "fast", /a number for each/],
-        ["boost", "1.5", /-0\.999 to 0\.999|speed/],
+        ["boost", "1.5", /−0\.999 to 0\.999/],
         ["follow", "", /a number for each/],
     ]) {
         await velocity(page, name, "x").fill(text);
