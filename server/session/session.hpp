@@ -63,7 +63,7 @@ struct State {
     /// Returns w of the focus slice.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
     /// Returns the focus point x, y, z, w in the coordinates of the object's file.
-    glm::dvec4 focusPoint() const {
+    glm::dvec4 focusPointInFile() const {
         return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
     }
     /// Returns whether the object moves without further commands: continuously, or toward an element.

@@ -22,25 +22,25 @@ struct SettingName {
 };
 
 /// The rule of a setting of which applySet() accepts every value.
-struct AnyValue {};
+struct Unchecked {};
 /// The rule of a number that applySet() accepts within fixed bounds.
-struct Within {
+struct Bounded {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     Bounds bounds;
 };
 /// The rule of a setting that applySet() checks and changes with code of its own.
-struct OwnRule {};
+struct CheckedByApplySet {};
 
 /// The accessor of a setting that states do not have, because it changes other settings.
 struct NotInState {};
 
 /// A setting. `ofSet` returns a reference to its member of a Set, a std::optional; `ofState` returns its value in a
-/// State, by reference unless the rule is OwnRule.
+/// State, by reference unless the rule is CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
-    static constexpr bool kHasBounds = std::is_same_v<Rule, Within>;
-    static constexpr bool kHasOwnRule = std::is_same_v<Rule, OwnRule>;
+    static constexpr bool kHasBounds = std::is_same_v<Rule, Bounded>;
+    static constexpr bool kIsCheckedByApplySet = std::is_same_v<Rule, CheckedByApplySet>;
 
     SettingName name;
     OfSet ofSet;
@@ -74,53 +74,59 @@ void forEachSetting(const Visitor& visit) {
     };
 
     const auto frame = &State::referenceFrame;
-    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), OwnRule{});
-    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), OwnRule{});
-    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), OwnRule{});
-    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), Within{"alpha", kAngle});
-    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), Within{"beta", kAngle});
-    setting({"step", "", "step"}, &Set::step, at(&State::step), Within{"the step", {kMinStep, kTwoPi, kRadians}});
+    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{});
+    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{});
+    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), CheckedByApplySet{});
+    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), Bounded{"alpha", kAngle});
+    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), Bounded{"beta", kAngle});
+    setting({"step", "", "step"}, &Set::step, at(&State::step), Bounded{"the step", {kMinStep, kTwoPi, kRadians}});
 
     const auto slices = &State::slices;
-    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), OwnRule{});
-    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), OwnRule{});
-    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), OwnRule{});
-    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), OwnRule{});
-    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, OwnRule{});
-    setting({"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPoint(); }, OwnRule{});
+    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), CheckedByApplySet{});
+    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), CheckedByApplySet{});
+    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), CheckedByApplySet{});
+    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), CheckedByApplySet{});
+    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, CheckedByApplySet{});
+    setting(
+        {"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); },
+        CheckedByApplySet{});
 
     const auto look = &State::look;
-    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AnyValue{});
-    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, OwnRule{});
+    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), Unchecked{});
+    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, CheckedByApplySet{});
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     setting({"azimuth", "camera", "azimuth"}, &Set::azimuth, at(look, orbit, &Orbit::azimuth),
-            Within{"the camera's azimuth", kOrbitAngle});
+            Bounded{"the camera's azimuth", kOrbitAngle});
     setting({"elevation", "camera", "elevation"}, &Set::elevation, at(look, orbit, &Orbit::elevation),
-            Within{"the camera's elevation", kOrbitAngle});
+            Bounded{"the camera's elevation", kOrbitAngle});
     setting({"zoom", "camera", "zoom"}, &Set::zoom, at(look, orbit, &Orbit::zoom),
-            Within{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
-    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AnyValue{});
-    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AnyValue{});
+            Bounded{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
+    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), Unchecked{});
+    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), Unchecked{});
     const auto projection = &Look::projection;
     setting({"projection", "", "projection"}, &Set::projection, at(look, projection, &scene::ProjectionSettings::kind),
-            AnyValue{});
+            Unchecked{});
     setting({"eye", "", "eye"}, &Set::eye, at(look, projection, &scene::ProjectionSettings::eye),
-            Within{"the eye", {kMinEye, kMaxEye, " circumradii"}});
+            Bounded{"the eye", {kMinEye, kMaxEye, " circumradii"}});
     const auto field = &Look::field;
-    setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), OwnRule{}, true);
-    setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), OwnRule{}, true);
-    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AnyValue{}, true);
-    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), OwnRule{}, true);
+    setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels),
+            CheckedByApplySet{}, true);
+    setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside),
+            CheckedByApplySet{}, true);
+    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), Unchecked{}, true);
+    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), CheckedByApplySet{}, true);
     const auto cellTypes = &Look::cellTypes;
-    setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), OwnRule{});
-    setting({"faded", "", "faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), OwnRule{});
-    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), OwnRule{});
+    setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden),
+            CheckedByApplySet{});
+    setting({"faded", "", "faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded),
+            CheckedByApplySet{});
+    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), CheckedByApplySet{});
 
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
         const auto& [name, flag] = scene::kParts[i];
         visit(Setting{SettingName{name, "shown", name}, [i](auto& set) -> auto& { return set.parts[i]; },
-                      at(look, &Look::parts, flag), AnyValue{}, false});
+                      at(look, &Look::parts, flag), Unchecked{}, false});
     }
 }
 

@@ -254,7 +254,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kHasBounds) {
             if (plain) plain = put(setting.rule.what, setting.ofSet(set), setting.rule.bounds, setting.ofState(state));
-        } else if constexpr (!Row::kHasOwnRule) {
+        } else if constexpr (!Row::kIsCheckedByApplySet) {
             setting.ofState(state) = setting.ofSet(set).value_or(setting.ofState(state));
         }
     });

@@ -229,7 +229,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     writeMatrix(w, state.orientation.matrix());
     w.key("section");
     w.beginObject();
-    w.member("w", state.focusPoint().w);
+    w.member("w", state.focusPointInFile().w);
     w.member("name", section.slice);
     w.member("vertices", section.vertices);
     w.endObject();
@@ -349,7 +349,7 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
     return out;
 }
 
-std::string pongMessage(const Load& load, std::optional<double> id) {
+std::string pongMessage(const WorkerLoad& load, std::optional<double> id) {
     std::string out;
     {
         JsonWriter w(out);

@@ -42,14 +42,14 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
                             std::optional<double> id);
 
 /// How busy the threads are that slice and draw pictures.
-struct Load {
+struct WorkerLoad {
     std::size_t workers = 0;  ///< the number of these threads
     std::size_t waiting = 0;  ///< the number of pictures that wait for one of them
     double busy = 0;          ///< the running time of all pictures that have ended, in seconds
     double time = 0;          ///< the time of a steady clock, in seconds
 };
 /// Returns the `pong` message.
-std::string pongMessage(const Load& load, std::optional<double> id);
+std::string pongMessage(const WorkerLoad& load, std::optional<double> id);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);
