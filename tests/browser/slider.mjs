@@ -289,7 +289,10 @@ test("slider: Play moves the focus to and fro until it is pressed again, and nev
     await close();
 });
 
-/** Runs in the page: holds its moves of the focus back while `window.isHeld`. */
+/**
+ * Runs in the page: holds its moves of the focus back while `window.isHeld`. The page sends a move when the one before is
+ * answered, so once it holds one, none is on its way to the server.
+ */
 function holdMoves() {
     const { send } = WebSocket.prototype;
     const held = [];
@@ -297,6 +300,7 @@ function holdMoves() {
         if (window.isHeld && JSON.parse(text).slices) held.push(() => send.call(this, text));
         else send.call(this, text);
     };
+    window.holdsMove = () => held.length > 0;
     window.release = () => {
         window.isHeld = false;
         held.splice(0).forEach((sendNow) => sendNow());
@@ -317,6 +321,7 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         async script() {
             // The page sees only the newest state, so a move of its own could hide one of another client.
             await page.evaluate(() => (window.isHeld = true));
+            await page.waitForFunction(() => window.holdsMove());
             await script.request({ type: "set", slices: { w: -2 } });
             await stopped();
             await page.evaluate(() => window.release());
@@ -334,7 +339,7 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         await script.until((one) => one.section.w !== section.w, "playing");
         assert.ok(await isPlaying(page), name);
         await stop();
-        await stopped();
+        await stopped().catch((error) => assert.fail(`${name}: ${error.message}`));
         await idle(page);
     }
     await close();
