@@ -1,6 +1,7 @@
 #include "cli/state_arguments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -117,15 +118,39 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
     return state;
 }
 
+/// An option that says how a file is read, and the kind of files that it is for.
+struct ReadingOption {
+    std::string_view name;
+    std::string_view files;
+};
+constexpr auto kReadingOptions = std::to_array<ReadingOption>({
+    {"axes", "arrays"},
+    {"variable", "arrays"},
+    {"values_variable", "arrays"},
+    {"center", "polytopes and points"},
+});
+
+/// Refuses the options for files of another kind, which reading has left in the query. Throws std::runtime_error.
+void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
+    for (const ReadingOption& option : kReadingOptions) {
+        if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())
+            continue;
+        throw std::runtime_error("--" + std::string(option.name) + " is only for " + std::string(option.files) +
+                                 " that --load opens");
+    }
+}
+
 }  // namespace
 
 session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others) {
     std::vector<std::string_view> known(others.begin(), others.end());
-    known.insert(known.end(), {"load", "axes", "variable", "values_variable", "center"});
+    known.emplace_back("load");
+    for (const ReadingOption& option : kReadingOptions) known.push_back(option.name);
     polytopes::PolytopeCache cache;
     session::ObjectLoader loader(session::Limits{}, cache);
     session::State state = session::initialState();
     if (const auto path = take(query, "load")) state = stateFromFile(*path, query, loader);
+    checkNoReadingOptionIsLeft(query);
     return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state), known));
 }
 

@@ -256,6 +256,19 @@ def test_the_command_line_may_choose_the_center(tmp_path):
     assert done.returncode == 0 and done.stderr == b""
 
 
+@pytest.mark.parametrize(
+    ("option", "files"),
+    [("axes", "arrays"), ("variable", "arrays"), ("values_variable", "arrays"), ("center", "polytopes and points")],
+)
+def test_an_option_of_reading_needs_a_file_of_its_kind(tmp_path, option, files):
+    points, picture = tmp_path / "points.txt", tmp_path / "picture.png"
+    points.write_text(point_lines(cross_vertices([0, 0, 0, 0])))
+    for file in [(), ("--load", points)] if files == "arrays" else [()]:
+        done = run_oval4d("render", *file, f"--{option}", "origin", "-o", picture)
+        assert done.returncode != 0 and not picture.exists()
+        assert f"--{option} is only for {files} that --load opens" in done.stderr.decode()
+
+
 def assert_closed(one):
     """Asserts that the faces of a slice pass every edge once in each direction."""
     passes = [(a, b) for face in one["faces"] for a, b in zip(face, face[1:] + face[:1])]
