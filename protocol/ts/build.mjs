@@ -2,7 +2,7 @@
 // packages that only the build needs; these are installed first.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
-import { readFile, rm, writeFile } from "node:fs/promises";
+import { rm } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
@@ -24,11 +24,3 @@ await build({
     logLevel: "warning",
 });
 run(process.execPath, "node_modules/typescript/bin/tsc", "-p", ".");
-
-// In the types, the names of the parts of a picture take the place of the schema that has them, because the package does
-// not contain it.
-const schema = JSON.parse(await readFile(new URL("../schema/parts.schema.json", import.meta.url), "utf8"));
-const parts = Object.keys(schema.properties).map((name) => JSON.stringify(name));
-const types = new URL("dist/ts/messages.d.ts", import.meta.url);
-const text = await readFile(types, "utf8");
-await writeFile(types, text.replace(/keyof \(typeof import\(".*parts\.schema\.json"\)\)\["properties"\]/, parts.join(" | ")));

@@ -3,8 +3,10 @@
 
 import { Arena } from "./arena.js";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
-import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, ExportedFile, FileOptions, Keymap } from "./messages.js";
-import type { Message, Pong, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages.js";
+import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, GetRequest, HelloRequest } from "./messages.js";
+import type { Keymap, PingRequest, Pong, Request, Scheme, State, Stream, Welcome } from "./messages.js";
+import type { Slices } from "./slices.js";
+import type { ExportedFile, Message, Viewport } from "./types.js";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {
@@ -59,7 +61,18 @@ export class RequestError extends Error {
     }
 }
 
-type PictureRequest = Extract<Request, { what: "slices" | "frame" }>;
+/** The answers to the requests of type "get". */
+interface GetAnswers extends Record<GetRequest["what"], unknown> {
+    state: State;
+    slices: Slices;
+    frame: Uint8Array;
+    at: At;
+    file: ExportedFile;
+    critical: Critical;
+    catalogue: Catalogue;
+    keymap: Keymap;
+    address: Address;
+}
 
 interface PendingRequest {
     wants: "frame" | "file" | "slices" | "message";
@@ -146,17 +159,9 @@ export class Client {
         return this.request({ type: "hello", stream, encoding, ...own });
     }
 
-    request(message: Extract<Request, { type: "hello" }>): Promise<Welcome>;
-    request(message: { type: "get"; what: "state" }): Promise<State>;
-    request(message: PictureRequest & { what: "slices" }): Promise<Slices>;
-    request(message: PictureRequest & { what: "frame" }): Promise<Uint8Array>;
-    request(message: { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }): Promise<At>;
-    request(message: { type: "get"; what: "file" } & FileOptions): Promise<ExportedFile>;
-    request(message: { type: "get"; what: "critical" }): Promise<Critical>;
-    request(message: { type: "ping" }): Promise<Pong>;
-    request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
-    request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
-    request(message: { type: "get"; what: "address" }): Promise<Address>;
+    request(message: HelloRequest): Promise<Welcome>;
+    request(message: PingRequest): Promise<Pong>;
+    request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswers[What]>;
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>): Promise<Done>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;

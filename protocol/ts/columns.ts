@@ -1,7 +1,8 @@
 // The slices of a CBOR message, which has one array per property with the values of all slices. The parts of the
 // projection have the same columns for their elements.
 
-import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface, Vector } from "./messages.js";
+import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
+import type { Vector } from "./types.js";
 
 /** A value for each kind of element of a slice. */
 type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;

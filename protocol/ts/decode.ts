@@ -5,8 +5,8 @@ import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, Numbers } from "./arena.js";
 import { partsOf, rowsOf, type Columns, type PartColumns } from "./columns.js";
-import type { Elements, Fog, Integers, Message, ObjectProjection, ProjectionLook } from "./messages.js";
-import type { Slice, Slices, Surface } from "./messages.js";
+import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
+import type { Message } from "./types.js";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 

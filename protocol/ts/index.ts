@@ -14,6 +14,8 @@
 // `npm install PATH/protocol/ts` builds and installs it as the package oval4d-client, with its types.
 
 export * from "./messages.js";
+export * from "./slices.js";
+export * from "./types.js";
 export { Client, RequestError } from "./client.js";
 export type { Credentials, Options, Status } from "./client.js";
 export { pngText } from "./decode.js";

@@ -1,694 +1,1200 @@
-// Types for the messages of protocol/README.md. Angles are in radians. Lengths are in the polytope's units, except
-// where world units are stated (in which the polytope's circumradius is 1 if there are 21 slices).
+// Types for the messages of protocol/README.md. Generated from the schemas in protocol/schema/ by tests/lint --fix.
 
-export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
-export type Stream = "none" | "geometry" | "frames";
+export type Request =
+    | Address
+    | CommandRequest
+    | GetRequest
+    | HelloRequest
+    | KeyRequest
+    | LoadRequest
+    | PingRequest
+    | RedoRequest
+    | ResetRequest
+    | RotateRequest
+    | SetRequest
+    | ShownRequest
+    | TowardRequest
+    | UndoRequest;
+/**
+ * What follows each change of the state: slices messages, PNG frames, or nothing. "none" if absent.
+ */
+export type Stream = "geometry" | "frames" | "none";
+/**
+ * The encoding of slices messages. "json" if absent.
+ */
 export type Encoding = "json" | "cbor";
+/**
+ * What this client sees if the background is auto: a dark or a light one. "dark" if absent.
+ */
+export type Scheme = "dark" | "light";
+export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
+/**
+ * Whether all slices are shown, in the oval or at the same size in a straight row (strip), or only the focus slice, alone or beside the matrix of planar sections.
+ */
 export type View = "oval" | "single" | "matrix" | "strip";
 /**
- * What face colors show: the cell, its kind, the w of its center after the rotation, nothing, or how it faces a light in
- * four dimensions. What the surfaces of a field show: the level, the w of the slice, nothing, or how fast they move
- * outward along w, or the value of the second function or of the field itself.
+ * What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, nothing, or how the cell faces a light in four dimensions. For a field, what the colors of its surfaces show: the level, the w of the slice, nothing, or how fast the surface moves outward while the hyperplane moves along w (growth), or the value of the second function or, without one, of the field itself (value).
  */
 export type Coloring = "cell" | "kind" | "w" | "plain" | "light" | "growth" | "value";
 /**
- * The background of pictures, for which the other colors are chosen. `auto`: dark, or light for clients whose `hello` has
- * the scheme `light`. `transparent`: none in PNG files, otherwise white.
+ * The background of pictures; the other colors are chosen for it. auto: dark, or light for clients whose hello has the scheme light. transparent: none in PNG files, and otherwise white.
  */
 export type Background = "auto" | "dark" | "light" | "white" | "transparent";
-/** What colors are chosen for: a dark or a light background. */
-export type Scheme = "dark" | "light";
-export type Vector = [number, number, number];
-/** The side of a level that belongs to the body: where the field's value is smaller, or larger. */
-export type Inside = "below" | "above";
-/** The caps of a field's surfaces: in the color of the surface, colored by value, or not drawn. */
+/**
+ * How the caps of a field's surfaces are drawn, where the end of the box cuts through the body: in the color of the surface, colored by the value of the second function or, without one, of the field itself, or not at all. Present for fields only.
+ */
 export type Caps = "plain" | "value" | "open";
-/** The ranges of x, y, z and w. */
+/**
+ * The side of the levels that belongs to the bodies of a field: where its value is smaller, or larger. Present for fields only.
+ */
+export type Inside = "below" | "above";
+/**
+ * The domain. The object's origin is its center.
+ */
 export type Box = [Interval, Interval, Interval, Interval];
-export type Interval = [least: number, most: number];
-/** An array of integers. With CBOR, its width is the least that the largest value fits into. */
-export type Integers = Uint8Array | Uint16Array | Uint32Array;
-
-/** Which parts of the picture are drawn. */
-export type Parts = Record<keyof (typeof import("../schema/parts.schema.json"))["properties"], boolean>;
-
-/** The projection of the whole polytope. */
+/**
+ * The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or parallel to the w axis.
+ */
 export type Projection = "off" | "perspective" | "orthogonal";
-
-/** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
-export interface Orbit {
-    azimuth: number;
-    elevation: number;
-    zoom: number;
-}
-
-export interface SliceSettings {
-    count: number;
-    spacing: number;
-    focus: number;
-    /** w of the hyperplane n = 0, measured from the center of the object. */
-    offset: number;
-}
-
-/** The kinds of elements of a polytope, by dimension. */
+/**
+ * The kind of element. The points of a point cloud are vertices.
+ */
 export type ElementKind = "vertex" | "edge" | "face" | "cell";
-
-/** An element of a polytope, numbered from 0 among those of its kind. */
-export interface PolytopeElement {
-    element: ElementKind;
-    number: number;
-}
-
-export interface Viewport {
-    width: number;
-    height: number;
-}
+/**
+ * The last rotation, which the key '.' repeats and the space bar continues. Null before the first rotation.
+ */
+export type Turn = {
+    /**
+     * Each plane at most once. R_ab turns the +a axis toward the +b axis. In several planes the polytope turns at the same time: two perpendicular planes (xy and zw, xz and yw, xw and yz) give a double rotation, planes with a common axis a rotation in oblique planes.
+     */
+    planes: Plane[];
+    /**
+     * In radians; one angle for each plane.
+     */
+    angles: number[];
+} | null;
+export type Answer = Address | At | Catalogue | Critical | Done | ErrorMessage | Keymap | Pong | State | Welcome;
+export type Interval = [number, number];
 
 /**
- * A control point of the transfer function of fog: the opacity, from 0 to 1, of a layer as thick as the circumradius, and
- * the color 0xRRGGBB, which may be absent.
+ * To the server: shows the view that the query of an address describes, as one undo step. From the server: the query that describes the view of the session, as the answer to a get.
  */
+export interface Address {
+    type: "address";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * Without the question mark, percent-encoded, such as polytope=24-cell&rotate=xw:0.3. The parameters are those of frame.png; width, height and token are ignored.
+     */
+    query: string;
+}
+/**
+ * A line such as "polytope 24-cell", "set slices=31" or "rotate xw,yz pi/8 pi/sqrt(3)-pi/8".
+ */
+export interface CommandRequest {
+    type: "command";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * With or without the leading ':'.
+     */
+    line: string;
+}
+/**
+ * Answered by the requested message with the same id; a frame or a file is a binary message followed by done.
+ */
+export interface GetRequest {
+    type: "get";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    what: "state" | "slices" | "frame" | "at" | "file" | "critical" | "catalogue" | "keymap" | "address";
+    /**
+     * In pixels, for slices, frames and at; must be given together with height. If absent, the size in hello applies.
+     */
+    width?: number;
+    /**
+     * In pixels, for slices, frames and at; must be given together with width. If absent, the size in hello applies.
+     */
+    height?: number;
+    /**
+     * For slices and frames: the background of this answer. If absent, that of the session applies.
+     */
+    background?: Background;
+    /**
+     * For at: the distance from the left edge of the picture in pixels.
+     */
+    x?: number;
+    /**
+     * For at: the distance from the top edge of the picture in pixels.
+     */
+    y?: number;
+    /**
+     * Required for a file: a name that export_formats.json lists.
+     */
+    format?: string;
+    /**
+     * For a file: the focus slice, all slices, the highlighted element alone, the critical w of a polytope, the whole object in four dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the matrix of planar sections. export_formats.json lists those that each format can contain; the first is the default.
+     */
+    of?: "focus" | "oval" | "highlight" | "critical" | "object" | "coordinates" | "projection" | "matrix";
+    /**
+     * For a file with bodies: filled (default), or balls and bars merged into one body. "frame" is the former name of "skeleton".
+     */
+    body?: "solid" | "skeleton" | "frame";
+    /**
+     * In millimeters. For a file with bodies: the diameter of the polytope's circumscribed sphere; 60 if absent. For a drawing: its width or height, whichever is larger; 170 if absent, at least 10 and at most 5000.
+     */
+    size?: number;
+    /**
+     * For a file of oval: its slices are those at these w, in the coordinates of the object's file, instead of those of the session. Different numbers within 10 circumradii of the point about which the object turns, at most as many as the limit slices in welcome; a text has expressions, as those of command. If it is given, oval is the default of of. Not together with fit.
+     */
+    at?: number[] | string;
+    /**
+     * For a file of oval: the number of its slices, which are spread evenly over the polytope's extent along w, instead of those of the session. The server's limit is in welcome. If it is given, oval is the default of of. Not together with at.
+     */
+    fit?: number;
+    /**
+     * For a file with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a separate plate.
+     */
+    label?: "none" | "engraved" | "separate";
+}
+/**
+ * The first message of a connection. Sent again, it changes the stream, the encoding, the scheme and the size. Answered by welcome, then by state and a picture.
+ */
+export interface HelloRequest {
+    type: "hello";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    stream?: Stream;
+    encoding?: Encoding;
+    scheme?: Scheme;
+    /**
+     * In pixels; the server's limits are in welcome. 1280 if absent.
+     */
+    width?: number;
+    /**
+     * In pixels; the server's limits are in welcome. 720 if absent.
+     */
+    height?: number;
+    /**
+     * The token in the session's welcome. Required if the path names a session.
+     */
+    token?: string;
+}
+/**
+ * A key press. The key table lists the keys and their actions; clients need not know the actions.
+ */
+export interface KeyRequest {
+    type: "key";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * The value of KeyboardEvent.key. For a digit key, the digit on the key, even if Shift types another character. An upper-case letter means the letter with Shift.
+     */
+    key: string;
+    /**
+     * Whether Shift is held. Ignored for keys other than letters and digits.
+     */
+    shift?: boolean;
+    /**
+     * Whether Ctrl is held.
+     */
+    ctrl?: boolean;
+}
+/**
+ * Loads a polytope and shows it. A set message can select it again by its name.
+ */
+export interface LoadRequest {
+    type: "load";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * Must not be a name of the catalogue. A polytope that was loaded under the same name is replaced.
+     */
+    name: string;
+    /**
+     * "off": 4OFF. "points": one point x y z w per line; the polytope is their convex hull. "cloud": the optional word CLOUD, then one point x y z w [radius] per line; each is shown as a ball. "formula": a function of x, y, z, w, also called t, and r = sqrt(x^2+y^2+z^2), such as x^2+y^2-z^2 < w; named constants follow it, as in x*y-a; a=0.5.
+     */
+    format?: string;
+    /**
+     * The file's text, in Base64 if it is an array, or the formula. Absent with path.
+     */
+    data?: string;
+    /**
+     * A file or a series of the server's data folder, as the catalogue lists it, instead of data. The format may then be absent.
+     */
+    path?: string;
+    /**
+     * Whether this load belongs to the undo step of the previous command, as when a constant of a formula is dragged. Between two fields, levels and inside then stay the same, and if both have the same circumradius, slices and point. False if it is absent.
+     */
+    continues?: boolean;
+    /**
+     * The domain of a formula or an array. If it is absent, that of a formula is from -2 to 2 along each axis, and that of an array is what the file states.
+     */
+    box?: Box;
+    /**
+     * The axes of the array's dimensions, in the order of its indices in Python: different letters of x, y, z and w; t means w. What the file states if it is absent, else "tzyx", or its end if there are fewer dimensions.
+     */
+    axes?: string;
+    /**
+     * The variable of a NetCDF file, or the path of an HDF5 dataset. The one with the most dimensions if it is absent.
+     */
+    variable?: string;
+    /**
+     * The formula of a second function, whose values color the surfaces of a formula or an array. It may use the names that the first formula defines.
+     */
+    values?: string;
+    /**
+     * The variable of the same file that is the second function of an array, with the same numbers of samples.
+     */
+    values_variable?: string;
+    /**
+     * The point of the file's coordinates about which a polytope or points turn and around which their slices lie: "object", their center; "origin"; or x, y, z, w. If it is absent, the center of an object that is far from the origin, else the origin.
+     */
+    center?: string | [number, number, number, number];
+    /**
+     * Whether the moments in the file are added to the array that is loaded under this name, at the end of w, instead of replacing it. False if it is absent.
+     */
+    append?: boolean;
+}
+/**
+ * Asks for a pong, which tells how busy the server is. Changes nothing.
+ */
+export interface PingRequest {
+    type: "ping";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+}
+/**
+ * Redoes one step that was undone. Fails with nothing_to_undo if there is none.
+ */
+export interface RedoRequest {
+    type: "redo";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+}
+/**
+ * Restores the initial orientation and focus, and stops continuous turning. All other settings stay the same.
+ */
+export interface ResetRequest {
+    type: "reset";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+}
+/**
+ * Turns through all angles at the same time. The rotation is extrinsic: it multiplies the orientation from the left.
+ */
+export interface RotateRequest {
+    type: "rotate";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * Each plane at most once. R_ab turns the +a axis toward the +b axis. In several planes the polytope turns at the same time: two perpendicular planes (xy and zw, xz and yw, xw and yz) give a double rotation, planes with a common axis a rotation in oblique planes.
+     */
+    planes: Plane[];
+    /**
+     * In radians; one angle for each plane.
+     */
+    angles: number[];
+    /**
+     * Whether the rotation belongs to the undo step of the previous command, as in a gesture; the default is false.
+     */
+    continues?: boolean;
+}
+/**
+ * Sets every member that is present; the others keep their values. Changing the type of a state makes it a valid set.
+ */
+export interface SetRequest {
+    type: "set";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    revision?: number;
+    /**
+     * Whether the change belongs to the undo step of the previous command, as in a gesture; the default is false.
+     */
+    continues?: boolean;
+    /**
+     * A name or alias from the catalogue, any other name that the server understands, the name of a loaded polytope, or the object from a state. Sets the focus to 0 and keeps the ratio of the spacing to the circumradius.
+     */
+    polytope?:
+        | string
+        | {
+              name: string;
+              /**
+               * The number of vertices.
+               */
+              vertices?: number;
+              /**
+               * The number of edges.
+               */
+              edges?: number;
+              /**
+               * The number of 2-faces.
+               */
+              faces?: number;
+              /**
+               * The number of cells.
+               */
+              cells?: number;
+              /**
+               * Ignored. Allowed so that a state can be sent back as a set.
+               */
+              kinds?: CellKind[];
+              /**
+               * Ignored.
+               */
+              center?: [number, number, number, number];
+          };
+    /**
+     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. 1 initially.
+     */
+    pace?: number;
+    /**
+     * The velocity of the observer in units of x, y and z per unit of the object's own w: what moves with it stands still. [0, 0, 0] initially.
+     */
+    follow?: [number, number, number];
+    /**
+     * The velocity of the observer to whose rest frame a Lorentz boost leads; at most 0.999 long, where 1 is the speed of light in units of x, y and z per unit of w, after pace has scaled w. [0, 0, 0] initially.
+     */
+    boost?: [number, number, number];
+    /**
+     * The matrix M by rows, where v' = M v maps the polytope's own coordinates to the rotated ones. Orthogonal with determinant 1, to within 1e-6.
+     */
+    orientation?: [
+        [number, number, number, number],
+        [number, number, number, number],
+        [number, number, number, number],
+        [number, number, number, number]
+    ];
+    /**
+     * α in radians: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+     */
+    alpha?: number;
+    /**
+     * β in radians: the second angle of the keys r, t and y.
+     */
+    beta?: number;
+    /**
+     * The step in radians by which the keys k, j, K and J change α and β.
+     */
+    step?: number;
+    slices?: {
+        /**
+         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
+         */
+        count?: number;
+        /**
+         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
+         */
+        spacing?: number;
+        /**
+         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
+         */
+        focus?: number;
+        /**
+         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
+         */
+        offset?: number;
+        /**
+         * w of the focus slice, in the coordinates of the object's file: sets focus and offset such that |offset| is at most half of the spacing; at most 10 circumradii from the point about which the object turns.
+         */
+        w?: number;
+    };
+    /**
+     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file; each coordinate at most 10 circumradii from the point about which the object turns. Its w moves the focus slice, as slices.w does, unless slices has focus, offset or w.
+     */
+    point?: [number, number, number, number];
+    view?: View;
+    /**
+     * Whether the polytope turns continuously, which repeats the last rotation.
+     */
+    turning?: boolean;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    draft?: boolean;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    moving?: boolean;
+    /**
+     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+     */
+    shown?: ShownParts;
+    /**
+     * How the viewer has moved the camera from its initial position. Not part of the undo history.
+     */
+    camera?: {
+        /**
+         * The rotation to the right about the vertical axis, in radians.
+         */
+        azimuth?: number;
+        /**
+         * The rotation upward, in radians.
+         */
+        elevation?: number;
+        /**
+         * The magnification; 1 initially.
+         */
+        zoom?: number;
+    };
+    color?: Coloring;
+    background?: Background;
+    caps?: Caps;
+    /**
+     * The values at which the surfaces of a field are shown. Present for fields only.
+     */
+    levels?: number[];
+    inside?: Inside;
+    /**
+     * The fog in the slices of a field: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, whose values increase, and constant beyond. Without points, there is no fog. Present for fields only.
+     */
+    fog?: FogPoint[];
+    field?: FieldDefinition;
+    projection?: Projection;
+    /**
+     * The w of the eye of the perspective projection, in circumradii.
+     */
+    eye?: number;
+    /**
+     * The kinds of cells that are not drawn, as indices from 0 into polytope.kinds. Emptied when the polytope changes.
+     */
+    hidden?: number[];
+    /**
+     * The kinds of cells that are drawn faintly, as indices from 0 into polytope.kinds. A kind in both lists is hidden. Emptied when the polytope changes.
+     */
+    faded?: number[];
+    /**
+     * The element that is drawn in another color in slices, projection and parallel coordinates; null if there is none.
+     */
+    highlight?: {
+        element: ElementKind;
+        /**
+         * The element, counted from 0 among those of its kind.
+         */
+        number: number;
+    } | null;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    section?: {
+        /**
+         * w of the focus slice.
+         */
+        w?: number;
+        /**
+         * What the focus slice is, such as "icosahedron"; empty if it has no name.
+         */
+        name?: string;
+        /**
+         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
+         */
+        vertices?: string;
+    };
+    last?: Turn;
+}
+export interface CellKind {
+    name: string;
+    /**
+     * The number of cells of this kind.
+     */
+    cells: number;
+    /**
+     * The color of this kind when the faces are colored by kind.
+     */
+    color?: number;
+}
 export interface FogPoint {
     value: number;
     opacity: number;
     color?: number;
 }
-
-// To the server
-
-/** The members of `set`. Absent settings keep their values. */
-export interface Settings {
-    polytope?: string | { name: string };
-    /** How much space a unit of w is worth, if w is time. */
-    pace?: number;
-    /** The velocity in units of x, y and z per unit of the object's own w with which the observer moves. */
-    follow?: Vector;
-    /** The velocity of a Lorentz boost; 1 is the speed of light. */
-    boost?: Vector;
-    orientation?: number[][];
-    alpha?: number;
-    beta?: number;
-    step?: number;
-    /** `w` sets focus and offset; it is in the coordinates of the object's file. */
-    slices?: Partial<SliceSettings> & { w?: number };
-    /** The focus point x, y, z, w of the matrix view, in the file's coordinates; its w moves the focus slice. */
-    point?: [number, number, number, number];
-    view?: View;
-    turning?: boolean;
-    shown?: Partial<Parts>;
-    camera?: Partial<Orbit>;
-    color?: Coloring;
-    background?: Background;
-    /** For fields only. */
-    caps?: Caps;
-    /** 1 to 4 different numbers; for fields only. */
-    levels?: number[];
-    /** For fields only. */
-    inside?: Inside;
-    /** The transfer function of fog: no points, or 2 to 8 in the order of their values; for fields only. */
-    fog?: FogPoint[];
-    /** For fields only. */
-    field?: FieldDefinition;
-    projection?: Projection;
-    /** The w of the 4-D eye, in circumradii. */
-    eye?: number;
-    /** Kinds of cells, as indices into the polytope's kinds. */
-    hidden?: number[];
-    faded?: number[];
-    highlight?: PolytopeElement | null;
-}
-
-/** What defines a field: its formula, or the shape and the range of its array; and its domain. */
+/**
+ * If it has a formula, the field called /polytope is loaded first, unless the session has it. Otherwise ignored.
+ */
 export interface FieldDefinition {
+    /**
+     * The function with the values of its constants. Absent for an array.
+     */
     formula?: string;
-    shape?: number[];
+    /**
+     * Absent for a formula.
+     */
+    shape?: [number, number, number, number];
+    /**
+     * Absent for a formula.
+     */
     range?: [number, number];
-    /** Present if the range is that of a selection of the samples, because there are too many to read all of them. */
+    /**
+     * Present, and true, if the array is too large to read all of it.
+     */
     estimated?: boolean;
     values?: ColoringValues;
     box: Box;
 }
-
-/** What the colors of values show: the second function of a field, or without one its own values. */
+/**
+ * Present if there is a second function, or if the color or the caps show values.
+ */
 export interface ColoringValues {
+    /**
+     * Present if the second function is a formula.
+     */
     formula?: string;
+    /**
+     * Present if the second function is an array.
+     */
     variable?: string;
-    /** The values at the ends of the color scale. */
+    /**
+     * The range of the values on the box, without rare values far from the others. If 0 is in its middle four fifths, the scale is symmetric to 0.
+     */
     range: [number, number];
-    /** 0xRRGGBB, from one end of the scale to the other. */
+    /**
+     * The colors of nine values, from one end of the scale to the other at equal distances.
+     */
     colors: number[];
 }
-
-/** The options of an exported file. `body` and `label` apply only to formats with bodies, `size` to these and to drawings. */
-export interface FileOptions {
-    /** A name that export_formats.json lists. */
-    format: string;
-    /** What the file contains: one of those that export_formats.json lists for the format, the first by default. */
-    of?: "focus" | "oval" | "highlight" | "critical" | "object" | "coordinates" | "projection" | "matrix";
-    /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
-    body?: "solid" | "skeleton" | "frame";
-    /** In millimeters: the diameter of the polytope's circumscribed sphere, or the largest side of a drawing. */
-    size?: number;
-    label?: "none" | "engraved" | "separate";
-    /** The w of the slices, instead of those of the session: numbers, or a text such as "-1,0,1/3". */
-    at?: number[] | string;
-    /** The number of slices, which are spread evenly over the polytope's extent along w. */
-    fit?: number;
-}
-
-/** An exported file. */
-export interface ExportedFile {
-    bytes: Uint8Array;
-    /** What the file lacks, such as slices that are empty. */
-    warnings: string[];
-}
-
-export type Request =
-    | {
-          type: "hello";
-          stream: Stream;
-          encoding?: Encoding;
-          scheme?: Scheme;
-          token?: string;
-          width?: number;
-          height?: number;
-      }
-    | { type: "key"; key: string; shift?: boolean; ctrl?: boolean }
-    | { type: "rotate"; planes: Plane[]; angles: number[]; continues?: boolean }
-    | { type: "toward"; element: ElementKind; number?: number; immediately?: boolean }
-    | ({ type: "set"; continues?: boolean } & Settings)
-    | {
-          type: "load";
-          name: string;
-          format?: string;
-          data?: string;
-          path?: string;
-          box?: Box;
-          axes?: string;
-          variable?: string;
-          values?: string;
-          values_variable?: string;
-          append?: boolean;
-          /** The point of the file about which the object turns. */
-          center?: "object" | "origin" | [number, number, number, number];
-      }
-    | { type: "undo" }
-    | { type: "redo" }
-    | { type: "reset" }
-    | { type: "command"; line: string }
-    | { type: "address"; query: string }
-    | { type: "get"; what: "state" | "critical" | "catalogue" | "keymap" | "address" }
-    | { type: "get"; what: "slices" | "frame"; width?: number; height?: number; background?: Background }
-    | { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }
-    | ({ type: "get"; what: "file" } & FileOptions)
-    | { type: "ping" }
-    | { type: "shown"; revision: number };
-
-// From the server
-
-export interface Welcome {
-    type: "welcome";
+/**
+ * Acknowledges a picture of the stream. At any time, at most two pictures are sent but not acknowledged.
+ */
+export interface ShownRequest {
+    type: "shown";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
     id?: number;
-    session: string;
-    token: string;
-    protocol: number;
-    server: string;
-    limits: Record<string, number>;
-}
-
-/** A kind of cells: in general, cells that the polytope's symmetries map to each other. */
-export interface CellKind {
-    name: string;
-    /** The number of cells of this kind. */
-    cells: number;
-    /** The color of this kind, 0xRRGGBB, when faces are colored by kind. */
-    color?: number;
-}
-
-export interface State {
-    type: "state";
-    id?: number;
+    /**
+     * The revision of the picture. All earlier pictures are acknowledged, too.
+     */
     revision: number;
-    polytope: {
-        name: string;
-        vertices: number;
-        edges: number;
-        faces: number;
-        cells: number;
-        kinds?: CellKind[];
-        /** The point x, y, z, w of the file about which the object turns; absent if it is the file's origin. */
-        center?: [number, number, number, number];
-    };
-    /** The frame of reference, which applies before the orientation. */
-    pace: number;
-    follow: Vector;
-    boost: Vector;
-    /** The matrix M, 4 × 4, by rows; v' = M v maps the polytope's own coordinates to the rotated ones. */
-    orientation: number[][];
-    alpha: number;
-    beta: number;
-    step: number;
-    slices: SliceSettings;
-    /** The focus point x, y, z, w, in the file's coordinates, through which the planes of the matrix view pass. */
-    point: [number, number, number, number];
-    view: View;
-    turning: boolean;
-    /** Whether the polytope turns, or an element is on its way to +w. */
-    moving: boolean;
-    /** Present if the surfaces of a field are coarser than usual; a finer picture of the same revision follows. */
-    draft?: true;
-    shown: Parts;
-    camera: Orbit;
-    color: Coloring;
-    background: Background;
-    /** The values at which the surfaces of a field are shown, and the side that is inside; absent for other objects. */
-    levels?: number[];
-    inside?: Inside;
-    /** The transfer function of fog: no points, or 2 to 8 in the order of their values; for fields only. */
-    fog?: FogPoint[];
-    caps?: Caps;
-    /** For fields only. */
-    field?: FieldDefinition;
-    projection: Projection;
-    /** The w of the 4-D eye, in circumradii. */
-    eye: number;
-    /** Kinds of cells, as indices into the polytope's kinds. */
-    hidden: number[];
-    faded: number[];
-    /** The element that is drawn in another color. */
-    highlight: PolytopeElement | null;
-    /** The focus slice: the polyhedron that it is, and the hull of the polytope's vertices in it; "" without a name. */
-    section: { w: number; name: string; vertices: string };
-    last: { planes: Plane[]; angles: number[] } | null;
 }
-
-export interface Done {
-    type: "done";
-    id: number;
+/**
+ * The polytope moves there by the shortest rotation, at a quarter turn per second, as one undo step. Each step of the motion is a revision. The element ends in one hyperplane w = const.
+ */
+export interface TowardRequest {
+    type: "toward";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * The kind of element. The points of a point cloud are vertices.
+     */
+    element: ElementKind;
+    /**
+     * The element, counted from 0. If absent, the element of this kind that is closest to +w, or the next one if that is already there.
+     */
+    number?: number;
+    /**
+     * Whether to jump there instead of moving; the default is false.
+     */
+    immediately?: boolean;
+}
+/**
+ * Undoes one step of the history. Fails with nothing_to_undo if there is none.
+ */
+export interface UndoRequest {
+    type: "undo";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+}
+/**
+ * The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is no element.
+ */
+export interface At {
+    type: "at";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The number of changes of the session's state so far.
+     */
     revision: number;
-    /** The corrections made to a loaded file, or what an exported file lacks. */
-    warnings?: string[];
+    /**
+     * The element at the point that is nearest to the viewer, as set takes it; null if there is none.
+     */
+    highlight: {
+        element: ElementKind;
+        /**
+         * The element, counted from 0 among those of its kind.
+         */
+        number: number;
+    } | null;
+    /**
+     * Where the element is shown.
+     */
+    in?: "slice" | "projection" | "coordinates" | "matrix";
+    /**
+     * In a slice: the index n of the hyperplane.
+     */
+    slice?: number;
+    /**
+     * In a slice: w of the hyperplane, in the coordinates of the object's file.
+     */
+    w?: number;
+    /**
+     * In a panel of the matrix: the point that it shows there, as set takes it.
+     */
+    point?: [number, number, number, number];
+    /**
+     * The smallest w of the element's vertices.
+     */
+    least_w?: number;
+    /**
+     * The largest w of the element's vertices.
+     */
+    most_w?: number;
+    /**
+     * Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box.
+     */
+    place?: [number, number, number, number];
+    /**
+     * The number of the element's vertices.
+     */
+    vertices?: number;
+    /**
+     * Of a cell: the index of its kind in state.polytope.kinds.
+     */
+    kind?: number;
+    /**
+     * Of a cell: the name of its kind.
+     */
+    name?: string;
 }
-
-/** How busy the server's threads are that slice and draw pictures. */
-export interface Pong {
-    type: "pong";
-    id?: number;
-    workers: number;
-    /** The pictures that wait for one of them. */
-    waiting: number;
-    /** The running time of all pictures that have ended, in seconds, added over all threads. */
-    busy: number;
-    /** The time of a clock that never goes back, in seconds. */
-    time: number;
-}
-
-export interface ErrorMessage {
-    type: "error";
-    id?: number;
-    code: string;
-    message: string;
-}
-
-/** A polytope of the catalogue. */
-export interface CatalogueEntry {
-    name: string;
-    aliases: string[];
-    /** Schläfli symbol, and Coxeter–Dynkin diagram in linear notation; empty if there is none. */
-    schlaefli: string;
-    diagram?: string;
-    /** The family in which the polytope is listed: "regular", "uniform H4", "duoprism", … */
-    family?: string;
-    vertices: number;
-    edges: number;
-    faces: number;
-    cells: number;
-    /** The order of the full symmetry group, including reflections; absent for loaded polytopes. */
-    symmetry_order?: number;
-}
-
+/**
+ * The polytopes known by name, in the order of the keys n and N. Also available at /api/v1/catalogue.
+ */
 export interface Catalogue {
     type: "catalogue";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
     id?: number;
     polytopes: CatalogueEntry[];
 }
-
-/** One entry of the key table, protocol/keymap.json. */
+export interface CatalogueEntry {
+    name: string;
+    /**
+     * "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4", "other", "prism", "antiprism prism" or "duoprism"; "fields" for a field; "loaded" for an object that was loaded into the session; or "data" for an array in the server's data folder, which load opens by its path.
+     */
+    family: string;
+    aliases: string[];
+    /**
+     * In linear notation, such as "x4x3o3o"; empty if there is none.
+     */
+    diagram: string;
+    /**
+     * Empty if there is none.
+     */
+    schlaefli: string;
+    /**
+     * The number of vertices.
+     */
+    vertices: number;
+    /**
+     * The number of edges.
+     */
+    edges: number;
+    /**
+     * The number of 2-faces.
+     */
+    faces: number;
+    /**
+     * The number of cells.
+     */
+    cells: number;
+    /**
+     * The order of the full symmetry group, including reflections; absent for loaded polytopes.
+     */
+    symmetry_order?: number;
+}
+/**
+ * The answer to get with what: "critical".
+ */
+export interface Critical {
+    type: "critical";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The number of changes of the session's state when the request was received.
+     */
+    revision: number;
+    /**
+     * The smallest w of the object, or of the box of a field.
+     */
+    least_w: number;
+    /**
+     * The largest w of the object, or of the box of a field.
+     */
+    most_w: number;
+    /**
+     * The width in w to which each change has been narrowed down.
+     */
+    tolerance: number;
+    /**
+     * Of a field: changes of one level that are closer than this in w count as one; 0 for other objects.
+     */
+    resolution: number;
+    /**
+     * In the order of w.
+     */
+    sections: CriticalSection[];
+}
+export interface CriticalSection {
+    /**
+     * w of the hyperplane.
+     */
+    w: number;
+    /**
+     * What happens while w increases.
+     */
+    change: "vertices" | "appears" | "vanishes" | "merge" | "split" | "handle" | "cavity";
+    /**
+     * Of a polytope or a point cloud: the number of vertices in the hyperplane.
+     */
+    vertices?: number;
+    /**
+     * Of a field: the index in levels of the level whose body changes.
+     */
+    level?: number;
+    /**
+     * Of a field: the number of connected components of the body below and above w.
+     */
+    components?: [number, number];
+    /**
+     * Of a field: the number of cavities in the body below and above w.
+     */
+    cavities?: [number, number];
+    /**
+     * Of a field: the Euler characteristic of the surface of the body below and above w.
+     */
+    euler?: [number, number];
+}
+/**
+ * Answers a request that has an id and took effect, if no other message answers it.
+ */
+export interface Done {
+    type: "done";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The number of changes of the session's state so far.
+     */
+    revision: number;
+    /**
+     * The corrections made to a loaded file; or what an exported file lacks, such as slices that are empty. Absent if there were none.
+     */
+    warnings?: string[];
+}
+/**
+ * A request was refused. The session is unchanged.
+ */
+export interface ErrorMessage {
+    type: "error";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * errors.json gives the meaning of each code.
+     */
+    code:
+        | "bad_json"
+        | "bad_message"
+        | "unknown_type"
+        | "unknown_key"
+        | "unknown_polytope"
+        | "unknown_command"
+        | "bad_expression"
+        | "out_of_range"
+        | "not_a_rotation"
+        | "bad_polytope"
+        | "bad_field"
+        | "unsupported_format"
+        | "no_body"
+        | "nothing_to_undo"
+        | "hello_first"
+        | "not_found"
+        | "bad_token"
+        | "too_many"
+        | "too_large"
+        | "canceled"
+        | "internal";
+    /**
+     * A sentence for the user: what was wrong, where, and what is allowed.
+     */
+    message: string;
+}
+/**
+ * The keys, in the order of the help sheet. Also available at /api/v1/keymap.
+ */
+export interface Keymap {
+    type: "keymap";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    groups: {
+        name: string;
+        title: string;
+    }[];
+    keys: KeyBinding[];
+}
 export interface KeyBinding {
-    /** The value of KeyboardEvent.key, or a sequence of keys such as "gg", which are typed one after the other. */
+    /**
+     * Two characters are a sequence of two keys; each is sent in its own message. Three or more are the name of one key, as in KeyboardEvent.key.
+     */
     key: string;
-    /** KeyboardEvent.code, if the key is recognized by its physical position. */
+    /**
+     * If present, the key is recognized by this physical key, whichever character it types.
+     */
     code?: string;
+    /**
+     * Whether Ctrl must be held.
+     */
     ctrl?: boolean;
-    /** "inverse" if Shift applies the inverse rotation. */
+    /**
+     * Shift with this key applies the inverse rotation. If absent, the key with Shift is another entry or has no action.
+     */
     shift?: "inverse";
-    /** The key's display name. */
     name: string;
     action: string;
     planes?: Plane[];
     group: string;
-    /** A description of the action, for the help sheet. */
     text: string;
-    /** A button label for the action. */
     label: string;
-    /** Whether the client must handle this key itself, because the server refuses it. */
+    /**
+     * The client handles this key itself; the server refuses it.
+     */
     client?: boolean;
 }
-
-export interface Keymap {
-    type: "keymap";
-    id?: number;
-    groups: { name: string; title: string }[];
-    keys: KeyBinding[];
-}
-
-/** The query of an address that opens the view of the session. */
-export interface Address {
-    type: "address";
-    id?: number;
-    query: string;
-}
-
-/** How to draw the slices, so that the picture of every client is the same as a frame. */
-export interface SceneDescription {
-    view: View;
-    shown: Parts;
-    viewport: Viewport;
+/**
+ * Answers a ping. Between two pongs, the workers were busy for the fraction Δbusy / (workers · Δtime) of the time.
+ */
+export interface Pong {
+    type: "pong";
     /**
-     * Lengths are in world units. `fov` is vertical; `shift` moves the picture right and up by these fractions of the
-     * viewport's width and height.
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The threads that slice and draw pictures.
+     */
+    workers: number;
+    /**
+     * The pictures of all clients that wait for one of these threads.
+     */
+    waiting: number;
+    /**
+     * The running time of all pictures that have ended, in seconds, added over all threads.
+     */
+    busy: number;
+    /**
+     * The time of a clock that never goes back, in seconds from an arbitrary start.
+     */
+    time: number;
+}
+/**
+ * Everything that determines a picture except its size. Sent back as a set, it restores the picture. Each frame contains it in the iTXt chunk "oval4d".
+ */
+export interface State {
+    type: "state";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The number of changes of the session's state so far.
+     */
+    revision: number;
+    /**
+     * Present if the surfaces of a field are coarser than usual, because it turns or changes quickly. A picture of the same revision without it follows once the field rests.
+     */
+    draft?: true;
+    polytope: {
+        name: string;
+        /**
+         * The number of vertices.
+         */
+        vertices: number;
+        /**
+         * The number of edges.
+         */
+        edges: number;
+        /**
+         * The number of 2-faces.
+         */
+        faces: number;
+        /**
+         * The number of cells.
+         */
+        cells: number;
+        /**
+         * The kinds of cells, the rarest first; a kind is numbered by its index here.
+         */
+        kinds: Required<CellKind>[];
+        /**
+         * The point of the file's coordinates about which the object turns, in the frame of reference. Absent if it is the origin.
+         */
+        center?: [number, number, number, number];
+    };
+    /**
+     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. 1 initially.
+     */
+    pace: number;
+    /**
+     * The velocity of the observer in units of x, y and z per unit of the object's own w: what moves with it stands still. [0, 0, 0] initially.
+     */
+    follow: [number, number, number];
+    /**
+     * The velocity of the observer to whose rest frame a Lorentz boost leads; at most 0.999 long, where 1 is the speed of light in units of x, y and z per unit of w, after pace has scaled w. [0, 0, 0] initially.
+     */
+    boost: [number, number, number];
+    /**
+     * The matrix M by rows, where v' = M v maps the polytope's own coordinates to the rotated ones. Orthogonal with determinant 1, to within 1e-6.
+     */
+    orientation: [
+        [number, number, number, number],
+        [number, number, number, number],
+        [number, number, number, number],
+        [number, number, number, number]
+    ];
+    /**
+     * α in radians: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+     */
+    alpha: number;
+    /**
+     * β in radians: the second angle of the keys r, t and y.
+     */
+    beta: number;
+    /**
+     * The step in radians by which the keys k, j, K and J change α and β.
+     */
+    step: number;
+    slices: {
+        /**
+         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
+         */
+        count: number;
+        /**
+         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
+         */
+        spacing: number;
+        /**
+         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
+         */
+        focus: number;
+        /**
+         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
+         */
+        offset: number;
+    };
+    /**
+     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w is that of the focus slice.
+     */
+    point: [number, number, number, number];
+    /**
+     * Whether all slices are shown, in the oval or at the same size in a straight row (strip), or only the focus slice, alone or beside the matrix of planar sections.
+     */
+    view: View;
+    /**
+     * Whether the polytope turns continuously, which repeats the last rotation.
+     */
+    turning: boolean;
+    /**
+     * Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
+     */
+    moving: boolean;
+    /**
+     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+     */
+    shown: Required<ShownParts>;
+    /**
+     * How the viewer has moved the camera from its initial position. Not part of the undo history.
      */
     camera: {
-        eye: Vector;
-        target: Vector;
-        up: Vector;
-        fov: number;
-        near: number;
-        far: number;
-        shift: [number, number];
+        /**
+         * The rotation to the right about the vertical axis, in radians.
+         */
+        azimuth: number;
+        /**
+         * The rotation upward, in radians.
+         */
+        elevation: number;
+        /**
+         * The magnification; 1 initially.
+         */
+        zoom: number;
     };
-    /** World units per unit of the polytope. */
-    scale: number;
-    circumradius: number;
-    /** Radii in world units. */
-    ball: number;
-    bar: number;
-    opacity: number;
-    /** The factor for the opacity of faded elements. */
-    faded: number;
-    light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
-    /** 0xRRGGBB. */
-    colors: {
-        background: number;
-        text: number;
-        focus: number;
-        ball: number;
-        bar: number;
-        zero: number;
-        highlight: number;
-        axes: [number, number, number, number];
-        cells: Uint32Array;
-    };
-    /** How the surfaces of a field are drawn, from the innermost level to the outermost; absent for other objects. */
-    surfaces?: SurfaceLevel[];
-    /** How fog is drawn: for each value of Fog.values, 0xAARRGGBB; absent without fog. */
-    fog?: { table: Integers };
-    // All lengths below are fractions of the viewport's height.
-
-    /** The axes in the upper left corner: the distances of their center from the left and top edges; their length. */
-    axes: { x: number; y: number; length: number };
-    /** The layout of the parallel coordinates, measured from the lower left corner. */
-    coordinates: {
-        rows: number;
-        per_row: number;
-        left: number;
-        zero: number;
-        row_step: number;
-        column_step: number;
-        line_step: number;
-        line_width: number;
-        amplitude: number;
-        named: boolean;
-        /** The number of columns of `density`; 0 if lines are drawn. */
-        columns: number;
-        /** The width of each of the four panels of a field's histogram; 0 if none is drawn. */
-        panel: number;
-    };
-    /** The height of labels. */
-    text: number;
-}
-
-/**
- * Triangles, which may cross each other, as triples of points. `tints` (the cell that colors the triangle) and `seen`
- * (1 faded, 2 full) have one value per triangle.
- */
-export interface Fill {
-    points: Float32Array;
-    triangles: Uint32Array;
-    tints: Uint32Array;
-    seen?: Uint32Array;
-}
-
-/** The surfaces of a field in one slice. The arrays are flat. */
-export interface Surface {
-    /** The color of the surfaces in place of those of the levels; present only if the color is "w". */
-    color?: number;
-    points: Float32Array;
-    /** The unit normal of the level set at each point, outward. Caps are flat. */
-    normals: Float32Array;
-    /** Triples of points, counterclockwise as seen from outside. */
-    triangles: Integers;
-    /** For each triangle: the index of its level, and 1 if it belongs to a cap. */
-    level: Uint8Array;
-    cap: Uint8Array;
-    /** The color of each point, 0xRRGGBB; present only if the color is "growth" or "value". */
-    colors?: Uint32Array;
-    /** The color of each point as the corner of a cap; present only if the caps are colored by value. */
-    cap_colors?: Uint32Array;
-}
-
-/** The values of a field on a lattice in one slice: at min + step · (i, j, k). */
-export interface Fog {
-    /** The number of points along x, y and z. */
-    size: Vector;
-    min: Vector;
-    step: number;
-    /** Planes n · p ≤ d at which the fog ends, as nx, ny, nz, d. */
-    walls: Float32Array;
-    /** For each point, x fastest: 0 where the field has no value, else an entry of the scene's table. */
-    values: Uint8Array;
-}
-
-/** How the surface of one level of a field is drawn. */
-export interface SurfaceLevel {
-    level: number;
-    color: number;
-    opacity: number;
-    caps: boolean;
-}
-
-/** The elements of a slice, or of a part of the projection. The arrays are flat, whichever encoding the message has. */
-export interface Elements {
-    /** x, y, z, x, y, z, … */
-    vertices: Float32Array;
-    /** Pairs of vertices. */
-    edges: Uint32Array;
-    /** Face f is the loop corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
-    faces: { begin: Uint32Array; corners: Uint32Array };
-    /** The index of the 4-D edge, 2-face or cell that each vertex, edge or face was cut from. */
-    of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The cell that determines the color of each face; absent if that is `of.faces`. */
-    tints?: Uint32Array;
-    /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
-    seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The radius of each vertex's ball, relative to scene.ball, and the ball's opacity; absent if all are 1. */
-    balls?: { scale: Float32Array; opacity: Float32Array };
-}
-
-export interface Slice extends Elements {
-    index: number;
-    w: number;
-    /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
-    fill?: Fill;
-    /** The surfaces of a field; absent if the hyperplane meets none, and for other objects. */
-    surface?: Surface;
-    /** The fog of a field; absent if there is none. */
-    fog?: Fog;
-    /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
-    position: Vector;
-    label: string;
-    /** The label is centered below this world position. */
-    label_at: Vector;
-    /** The size of the label, as a fraction of the scene's `text`. */
-    label_size: number;
-    focus: boolean;
-    drawn: boolean;
-}
-
-/**
- * What shows the highlighted element: values of `of.vertices` and `of.edges`, in slices and in the projection; and its
- * vertices, as indices into `coordinates`.
- */
-export interface Highlight {
-    vertices: ArrayLike<number> & Iterable<number>;
-    edges: ArrayLike<number> & Iterable<number>;
-    own_vertices: ArrayLike<number> & Iterable<number>;
-}
-
-/** How a part of the projection is drawn. */
-export interface ProjectionLook {
-    /** The radii of balls and bars in world units; those with the radius 0 are not drawn. */
-    ball: number;
-    bar: number;
-    ball_color: number;
-    bar_color: number;
-    /** The opacity of faces, from 0 to 1. */
-    opacity: number;
-}
-
-/** The projection of the whole object from four to three dimensions. */
-export interface ObjectProjection {
-    kind: Exclude<Projection, "off">;
-    /** The w of the 4-D eye, in circumradii. */
-    eye: number;
-    /** The world position of its center: a vertex p is drawn at position + scale · p. */
-    position: Vector;
-    scale: number;
-    /** The whole object, then the sections of hyperplanes. */
-    parts: (Elements & ProjectionLook)[];
-}
-
-/** The section of the object by a plane that is parallel to two coordinate axes. */
-export interface PlanarSection {
-    /** 0 to 3 for x, y, z, w; the first is the smaller. */
-    axes: [number, number];
-    /** The points' coordinates along the two axes, in the polytope's units. */
-    points: [number, number][];
-    edges: [number, number][];
-    /** The points in the order in which they bound the section; empty if the edges do not form one closed polygon. */
-    boundary: number[];
     /**
-     * What each element was cut from. A point: the 2-face; or faces + e, if edge e was cut; or faces + edges + v, if
-     * vertex v lies in the plane. An edge: the cell; or cells + f, if 2-face f was cut along the plane.
+     * What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, nothing, or how the cell faces a light in four dimensions. For a field, what the colors of its surfaces show: the level, the w of the slice, nothing, or how fast the surface moves outward while the hyperplane moves along w (growth), or the value of the second function or, without one, of the field itself (value).
      */
-    of: { points: number[]; edges: number[] };
-    /** The cell that determines the color of each edge. */
-    tints: number[];
-    /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
-    seen?: { points: number[]; edges: number[] };
-    balls?: { scale: number[]; opacity: number[] };
+    color: Coloring;
+    /**
+     * The background of pictures; the other colors are chosen for it. auto: dark, or light for clients whose hello has the scheme light. transparent: none in PNG files, and otherwise white.
+     */
+    background: Background;
+    /**
+     * How the caps of a field's surfaces are drawn, where the end of the box cuts through the body: in the color of the surface, colored by the value of the second function or, without one, of the field itself, or not at all. Present for fields only.
+     */
+    caps?: Caps;
+    /**
+     * The values at which the surfaces of a field are shown. Present for fields only.
+     */
+    levels?: number[];
+    /**
+     * The side of the levels that belongs to the bodies of a field: where its value is smaller, or larger. Present for fields only.
+     */
+    inside?: Inside;
+    /**
+     * The fog in the slices of a field: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, whose values increase, and constant beyond. Without points, there is no fog. Present for fields only.
+     */
+    fog?: FogPoint[];
+    /**
+     * Present for fields only.
+     */
+    field?: FieldDefinition;
+    /**
+     * The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or parallel to the w axis.
+     */
+    projection: Projection;
+    /**
+     * The w of the eye of the perspective projection, in circumradii.
+     */
+    eye: number;
+    /**
+     * The kinds of cells that are not drawn, as indices from 0 into polytope.kinds. Emptied when the polytope changes.
+     */
+    hidden: number[];
+    /**
+     * The kinds of cells that are drawn faintly, as indices from 0 into polytope.kinds. A kind in both lists is hidden. Emptied when the polytope changes.
+     */
+    faded: number[];
+    /**
+     * The element that is drawn in another color in slices, projection and parallel coordinates; null if there is none.
+     */
+    highlight: {
+        element: ElementKind;
+        /**
+         * The element, counted from 0 among those of its kind.
+         */
+        number: number;
+    } | null;
+    /**
+     * The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the rhombic dodecahedron.
+     */
+    section: {
+        /**
+         * w of the focus slice.
+         */
+        w: number;
+        /**
+         * What the focus slice is, such as "icosahedron"; empty if it has no name.
+         */
+        name: string;
+        /**
+         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
+         */
+        vertices: string;
+    };
+    /**
+     * The last rotation, which the key '.' repeats and the space bar continues. Null before the first rotation.
+     */
+    last: Turn;
 }
-
 /**
- * The matrix of planar sections. The panel in row i and column j, from the upper left, shows the section by the plane of
- * the axes i and j: axis j to the right, axis i upward. Lengths are fractions of the viewport's height, measured from its
- * lower left corner.
+ * Answers hello with the session and the limits of the server.
  */
-export interface SectionMatrix {
-    left: number;
-    bottom: number;
-    /** The side of a panel, and the distance from a panel to the next. */
-    panel: number;
-    step: number;
-    line_width: number;
-    /** The radius of points. */
-    ball: number;
-    /** From the center of a panel, which is the origin, to its sides, in the polytope's units. */
-    reach: number;
-    /** The focus point x, y, z, w, through which all planes pass. */
-    point: [number, number, number, number];
-    /** By the planes xy, xz, yz, xw, yw and zw. */
-    sections: PlanarSection[];
-}
-
-/** The scales of the histogram of a field. */
-export interface Histogram {
-    /** How far the panels of x, y, z and w reach on both sides of their middles, in the object's units. */
-    reach: [number, number, number, number];
-    /** The values at the lower and the upper edge. */
-    range: [number, number];
-    /** The levels that are drawn as lines. */
-    levels: { value: number; color: number }[];
-}
-
-export interface Slices {
-    type: "slices";
+export interface Welcome {
+    type: "welcome";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
     id?: number;
-    revision: number;
-    /** Present if the surfaces of a field are coarser than usual; a finer picture of the same revision follows. */
-    draft?: true;
-    scene: SceneDescription;
-    /** x, y, z, w of each vertex of the rotated polytope; empty if they are not shown, and for fields. */
-    coordinates: Float32Array;
-    /** The density of the lines (0 … 255), row by row from the top, or the histogram of a field; else empty. */
-    density: Uint8Array;
-    /** The scales of the histogram of a field; absent if none is drawn. */
-    histogram?: Histogram;
-    /** The names of the focus slice; see State. */
-    section: { name: string; vertices: string };
-    /** What shows the highlighted element; absent if there is none. */
-    highlight?: Highlight;
-    slices: Slice[];
-    /** Absent if it is not shown. */
-    projection?: ObjectProjection;
-    /** Present only in the matrix view. */
-    matrix?: SectionMatrix;
+    /**
+     * The name of the session, for the path /ws/{session}.
+     */
+    session: string;
+    /**
+     * Gives access to the session; keep it secret.
+     */
+    token: string;
+    /**
+     * The protocol version.
+     */
+    protocol: number;
+    server: string;
+    /**
+     * The limits by name; README.md explains them.
+     */
+    limits: {
+        [k: string]: number;
+    };
 }
-
-/** What the picture shows at a point; only `highlight`, which is null, if that is nothing. */
-export interface At {
-    type: "at";
-    id?: number;
-    revision: number;
-    highlight: PolytopeElement | null;
-    in?: "slice" | "projection" | "coordinates" | "matrix";
-    /** In a panel of the matrix: the point x, y, z, w that it shows there. */
-    point?: [number, number, number, number];
-    slice?: number;
-    w?: number;
-    least_w?: number;
-    most_w?: number;
-    /** Of a vertex: its coordinates in the file, before the rotation. */
-    place?: [number, number, number, number];
-    vertices?: number;
-    kind?: number;
-    name?: string;
+/**
+ * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+ */
+export interface ShownParts {
+    /**
+     * Whether faces are drawn.
+     */
+    faces?: boolean;
+    /**
+     * Whether bars are drawn at edges.
+     */
+    bars?: boolean;
+    /**
+     * Whether balls are drawn at vertices.
+     */
+    balls?: boolean;
+    /**
+     * Whether the parallel coordinates are drawn.
+     */
+    coordinates?: boolean;
+    /**
+     * Whether the w of each slice is written under it.
+     */
+    labels?: boolean;
+    /**
+     * Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+     */
+    cells?: boolean;
+    /**
+     * Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it.
+     */
+    back?: boolean;
+    /**
+     * Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
+     */
+    sections?: boolean;
 }
-
-/** A w at which the section of the object changes its type. */
-export interface CriticalSection {
-    w: number;
-    change: "vertices" | "appears" | "vanishes" | "merge" | "split" | "handle" | "cavity";
-    /** Of a polytope or a point cloud: how many vertices lie there. */
-    vertices?: number;
-    /** Of a field: the index of the level, and the topology of its body below and above w. */
-    level?: number;
-    components?: [number, number];
-    cavities?: [number, number];
-    euler?: [number, number];
-}
-
-/** All critical w of the object in its orientation, in ascending order. */
-export interface Critical {
-    type: "critical";
-    id?: number;
-    revision: number;
-    least_w: number;
-    most_w: number;
-    tolerance: number;
-    resolution: number;
-    sections: CriticalSection[];
-}
-
-export type Message =
-    | Welcome
-    | State
-    | At
-    | Critical
-    | Done
-    | Pong
-    | ErrorMessage
-    | Catalogue
-    | Keymap
-    | Address
-    | Slices;

@@ -1,6 +1,8 @@
 #include "wire/schema.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,35 +33,44 @@ struct MessageSchema {
     valijson::Schema compiled;
 };
 
-json readSchema(const std::string& file);
-
-// Replaces references to other schemas by the contents of those schemas. valijson resolves those within a schema
-// ("#/…").
-void resolveReferences(json& schema) {
-    if (schema.is_object() && schema.contains("$ref") && !schema.at("$ref").get<std::string>().starts_with('#')) {
-        json merged = readSchema(schema.at("$ref"));
-        schema.erase("$ref");
-        merged.update(schema);  // keywords beside $ref
-        schema = std::move(merged);
+// Reads schemas, each file once.
+class SchemaReader {
+  public:
+    // Returns what a reference of the form "<file>" or "<file>#<JSON pointer>" refers to.
+    json read(const std::string& reference) {
+        const std::size_t end = std::min(reference.find('#'), reference.size());
+        auto& file = files_[reference.substr(0, end)];
+        if (file.is_null()) file = json::parse(protocol_data::embeddedFile("schema/" + reference.substr(0, end)));
+        json part = file.at(json::json_pointer(reference.substr(std::min(end + 1, reference.size()))));
+        resolveReferences(part);
+        return part;
     }
-    if (!schema.is_structured()) return;
-    for (json& part : schema) resolveReferences(part);
-}
 
-json readSchema(const std::string& file) {
-    json schema = json::parse(protocol_data::embeddedFile("schema/" + file));
-    resolveReferences(schema);
-    return schema;
-}
+  private:
+    // Replaces references to other files by what they refer to. valijson resolves those within a file ("#/…").
+    void resolveReferences(json& schema) {
+        if (schema.is_object() && schema.contains("$ref") && !schema.at("$ref").get<std::string>().starts_with('#')) {
+            json merged = read(schema.at("$ref"));
+            schema.erase("$ref");
+            merged.update(schema);  // keywords beside $ref
+            schema = std::move(merged);
+        }
+        if (!schema.is_structured()) return;
+        for (json& part : schema) resolveReferences(part);
+    }
+
+    std::map<std::string, json> files_;
+};
 
 // Returns the schemas of all messages: those that describe an object with a constant "type".
 std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> readSchemas() {
     std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> schemas;
+    SchemaReader reader;
     for (const std::string_view path : protocol_data::embeddedPaths()) {
         constexpr std::string_view kFolder = "schema/";
         if (!path.starts_with(kFolder)) continue;
         auto schema = std::make_unique<MessageSchema>();
-        schema->text = readSchema(std::string(path.substr(kFolder.size())));
+        schema->text = reader.read(std::string(path.substr(kFolder.size())));
         const json type = schema->text.value("/properties/type/const"_json_pointer, json());
         if (!type.is_string()) continue;
         valijson::SchemaParser parser;
@@ -143,6 +154,8 @@ std::string notThis(const json& schema, const json& value) {
 }
 
 }  // namespace
+
+json readSchema(const std::string& reference) { return SchemaReader().read(reference); }
 
 std::optional<Error> validationError(std::string_view type, const json& message) {
     const MessageSchema& schema = schemaOf(type);

@@ -2,6 +2,7 @@
 // Validates messages against the JSON Schemas in protocol/schema/, with valijson.
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -15,5 +16,11 @@ namespace oval4d::wire {
 /// "rotate: /angles/0 must be a finite number of radians". Errors: `out_of_range` for a number outside its bounds,
 /// `bad_message` for all other faults.
 std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
+
+/// Returns a schema, or a part of one, in which references to other files are replaced by what they refer to; keywords
+/// beside a reference take precedence. `reference`: the name of a file in protocol/schema/, which may be followed by '#'
+/// and a JSON pointer (RFC 6901), as in "set.schema.json#/properties/view". Throws nlohmann::json::exception if there is
+/// no such file or part.
+nlohmann::json readSchema(const std::string& reference);
 
 }  // namespace oval4d::wire

@@ -168,7 +168,7 @@ TEST(Parse, SetsEverySetting) {
 
     // Each setting of the schema is among them.
     std::set<std::string> settings;
-    const nlohmann::json properties = schemaText("set.schema.json").at("properties");
+    const nlohmann::json properties = readSchema("set.schema.json").at("properties");
     for (const auto& [name, property] : properties.items()) {
         if (name == "type" || name == "id" || property.value("description", "").starts_with("Ignored")) continue;
         if (name != "slices" && name != "camera" && name != "shown") {

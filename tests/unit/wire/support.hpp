@@ -26,23 +26,6 @@ C parsedCommand(std::string_view text) {
     return std::get<C>(std::get<session::Command>(parsed(text).body));
 }
 
-/// Returns a schema of the protocol in which references to other schema files are replaced by their content.
-inline nlohmann::json schemaText(const std::string& file) {
-    const auto resolve = [](const auto& self, nlohmann::json& schema) -> void {
-        if (schema.is_object() && schema.contains("$ref") && schema.at("$ref").get<std::string>()[0] != '#') {
-            auto merged = schemaText(schema.at("$ref"));
-            schema.erase("$ref");
-            merged.update(schema);
-            schema = std::move(merged);
-        }
-        if (!schema.is_structured()) return;
-        for (nlohmann::json& part : schema) self(self, part);
-    };
-    auto schema = nlohmann::json::parse(protocol_data::embeddedFile("schema/" + file));
-    resolve(resolve, schema);
-    return schema;
-}
-
 /// Parses a message and returns it. Expects that the message conforms to the schema of its type. Throws an exception if
 /// the text is not JSON or has no type.
 inline nlohmann::json fitting(std::string_view text) {

@@ -1,0 +1,33 @@
+// Names for parts of messages, and for what the functions of the client take and return.
+
+import type { Answer, GetRequest, SetRequest, State } from "./messages.js";
+import type { Slices } from "./slices.js";
+
+/** A message from the server. */
+export type Message = Answer | Slices;
+
+export type Vector = [number, number, number];
+/** A size in pixels. */
+export interface Viewport {
+    width: number;
+    height: number;
+}
+
+/** The members of `set`. Absent settings keep their values. */
+export type Settings = Omit<SetRequest, "type" | "id" | "continues" | "revision" | "draft" | "moving" | "section">;
+/** Which parts of the picture are drawn. */
+export type Parts = State["shown"];
+/** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
+export type Orbit = State["camera"];
+export type SliceSettings = State["slices"];
+/** An element of a polytope, numbered from 0 among those of its kind. */
+export type PolytopeElement = NonNullable<State["highlight"]>;
+
+/** The options of an exported file. */
+export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "at" | "fit"> & { format: string };
+/** An exported file. */
+export interface ExportedFile {
+    bytes: Uint8Array;
+    /** What the file lacks, such as slices that are empty. */
+    warnings: string[];
+}

@@ -1,0 +1,109 @@
+// Generates protocol/ts/messages.ts, the types of messages, from their JSON Schemas; with --check, only compares. The
+// slices message is not among them: slices.ts beside it has its types as they are after decoding.
+import { readFile, readdir, writeFile } from "node:fs/promises";
+import { compile } from "json-schema-to-typescript";
+
+const kSchemas = new URL("../protocol/schema/", import.meta.url);
+const kOutput = new URL("../protocol/ts/messages.ts", import.meta.url);
+const kLongestTuple = 4;
+const kNotGenerated = ["slices"];
+const kNames = { error: "ErrorMessage" }; // "Error" is a class of JavaScript
+
+const read = async (file) => JSON.parse(await readFile(new URL(file, kSchemas), "utf8"));
+const files = (await readdir(kSchemas)).filter((name) => name.endsWith(".schema.json")).sort();
+const schemas = new Map(await Promise.all(files.map(async (name) => [name, await read(name)])));
+
+const converted = new Map(); // from each part of a schema to what json-schema-to-typescript reads
+const namedParts = {}; // by name, the parts that are referred to by their names
+
+/** Returns the part of a schema that a reference names: "set.schema.json#/properties/view". */
+function find(reference) {
+    const [file, pointer = ""] = reference.split("#");
+    return pointer.split("/").slice(1).reduce((part, key) => part[key], schemas.get(file));
+}
+
+/**
+ * Converts a schema: an "$anchor" names its type. Titles, which say what a value must be, are left out, as are limits of
+ * lengths; arrays of one length are tuples.
+ */
+function convert(schema) {
+    if (Array.isArray(schema) || typeof schema !== "object") return schema;
+    if (!converted.has(schema)) {
+        const result = {};
+        converted.set(schema, result);
+        Object.assign(result, convertKeywords(schema));
+    }
+    return converted.get(schema);
+}
+
+function convertKeywords({ $ref, $anchor, title, minItems, maxItems, ...keywords }) {
+    if ($ref !== undefined) return reference(find($ref), keywords);
+    if (keywords.properties) {
+        const members = Object.entries(keywords.properties).map(([name, member]) => [name, convert(member)]);
+        keywords.properties = Object.fromEntries(members);
+    }
+    const types = [keywords.type].flat();
+    if (types.includes("array") && minItems === maxItems && minItems <= kLongestTuple) {
+        const allowed = types.map((type) => (type === "array" ? tuple(keywords.items, minItems) : type));
+        keywords = { tsType: allowed.join(" | "), description: keywords.description };
+    } else if (keywords.items) keywords.items = convert(keywords.items);
+    return { ...keywords, ...($anchor && { title: $anchor }) };
+}
+
+/** Returns the type of an array of `length` items, which are numbers, tuples, or have a name. */
+function tuple(items, length) {
+    const item = items.$anchor ? nameOf(items) : items.items ? tuple(items.items, items.minItems) : "number";
+    return `[${Array(length).fill(item).join(", ")}]`;
+}
+
+/** Returns a reference to a part, with the keywords beside it. */
+function reference(part, keywords) {
+    while (part.$ref !== undefined) part = find(part.$ref);
+    const { required, ...others } = keywords;
+    if (part.$anchor === undefined) return convertKeywords({ ...part, ...keywords });
+    const name = nameOf(part);
+    return { tsType: required ? `Required<${name}>` : name, description: part.description, ...others };
+}
+
+function nameOf(part) {
+    namedParts[part.$anchor] = part;
+    return part.$anchor;
+}
+
+const messages = files
+    .map((file) => ({ file, type: schemas.get(file).properties?.type?.const }))
+    .filter(({ type }) => type !== undefined && !kNotGenerated.includes(type));
+const kRequestId = find("hello.schema.json#/properties/id");
+/** Returns whether the client sends it, so that its id is one that the client has chosen. */
+const isRequest = ({ file }) => {
+    const { id } = schemas.get(file).properties;
+    return (id.$ref ? find(id.$ref) : id) === kRequestId;
+};
+/** Returns the type of a message, which has a name. */
+const named = (message) => {
+    const { file, type } = message;
+    const name = kNames[type] ?? type[0].toUpperCase() + type.slice(1);
+    return Object.assign(convert(schemas.get(file)), { title: isRequest(message) && type !== "address" ? `${name}Request` : name });
+};
+const union = (title, members) => ({ title, anyOf: members.map(named) });
+const requests = union("Request", messages.filter(isRequest));
+const answers = union("Answer", messages.filter((message) => !isRequest(message) || message.type === "address"));
+
+// json-schema-to-typescript generates the types that one type needs, so one, which is then removed, needs all of them.
+const everything = { anyOf: [requests, answers, ...Object.values(namedParts).map(convert)] };
+const generated = await compile(everything, "Everything", {
+    additionalProperties: false,
+    bannerComment: "// Types for the messages of protocol/README.md. Generated from the schemas in protocol/schema/ by tests/lint --fix.",
+    style: { printWidth: 120, tabWidth: 4 },
+    unknownAny: true,
+});
+const text = generated.replace(/export type Everything =[^;]*;\n/, "");
+
+if (process.argv.includes("--check")) {
+    if ((await readFile(kOutput, "utf8")) !== text) {
+        console.error("protocol/ts/messages.ts differs from the schemas; run tests/lint --fix");
+        process.exitCode = 1;
+    }
+} else {
+    await writeFile(kOutput, text);
+}
