@@ -7,11 +7,11 @@
 #include <charconv>
 #include <fstream>
 
-#include "net/data_names.hpp"
+#include "net/jobs/data_names.hpp"
 #include "net/http/etags_and_ranges.hpp"
-#include "net/http/export_job.hpp"
-#include "net/loader_job.hpp"
-#include "net/run_on_pool.hpp"
+#include "net/jobs/export_job.hpp"
+#include "net/jobs/loader_job.hpp"
+#include "net/jobs/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
 #include "session/query.hpp"

@@ -12,11 +12,11 @@
 
 #include "fields/field.hpp"
 #include "net/coroutine_helpers.hpp"
-#include "net/data_names.hpp"
-#include "net/file_reader.hpp"
-#include "net/http/export_job.hpp"
-#include "net/loader_job.hpp"
-#include "net/run_on_pool.hpp"
+#include "net/jobs/data_names.hpp"
+#include "net/jobs/file_reader.hpp"
+#include "net/jobs/export_job.hpp"
+#include "net/jobs/loader_job.hpp"
+#include "net/jobs/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/history.hpp"
 #include "session/query.hpp"
@@ -38,16 +38,6 @@ constexpr std::chrono::milliseconds kSaveDelay{250};
 Message doneMessage(LiveSession::RequestId id, std::uint64_t revision) {
     return textMessage(wire::doneMessage(id, revision));
 }
-
-// Minimum time between two steps of a moving object.
-constexpr auto kMotionInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
-// Maximum time that one step of a moving object covers. Because of this maximum, the motion continues without a large
-// jump after a pause, and for a client that shows one picture per second.
-constexpr auto kMaxMotionStep = 250ms;
-
-// Pictures of fields are drafts while changes follow each other within kBurst, and until the session has rested for
-// kRest.
-constexpr auto kBurst = 300ms, kRest = 200ms;
 
 // Time until the next attempt after the job queue was full.
 constexpr auto kRetryInterval = 100ms;
@@ -82,7 +72,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       session_(std::move(value)),
       objectMemory_(session::ownObjectMemory(session_)),
       held_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemory(session_))),
-      changed_(Clock::now()),
+      draftTiming_(Clock::now()),
       motionTimer_(strand_),
       paceTimer_(strand_),
       saveTimer_(strand_),
@@ -112,9 +102,7 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
 
 void LiveSession::stopSearches(std::shared_ptr<Peer> peer) {
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer)] {
-        for (const std::weak_ptr<Search>& each : self->searches_) {
-            if (const auto search = each.lock(); search && search->by.lock() == peer) search->stop.request_stop();
-        }
+        self->searches_.stop(peer);
     });
 }
 
@@ -265,9 +253,9 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
             loaded = session_.loaded;
             done = session::apply(session_, command, services_.options.session, *loader);
             if (!loader->isPending()) break;
-            std::shared_ptr<Search> search;
+            std::shared_ptr<CriticalSearchRun> search;
             if (loader->isSearchPending()) {
-                search = startSearch(peer);
+                search = beginSearch(peer);
                 // The client's next message waits for this command, so otherwise nothing would be read from it.
                 if (peer) peer->watchWhileExecuting();
             }
@@ -288,11 +276,11 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
     // The command may have extended a field that is not shown: then the source stays the same.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
-    if (applied.revision != before) markChanged(Clock::now());
-    stopObsoleteSearches();
+    if (applied.revision != before) draftTiming_.change(Clock::now());
+    searches_.stopOthers(session_.current);
     // The draft of a field that is larger than memory comes much sooner than the first complete picture.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
-    if (session_.current.source != source && field != nullptr && field->source) changesQuickly_ = true;
+    if (session_.current.source != source && field != nullptr && field->source) draftTiming_.begin();
     scheduleSave();
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
         // The head of a record is saved without objects, so a new object requires a save of the whole session.
@@ -307,37 +295,24 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
     co_return applied;
 }
 
-/// Registers a search for the critical w of the current state, which stopSearches() and stopObsoleteSearches() can end.
-std::shared_ptr<LiveSession::Search> LiveSession::startSearch(const std::shared_ptr<Peer>& peer) {
+/// Begins a search for the critical w of the current state.
+std::shared_ptr<CriticalSearchRun> LiveSession::beginSearch(const std::shared_ptr<Peer>& peer) {
     assertOnStrand();
-    std::erase_if(searches_, [](const auto& each) { return each.expired(); });
-    auto search = std::make_shared<Search>(peer, session_.current, services_.exportWorkers.stopToken());
-    searches_.push_back(search);
-    return search;
-}
-
-/// Ends the searches whose results the current state does not need.
-void LiveSession::stopObsoleteSearches() {
-    assertOnStrand();
-    if (searches_.empty()) return;
-    const session::CriticalArguments needed = session::criticalArguments(session_.current);
-    for (const std::weak_ptr<Search>& each : searches_) {
-        if (const auto search = each.lock(); search && search->of != needed) search->stop.request_stop();
-    }
+    return searches_.begin(peer, session_.current, services_.exportWorkers.stopToken());
 }
 
 /// Builds or reads the loader's pending object on a worker, or runs its `search`, which is otherwise null. Returns an
 /// error if there is no room for the result.
 asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
                                                                std::shared_ptr<session::ObjectLoader> loader,
-                                                               std::shared_ptr<Search> search) {
+                                                               std::shared_ptr<CriticalSearchRun> search) {
     auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
     if (!reservation) co_return kTooManyBytes;
     if (loader->pendingNeedsFile()) {
         co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadLane(),
                                            loader->estimatedDuration());
     } else if (search) {
-        co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(loader, search->stop.get_token()),
+        co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(loader, search->stopToken()),
                                            lanesOf(by).exports, loader->estimatedDuration());
     } else {
         co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), lanesOf(by).pictures,
@@ -452,7 +427,7 @@ asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCritical(std::sha
     const session::State asked = session_.current;
     auto found = loader->criticalSections(asked);
     if (!loader->isPending()) co_return found;
-    auto search = startSearch(peer);
+    auto search = beginSearch(peer);
     if (auto refused = co_await loadPending(peer->client(), loader, std::move(search))) co_return *refused;
     co_return loader->criticalSections(asked);
 }
@@ -479,8 +454,8 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 /// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows there.
 std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
                                                                       std::optional<glm::dvec2> point) const {
-    const SnapshotPtr known = knownSnapshot(slicing::Quality::full);
-    return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id, point,
+    const SnapshotPtr known = pictures_.find(revision(), slicing::Quality::full);
+    return [known, state = session_.current, askedRevision = revision(), changed = draftTiming_.changed(), key, id, point,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         const SnapshotPtr snapshot =
             suffices(known, key) ? known
@@ -516,47 +491,33 @@ void LiveSession::update() {
         }
         allServed = false;
         if (!client.pacing.hasRoom()) continue;
-        if (const Message* picture = findPicture(client.streamKey, revision(), wanted)) {
+        if (const Message* picture = pictures_.find(client.streamKey, revision(), wanted)) {
             sendPicture(client, *picture);
-        } else if (!isEncoding(client.streamKey, revision(), wanted) &&
-                   client.pacing.hasRoom(countEncoding(client.streamKey)) &&
+        } else if (!inProgress_.isEncoding(client.streamKey, revision(), wanted) &&
+                   client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey)) &&
                    std::ranges::find(missing, client.streamKey) == missing.end()) {
             missing.push_back(client.streamKey);
         }
     }
     if (!missing.empty()) requestPictures(std::move(missing));
-    if (allServed) {
-        snapshot_.reset();
-        pictures_ = {};
-    }
+    if (allServed) pictures_.clear();
     if (wanted == slicing::Quality::draft) scheduleRefinement();
-}
-
-void LiveSession::markChanged(Clock::time_point now) {
-    changesQuickly_ = lastChange_ && now - *lastChange_ < kBurst;
-    lastChange_ = changed_ = now;
 }
 
 /// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
 slicing::Quality LiveSession::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
-    return session_.current.moves() || changesQuickly_ ? slicing::Quality::draft : slicing::Quality::full;
+    return session_.current.moves() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the time when the session has rested for kRest. Until the timer runs, the
-/// quality stays the same, so that a busy server does not skip the draft right after a change.
+/// Schedules pictures of full quality for the time when the session has rested. Until the timer runs, the quality stays
+/// the same, so that a busy server does not skip the draft right after a change.
 void LiveSession::scheduleRefinement() {
     if (session_.current.moves()) return;
-    refineTimer_.start(weak_from_this(), changed_ + kRest, [](LiveSession& session) {
-        if (Clock::now() - session.changed_ >= kRest) session.changesQuickly_ = false;
+    refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](LiveSession& session) {
+        session.draftTiming_.rest(Clock::now());
         session.update();
     });
-}
-
-/// Returns the snapshot of the current revision in this quality, or null if it has not been made.
-SnapshotPtr LiveSession::knownSnapshot(slicing::Quality quality) const {
-    const bool isCurrent = snapshot_ && snapshot_->revision == revision() && snapshot_->quality == quality;
-    return isCurrent ? snapshot_ : nullptr;
 }
 
 /// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
@@ -564,41 +525,30 @@ SnapshotPtr LiveSession::knownSnapshot(slicing::Quality quality) const {
 void LiveSession::advanceMotion() {
     assertOnStrand();
     if (!session_.current.moves()) {
-        lastMotion_.reset();
+        motionTiming_.stop();
         return;
     }
-    if (drawing_ != 0 ||
+    if (inProgress_.isDrawing() ||
         std::ranges::none_of(clients_, [this](const auto& entry) { return readyForNext(entry.second); }))
         return;
     const auto now = Clock::now();
-    if (lastMotion_ && now - *lastMotion_ < kMotionInterval) {
-        motionTimer_.start(weak_from_this(), *lastMotion_ + kMotionInterval, &LiveSession::update);
+    const auto passed = motionTiming_.step(now);
+    if (!passed) {
+        motionTimer_.start(weak_from_this(), motionTiming_.due(), &LiveSession::update);
         return;
     }
-    const auto passed = lastMotion_ ? std::min<Clock::duration>(now - *lastMotion_, kMaxMotionStep) : kMotionInterval;
-    lastMotion_ = now;
     const std::uint64_t before = revision();
-    session::advance(session_, Seconds(passed).count());
+    session::advance(session_, Seconds(*passed).count());
     if (revision() == before) return;  // it turns by the angle 0: there is nothing to send until the next command
-    markChanged(now);
+    draftTiming_.change(now);
     scheduleSave();
 }
 
 bool LiveSession::readyForNext(const Subscriber& client) const {
     const bool hasNewest = client.pacing.newest() == revision();
-    if (!hasNewest && !isEncoding(client.streamKey, revision(), slicing::Quality::draft)) return false;
+    if (!hasNewest && !inProgress_.isEncoding(client.streamKey, revision(), slicing::Quality::draft)) return false;
     return client.streamKey.stream == Stream::none ? !client.stateInFlight
-                                                   : client.pacing.hasRoom(countEncoding(client.streamKey));
-}
-
-std::size_t LiveSession::countEncoding(const StreamKey& key) const {
-    return static_cast<std::size_t>(std::ranges::count(encoding_, key, &EncodingPicture::streamKey));
-}
-
-bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const {
-    return std::ranges::any_of(encoding_, [&](const EncodingPicture& each) {
-        return each.streamKey == key && each.revision == ofRevision && each.quality >= atLeast;
-    });
+                                                   : client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey));
 }
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
@@ -606,12 +556,14 @@ bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision, sli
 void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
-    const bool isNew = drawing_ == 0;
+    const bool isNew = !inProgress_.isDrawing();
     const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
-    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.current, revision(), changed_, quality,
-                    knownSnapshot(quality),       std::move(wanted)};
+    PictureJob next{inProgress_.job(), session_.current,
+                    revision(),        draftTiming_.changed(),
+                    quality,           pictures_.find(revision(), quality),
+                    std::move(wanted)};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
@@ -620,7 +572,7 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     if (!isNew) return;
     const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
     if (services_.pictureWorkers.post(job, lane, cost)) {
-        drawing_ = ++jobs_;
+        inProgress_.queued();
     } else {
         queuedJob_.reset();
         scheduleRetry();
@@ -633,7 +585,7 @@ const LiveSession::Subscriber& LiveSession::clientToCharge(const std::vector<Str
     for (const auto& [peer, client] : clients_) {
         if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);
     }
-    return *payers[jobs_ % payers.size()];
+    return *payers[inProgress_.job() % payers.size()];
 }
 
 /// Schedules another attempt after the pool has rejected a job because its queue is full.
@@ -680,9 +632,9 @@ void LiveSession::logFailedPicture(const session::State& state, std::uint64_t of
 /// queued.
 void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
     asio::post(strand_,
-               [self = shared_from_this(), drawn = EncodingPicture{job.number, job.revision, job.quality, key}] {
-                   if (self->drawing_ == drawn.job) self->drawing_ = 0;
-                   self->encoding_.push_back(drawn);
+               [self = shared_from_this(),
+                drawn = PicturesInProgress::Encoding{job.number, job.revision, job.quality, key}] {
+                   self->inProgress_.drawn(drawn);
                    self->update();
                });
 }
@@ -692,22 +644,13 @@ void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
 /// time to make.
 void LiveSession::onJobDone(JobResult result) {
     assertOnStrand();
-    if (drawing_ == result.job) drawing_ = 0;
-    std::erase_if(encoding_, [&](const EncodingPicture& each) { return each.job == result.job; });
-    const auto isOlder = [](const Snapshot& a, const Snapshot& b) {
-        return std::tie(a.revision, a.quality) < std::tie(b.revision, b.quality);
-    };
-    const bool outdated = result.snapshot && snapshot_ && isOlder(*result.snapshot, *snapshot_);
-    if (result.snapshot && result.snapshot != snapshot_ && !outdated) {
-        snapshot_ = result.snapshot;
-        pictures_.clear();
-    }
-    if (!outdated) std::ranges::move(result.pictures, std::back_inserter(pictures_));
+    inProgress_.done(result.job);
+    pictures_.add(result.snapshot, std::move(result.pictures));
     for (auto& [key, client] : clients_) {
         if (client.streamKey.stream == Stream::none || !client.pacing.hasRoom()) continue;
         const auto newest = client.pacing.newest();
         if (newest && std::tie(*newest, client.quality) >= std::tie(result.revision, result.quality)) continue;
-        if (const Message* picture = findPicture(client.streamKey, result.revision, result.quality)) {
+        if (const Message* picture = pictures_.find(client.streamKey, result.revision, result.quality)) {
             sendPicture(client, *picture);
         } else if (std::ranges::find(result.failed, client.streamKey) != result.failed.end()) {
             client.pacing.skipped(result.revision);
@@ -719,23 +662,17 @@ void LiveSession::onJobDone(JobResult result) {
     update();
 }
 
-const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRevision,
-                                        slicing::Quality atLeast) const {
-    if (!snapshot_ || snapshot_->revision != ofRevision || snapshot_->quality < atLeast) return nullptr;
-    const auto found = std::ranges::find(pictures_, key, &EncodedPictures::value_type::first);
-    return found == pictures_.end() ? nullptr : &found->second;
-}
-
-/// Sends the state of `snapshot_`, followed by a picture of it.
+/// Sends the state of the newest snapshot, followed by a picture of it.
 void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
     const auto peer = client.peer.lock();
     if (!peer) return;
-    client.pacing.sent(snapshot_->revision);
-    client.quality = snapshot_->quality;
+    const Snapshot& snapshot = *pictures_.snapshot();
+    client.pacing.sent(snapshot.revision);
+    client.quality = snapshot.quality;
     services_.metrics.countPicture(client.streamKey.stream);
-    peer->send({snapshot_->stateTextFor(client.streamKey.scheme), false});
+    peer->send({snapshot.stateTextFor(client.streamKey.scheme), false});
     peer->send(picture,
-               [weak = weak_from_this(), to = client.peer, sent = snapshot_->revision, since = snapshot_->changed] {
+               [weak = weak_from_this(), to = client.peer, sent = snapshot.revision, since = snapshot.changed] {
                    const auto now = Clock::now();
                    const auto session = weak.lock();
                    if (!session) return;

@@ -10,18 +10,22 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "net/live/critical_searches.hpp"
+#include "net/live/draft_timing.hpp"
+#include "net/live/made_pictures.hpp"
+#include "net/live/motion_timing.hpp"
+#include "net/live/pictures_in_progress.hpp"
 #include "net/live/snapshot.hpp"
 #include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
 #include "net/shared_bytes.hpp"
-#include "net/ws/message.hpp"
-#include "net/ws/pacing.hpp"
-#include "net/ws/peer.hpp"
+#include "net/live/message.hpp"
+#include "net/live/pacing.hpp"
+#include "net/live/peer.hpp"
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 #include "store/write_behind_store.hpp"
@@ -98,7 +102,6 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
         bool stateInFlight = false;  // without a stream: whether a `state` message is queued, but not yet written
     };
-    using EncodedPictures = std::vector<std::pair<StreamKey, Message>>;
     // A job that makes pictures of one revision.
     struct PictureJob {
         std::uint64_t number = 0;  // identifies the job within the session; starts at 1
@@ -109,37 +112,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
         std::vector<StreamKey> wanted;  // the pictures to make
     };
-    // A picture that has been drawn and is being encoded.
-    struct EncodingPicture {
-        std::uint64_t job = 0, revision = 0;
-        slicing::Quality quality = slicing::Quality::full;
-        StreamKey streamKey;
-    };
     // The result of a PictureJob.
     struct JobResult {
         std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;
-        EncodedPictures pictures;
+        MadePictures::List pictures;
         std::vector<StreamKey> failed;  // the pictures that could not be made
-    };
-
-    // A search for critical w that waits for a worker or runs.
-    struct Search {
-        // Requests a stop when the workers are to stop.
-        struct Forwarder {
-            std::stop_source stop;
-            void operator()() noexcept { stop.request_stop(); }
-        };
-        Search(std::weak_ptr<Peer> peer, const session::State& state, std::stop_token workersStop)
-            : by(std::move(peer)),
-              of(session::criticalArguments(state)),
-              whenWorkersStop(std::move(workersStop), Forwarder{stop}) {}
-        const std::weak_ptr<Peer> by;  // the client that requested it
-        const session::CriticalArguments of;
-        std::stop_source stop;
-        std::stop_callback<Forwarder> whenWorkersStop;
     };
 
     // The following functions run on the strand.
@@ -161,8 +141,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCritical(std::shared_ptr<Peer> peer, RequestId id);
     boost::asio::awaitable<Result<slicing::CriticalPtr>> findCritical(std::shared_ptr<Peer> peer);
-    std::shared_ptr<Search> startSearch(const std::shared_ptr<Peer>& peer);
-    void stopObsoleteSearches();
+    std::shared_ptr<CriticalSearchRun> beginSearch(const std::shared_ptr<Peer>& peer);
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(ClientPtr by, session::Command command);
@@ -171,7 +150,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::shared_ptr<session::ObjectLoader> makeLoader() const;
     boost::asio::awaitable<std::optional<Error>> loadPending(ClientPtr by,
                                                              std::shared_ptr<session::ObjectLoader> loader,
-                                                             std::shared_ptr<Search> search);
+                                                             std::shared_ptr<CriticalSearchRun> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void updateReservation(bool objectsChanged);
     void scheduleSave();
@@ -180,9 +159,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     void update();
     void advanceMotion();
-    void markChanged(Clock::time_point now);
     slicing::Quality wantedQuality() const;
-    SnapshotPtr knownSnapshot(slicing::Quality quality) const;
     void scheduleRefinement();
     void requestPictures(std::vector<StreamKey> wanted);
     const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
@@ -194,10 +171,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void schedulePacing();
     void expirePictures();
     Clock::duration shownTimeout() const;
-    const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const;
     bool readyForNext(const Subscriber& client) const;
-    std::size_t countEncoding(const StreamKey& key) const;
-    bool isEncoding(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const;
     std::uint64_t revision() const { return session_.revision; }
 
     // The following functions run on a worker.
@@ -217,20 +191,13 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::size_t objectMemory_ = 0;  // session::ownObjectMemory() of session_
     ByteBudget::Reservation held_;  // reserves objectMemory_ and the memory of the history
     std::map<const Peer*, Subscriber> clients_;
-    Clock::time_point changed_;                    // the time at which the session reached its revision
-    std::optional<Clock::time_point> lastChange_;  // empty before the first change since the session was opened
-    bool changesQuickly_ = false;  // whether the last change soon followed another one, and no rest has followed
-    SnapshotPtr snapshot_;         // the newest snapshot, kept while a client waits for a picture; else null
-    EncodedPictures pictures_;     // pictures of snapshot_
+    DraftTiming draftTiming_;
+    MotionTiming motionTiming_;
+    PicturesInProgress inProgress_;
+    MadePictures pictures_;  // kept while a client waits for one, else empty
     SharedBytes stateText_;        // the `state` message of stateRevision_, for clients without a stream or a scheme
     std::optional<std::uint64_t> stateRevision_;
-    std::uint64_t jobs_ = 0;                 // the number of jobs posted so far; also the number of the newest job
-    std::uint64_t drawing_ = 0;              // the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<EncodingPicture> encoding_;  // the pictures that are being encoded
-    // When the moving object made its last step. Empty if it does not move.
-    std::optional<Clock::time_point> lastMotion_;
-    // The searches that wait or run. Pointers to ended ones have expired, and are removed when the next search starts.
-    std::vector<std::weak_ptr<Search>> searches_;
+    CriticalSearches searches_;
     OneShotTimer motionTimer_, paceTimer_, saveTimer_, retryTimer_, refineTimer_;
     bool detached_ = false;  // whether this object must no longer write the session to the store
 

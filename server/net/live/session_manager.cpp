@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "net/file_reader.hpp"
+#include "net/jobs/file_reader.hpp"
 #include "store/codec.hpp"
 #include "store/object_codec.hpp"
 #include "store/secret.hpp"

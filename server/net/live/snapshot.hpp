@@ -9,7 +9,7 @@
 
 #include "net/options.hpp"
 #include "net/shared_bytes.hpp"
-#include "net/ws/message.hpp"
+#include "net/live/message.hpp"
 #include "pipeline/pipeline.hpp"
 #include "session/session.hpp"
 #include "slicing/slice_set.hpp"

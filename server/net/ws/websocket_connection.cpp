@@ -7,7 +7,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "net/coroutine_helpers.hpp"
-#include "net/run_on_pool.hpp"
+#include "net/jobs/run_on_pool.hpp"
 #include "store/secret.hpp"
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
@@ -64,7 +64,7 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       executed_(stream_.get_executor()),
       helloDeadline_(stream_.get_executor()) {}
 
-asio::awaitable<void> WebSocketConnection::run(HttpRequest upgrade) {
+asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     configureStream(upgrade.count(beast::http::field::sec_websocket_protocol) > 0);
     const auto [fault] = co_await stream_.async_accept(upgrade, kAsTuple);
     if (fault) co_return;

@@ -5,6 +5,8 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -12,12 +14,11 @@
 #include <string>
 #include <variant>
 
-#include "net/http/request_validation.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/services.hpp"
 #include "net/ws/beast_close_code_fix.hpp"
 #include "net/ws/min_read_rate.hpp"
-#include "net/ws/peer.hpp"
+#include "net/live/peer.hpp"
 #include "net/ws/rate_limit.hpp"
 #include "wire/parse.hpp"
 #include "wire/request.hpp"
@@ -26,6 +27,9 @@ namespace oval4d::net {
 
 /// The WebSocket subprotocol that the server supports.
 inline constexpr std::string_view kSubprotocol = "oval4d.v1";
+
+/// The header of a request for an upgrade to WebSocket.
+using UpgradeRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 /// Handles the requests of one client over a WebSocket. It answers each request before it executes the next one and
 /// reads at most one message ahead, so TCP back-pressure slows down a client that sends too fast. It writes one message
@@ -39,7 +43,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
                         ClientPtr client, std::string session, std::function<void()> joined);
 
     /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
-    boost::asio::awaitable<void> run(HttpRequest upgrade);
+    boost::asio::awaitable<void> run(UpgradeRequest upgrade);
 
     void send(Message message, std::function<void()> written = {}) override;
     const ClientPtr& client() const override { return client_; }

@@ -1,4 +1,4 @@
-#include "net/ws/pacing.hpp"
+#include "net/live/pacing.hpp"
 
 namespace oval4d::net {
 

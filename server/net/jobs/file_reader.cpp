@@ -1,4 +1,4 @@
-#include "net/file_reader.hpp"
+#include "net/jobs/file_reader.hpp"
 
 namespace oval4d::net {
 

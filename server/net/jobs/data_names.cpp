@@ -1,10 +1,10 @@
-#include "net/data_names.hpp"
+#include "net/jobs/data_names.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <utility>
 
-#include "net/run_on_pool.hpp"
+#include "net/jobs/run_on_pool.hpp"
 
 namespace oval4d::net {
 

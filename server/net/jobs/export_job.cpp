@@ -1,9 +1,9 @@
-#include "net/http/export_job.hpp"
+#include "net/jobs/export_job.hpp"
 
 #include <chrono>
 #include <utility>
 
-#include "net/http/spool.hpp"
+#include "net/jobs/spool.hpp"
 
 namespace oval4d::net {
 

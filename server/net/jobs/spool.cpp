@@ -1,4 +1,4 @@
-#include "net/http/spool.hpp"
+#include "net/jobs/spool.hpp"
 
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>

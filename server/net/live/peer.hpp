@@ -6,7 +6,7 @@
 #include <string>
 
 #include "net/clients.hpp"
-#include "net/ws/message.hpp"
+#include "net/live/message.hpp"
 
 namespace oval4d::net {
 

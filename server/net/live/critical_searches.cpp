@@ -1,0 +1,42 @@
+#include "net/live/critical_searches.hpp"
+
+#include <utility>
+
+namespace oval4d::net {
+
+CriticalSearchRun::CriticalSearchRun(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop)
+    : by_(std::move(by)),
+      arguments_(session::criticalArguments(state)),
+      whenWorkersStop_(std::move(workersStop), Forwarder{stop_}) {}
+
+std::shared_ptr<CriticalSearchRun> CriticalSearches::begin(const std::shared_ptr<Peer>& by, const session::State& state,
+                                                           std::stop_token workersStop) {
+    std::erase_if(searches_, [](const auto& each) { return each.expired(); });
+    auto search = std::make_shared<CriticalSearchRun>(by, state, std::move(workersStop));
+    searches_.push_back(search);
+    return search;
+}
+
+void CriticalSearches::stop(const std::shared_ptr<Peer>& by) {
+    for (const auto& search : running()) {
+        if (search->isBy(by)) search->stop();
+    }
+}
+
+void CriticalSearches::stopOthers(const session::State& state) {
+    if (searches_.empty()) return;
+    const session::CriticalArguments needed = session::criticalArguments(state);
+    for (const auto& search : running()) {
+        if (search->arguments() != needed) search->stop();
+    }
+}
+
+std::vector<std::shared_ptr<CriticalSearchRun>> CriticalSearches::running() const {
+    std::vector<std::shared_ptr<CriticalSearchRun>> found;
+    for (const auto& each : searches_) {
+        if (auto search = each.lock()) found.push_back(std::move(search));
+    }
+    return found;
+}
+
+}  // namespace oval4d::net

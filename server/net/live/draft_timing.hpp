@@ -1,0 +1,42 @@
+#pragma once
+// When pictures of fields are drafts.
+
+#include <chrono>
+#include <optional>
+
+namespace oval4d::net {
+
+/// Tells whether changes of a session follow each other so quickly that pictures of a field must be drafts to follow
+/// fast: from the second of two changes within kBurst until the session has rested for kRest.
+class DraftTiming {
+  public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds kBurst{300}, kRest{200};
+
+    /// `opened`: the time at which the session was opened.
+    explicit DraftTiming(Clock::time_point opened) : changed_(opened) {}
+
+    /// Records that the session has reached a new revision.
+    void change(Clock::time_point now) {
+        isQuick_ = changedBefore_ && now - changed_ < kBurst;
+        changedBefore_ = true;
+        changed_ = now;
+    }
+    /// Begins a period of quick changes, which lasts until the session has rested.
+    void begin() { isQuick_ = true; }
+    /// Ends the period of quick changes if the session has rested for kRest.
+    void rest(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
+
+    bool isQuick() const { return isQuick_; }
+    /// Returns the time at which the session reached its revision.
+    Clock::time_point changed() const { return changed_; }
+    /// Returns the time at which rest() ends a period of quick changes, unless there is another change.
+    Clock::time_point restEnds() const { return changed_ + kRest; }
+
+  private:
+    Clock::time_point changed_;
+    bool changedBefore_ = false;  // whether the session has changed since it was opened
+    bool isQuick_ = false;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,55 @@
+#pragma once
+// The pictures of a session that have been made.
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "net/live/snapshot.hpp"
+
+namespace oval4d::net {
+
+/// The newest snapshot of a session, and the pictures that have been made of it. Each is made once, and sent to all
+/// clients with the same StreamKey. Not thread-safe.
+class MadePictures {
+  public:
+    using List = std::vector<std::pair<StreamKey, Message>>;
+
+    /// Returns the snapshot that is kept; null if there is none.
+    const SnapshotPtr& snapshot() const { return snapshot_; }
+    /// Returns the snapshot if it has this revision and quality, else null.
+    SnapshotPtr find(std::uint64_t revision, slicing::Quality quality) const {
+        const bool isKept = snapshot_ && snapshot_->revision == revision && snapshot_->quality == quality;
+        return isKept ? snapshot_ : nullptr;
+    }
+    /// Returns a picture of this revision, of at least this quality; null if there is none.
+    const Message* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
+        if (!snapshot_ || snapshot_->revision != revision || snapshot_->quality < atLeast) return nullptr;
+        const auto found = std::ranges::find(pictures_, key, &List::value_type::first);
+        return found == pictures_.end() ? nullptr : &found->second;
+    }
+
+    /// Adds pictures of a snapshot, which replaces an older one. Ignores those of an older snapshot. `snapshot` may be
+    /// null if there are no pictures.
+    void add(const SnapshotPtr& snapshot, List pictures) {
+        const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
+        if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;
+        if (snapshot != snapshot_) clear();
+        snapshot_ = snapshot;
+        std::ranges::move(pictures, std::back_inserter(pictures_));
+    }
+    /// Frees the memory of the snapshot and its pictures.
+    void clear() {
+        snapshot_.reset();
+        pictures_ = {};
+    }
+
+  private:
+    SnapshotPtr snapshot_;
+    List pictures_;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,58 @@
+#pragma once
+// The pictures of a session that are being made.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "net/live/snapshot.hpp"
+
+namespace oval4d::net {
+
+/// The picture jobs of a session. At most one is queued or being drawn; when its last picture is drawn, this picture is
+/// encoded while the next job may begin. Not thread-safe.
+class PicturesInProgress {
+  public:
+    /// A picture that has been drawn and is being encoded.
+    struct Encoding {
+        std::uint64_t job = 0, revision = 0;
+        slicing::Quality quality = slicing::Quality::full;
+        StreamKey streamKey;
+    };
+
+    /// Returns whether a job is queued or being drawn.
+    bool isDrawing() const { return drawing_ != 0; }
+    /// Returns the number of the job that is queued or being drawn, or else that of the next one. The first is 1.
+    std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
+    /// Records that the job with the number job() was queued. There must be none.
+    void queued() { drawing_ = ++jobs_; }
+    /// Records that the last picture of a job is drawn.
+    void drawn(const Encoding& picture) {
+        if (drawing_ == picture.job) drawing_ = 0;
+        encoding_.push_back(picture);
+    }
+    /// Records that a job is done.
+    void done(std::uint64_t job) {
+        if (drawing_ == job) drawing_ = 0;
+        std::erase_if(encoding_, [&](const Encoding& each) { return each.job == job; });
+    }
+
+    /// Returns the number of pictures of this kind that are being encoded.
+    std::size_t countEncoding(const StreamKey& key) const {
+        return static_cast<std::size_t>(std::ranges::count(encoding_, key, &Encoding::streamKey));
+    }
+    /// Returns whether a picture of this revision, of at least this quality, is being encoded.
+    bool isEncoding(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
+        return std::ranges::any_of(encoding_, [&](const Encoding& each) {
+            return each.streamKey == key && each.revision == revision && each.quality >= atLeast;
+        });
+    }
+
+  private:
+    std::uint64_t jobs_ = 0;     // the number of jobs so far
+    std::uint64_t drawing_ = 0;  // the number of the job that is queued or being drawn; 0 if there is none
+    std::vector<Encoding> encoding_;
+};
+
+}  // namespace oval4d::net

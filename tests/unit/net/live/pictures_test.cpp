@@ -1,0 +1,89 @@
+// Which pictures of a session are kept, and which are being made.
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "net/live/made_pictures.hpp"
+#include "net/live/pictures_in_progress.hpp"
+
+namespace oval4d::net {
+namespace {
+
+using slicing::Quality;
+
+const StreamKey kFrames{wire::Stream::frames, {}, {640, 480}};
+const StreamKey kGeometry{wire::Stream::geometry, {}, {640, 480}};
+
+SnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) {
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->revision = revision;
+    snapshot->quality = quality;
+    return snapshot;
+}
+
+MadePictures::List pictureOf(const StreamKey& key, const std::string& text) { return {{key, textMessage(text)}}; }
+
+TEST(MadePictures, AreFoundByKindRevisionAndQuality) {
+    MadePictures pictures;
+    EXPECT_EQ(pictures.find(kFrames, 0, Quality::draft), nullptr);
+    const SnapshotPtr draft = snapshotOf(3, Quality::draft);
+    pictures.add(draft, pictureOf(kFrames, "frame"));
+    pictures.add(draft, pictureOf(kGeometry, "slices"));
+    EXPECT_NE(pictures.find(kFrames, 3, Quality::draft), nullptr);
+    EXPECT_NE(pictures.find(kGeometry, 3, Quality::draft), nullptr);
+    EXPECT_EQ(pictures.find(kFrames, 3, Quality::full), nullptr);
+    EXPECT_EQ(pictures.find(kFrames, 2, Quality::draft), nullptr);
+    EXPECT_EQ(pictures.find(3, Quality::draft), draft);
+    EXPECT_EQ(pictures.find(3, Quality::full), nullptr);
+}
+
+TEST(MadePictures, NewerOnesReplaceOlderOnes) {
+    MadePictures pictures;
+    pictures.add(snapshotOf(3), pictureOf(kFrames, "3"));
+    pictures.add(snapshotOf(4, Quality::draft), pictureOf(kGeometry, "4"));
+    EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
+    pictures.add(snapshotOf(3), pictureOf(kFrames, "3"));  // made by a slower worker
+    EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
+    EXPECT_NE(pictures.find(kGeometry, 4, Quality::draft), nullptr);
+    pictures.add(snapshotOf(4, Quality::full), {});
+    EXPECT_EQ(pictures.find(kGeometry, 4, Quality::draft), nullptr);
+    pictures.add(nullptr, {});  // a job that made none
+    EXPECT_NE(pictures.snapshot(), nullptr);
+    pictures.clear();
+    EXPECT_EQ(pictures.snapshot(), nullptr);
+}
+
+TEST(PicturesInProgress, TheNextJobMayBeginOnceThePictureIsDrawn) {
+    PicturesInProgress inProgress;
+    EXPECT_FALSE(inProgress.isDrawing());
+    EXPECT_EQ(inProgress.job(), 1U);
+    inProgress.queued();
+    EXPECT_TRUE(inProgress.isDrawing());
+    EXPECT_EQ(inProgress.job(), 1U);
+    inProgress.drawn({1, 7, Quality::full, kFrames});
+    EXPECT_FALSE(inProgress.isDrawing());
+    EXPECT_TRUE(inProgress.isEncoding(kFrames, 7, Quality::draft));
+    EXPECT_FALSE(inProgress.isEncoding(kFrames, 6, Quality::draft));
+    EXPECT_FALSE(inProgress.isEncoding(kGeometry, 7, Quality::draft));
+    EXPECT_EQ(inProgress.job(), 2U);
+    inProgress.queued();
+    inProgress.drawn({2, 8, Quality::draft, kFrames});
+    EXPECT_EQ(inProgress.countEncoding(kFrames), 2U);
+    EXPECT_FALSE(inProgress.isEncoding(kFrames, 8, Quality::full));
+    inProgress.done(1);
+    EXPECT_EQ(inProgress.countEncoding(kFrames), 1U);
+    EXPECT_FALSE(inProgress.isEncoding(kFrames, 7, Quality::draft));
+}
+
+TEST(PicturesInProgress, AJobWithoutAFrameEndsAtOnce) {
+    PicturesInProgress inProgress;
+    inProgress.queued();
+    inProgress.done(1);
+    EXPECT_FALSE(inProgress.isDrawing());
+    EXPECT_EQ(inProgress.job(), 2U);
+}
+
+}  // namespace
+}  // namespace oval4d::net
