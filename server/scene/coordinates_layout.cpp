@@ -1,0 +1,67 @@
+#include "scene/coordinates_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "scene/picture_boxes.hpp"
+#include "scene/style.hpp"
+
+namespace oval4d::scene {
+
+namespace {
+
+// Returns the width available between the margins, at least half the viewport's width.
+double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
+
+constexpr double kMaxAxisStep = 0.42;                            // between neighboring axes of a strip or histogram
+constexpr double kStripAmplitude = 0.056, kStripNameRoom = 1.1;  // the room in heights of text
+
+void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
+    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kStripAmplitude};
+    out.density = true;
+    out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
+    out.left = (aspect - 3 * out.lineStep - out.lineWidth) / 2;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
+}
+
+void layOutHistogram(double aspect, CoordinatesLayout& out) {
+    constexpr double kGap = 0.08;  // between two panels, as a fraction of the distance from one to the next
+    out = {.lineWidth = 0.0022, .amplitude = kStripAmplitude};
+    out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
+    out.panel = (1 - kGap) * out.lineStep;
+    out.left = (aspect - 3 * out.lineStep - out.panel) / 2;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
+}
+
+}  // namespace
+
+void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesLayout& out) {
+    if (content.isField) {
+        layOutHistogram(aspect, out);
+        return;
+    }
+    const std::size_t vertices = content.vertices;
+    constexpr double kMinColumn = 0.0095;
+    constexpr double kMaxColumn = 0.15;
+    if (vertices > kMaxVerticesAsLines) {
+        layOutStrip(vertices, aspect, out);
+        return;
+    }
+    const double width = availableWidth(aspect);
+    out.density = false;
+    out.panel = 0;
+    const auto count = static_cast<double>(std::max<std::size_t>(vertices, 1));
+    out.rows = std::clamp(static_cast<int>(std::ceil(count * kMinColumn / width)), 1, 6);
+    out.perRow = static_cast<int>(std::ceil(count / out.rows));
+    out.columnStep = std::min(width / out.perRow, kMaxColumn);
+    out.lineStep = std::min(out.columnStep * 0.21, 0.013);
+    out.lineWidth = std::min(out.lineStep * 0.62, 0.0042);
+    out.named = out.rows == 1 && out.columnStep > 2.2 * style().textHeight;
+    out.amplitude = out.rows == 1 ? 0.052 : 0.019;
+    out.rowStep = 2.25 * out.amplitude;
+    out.left = (aspect - (out.columnStep * (out.perRow - 1) + 3 * out.lineStep + out.lineWidth)) / 2;
+    out.zero = kMargin + (out.named ? 1.3 * style().textHeight : 0) + out.amplitude + (out.rows - 1) * out.rowStep;
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,202 @@
+#include "scene/label_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "scene/style.hpp"
+
+namespace oval4d::scene {
+
+namespace {
+
+constexpr double kLabelGap = 0.014;  // between a slice and its label, as a fraction of the viewport's height
+
+// Labels are placed in the direction away from the curve of the oval, and somewhat below it, by this part of a unit
+// vector. With more, they would cover the next slice; with less, those at the sides would leave less room for the
+// slices.
+constexpr double kLabelDrop = 0.54;
+
+// The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
+// margins are those of the plates behind the labels.
+constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
+constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a section's name, rounded up
+constexpr double kDigitHeight = 0.73;
+constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
+
+constexpr double kLeastStripLabel = 0.45;  // the least size of labels in the strip view
+constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to that of the focus slice, in heights of text
+
+}  // namespace
+
+LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements)
+    : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
+    // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
+    double w = 0;
+    for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
+    const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
+    width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
+}
+
+void LabelLayout::shrink(double columnWidth) {
+    const double size = columnWidth / ((width_ + 2 * kPlateMarginX) * style().textHeight);
+    for (SlicePlacement& placement : placements_)
+        if (!placement.focus) placement.labelSize = std::clamp(size, kLeastStripLabel, 1.0);
+}
+
+Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
+    Rect out{0, 0, 0, 0};
+    for (std::size_t i = 0; i < placements_.size(); ++i) {
+        if (!placements_[i].drawn) continue;
+        const Box box = boxAt(i, scale);
+        out.left = std::max(out.left, bounds.left * scale - (box.center.x - box.half.x));
+        out.right = std::max(out.right, box.center.x + box.half.x - bounds.right * scale);
+        out.bottom = std::max(out.bottom, bounds.bottom * scale - (box.center.y - box.half.y));
+        out.top = std::max(out.top, box.center.y + box.half.y - bounds.top * scale);
+    }
+    return out;
+}
+
+void LabelLayout::place(const Camera& camera) {
+    const glm::dmat4 view = camera.view();
+    const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
+    const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
+    const double pixels = camera.magnification();
+    for (std::size_t i = 0; i < placements_.size(); ++i) {
+        SlicePlacement& placement = placements_[i];
+        const double depth = -(view * glm::dvec4(placement.position, 1)).z;
+        const glm::dvec2 top = offsetOf(i, pixels / depth) + glm::dvec2(0, kDigitHeight / 2 * fontSize(placement));
+        placement.labelAt = placement.position + (right * top.x + up * top.y) * (depth / pixels);
+    }
+}
+
+void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, double aspect) {
+    const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus);
+    if (name.empty() || focus == placements_.end()) return;
+    nameWidth_ = kLetterWidth * static_cast<double>(name.size() + 2);
+    const Box box = boxSeenBy(camera, camera.view(), aspect, *focus);
+    if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
+        nameWidth_ = 0;
+    } else {
+        focus->label.append(", ").append(name);
+    }
+}
+
+void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
+    const auto count = static_cast<std::ptrdiff_t>(placements_.size());
+    const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
+    const std::ptrdiff_t step = smallestStep(focus, camera.magnification());
+    const glm::dmat4 toView = camera.view();
+    const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
+    const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
+        const SlicePlacement& placement = placements_[i];
+        if (placement.focus || !placement.drawn) return true;
+        if (distance % step != 0 || (toView * glm::dvec4(placement.labelAt, 1)).z > -camera.near) return false;
+        const Box box = boxOf(i);
+        if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
+        if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
+        if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
+                        isOverSlice(i, box, camera, toView, aspect)))
+            return false;
+        // The labels between the focus slice and this one, and as many on the other side, have been decided on.
+        for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
+             j <= std::min(focus + distance, count - 1); ++j) {
+            const bool decided = std::abs(j - focus) < distance || j < i;
+            if (decided && placements_[j].drawn && !placements_[j].label.empty() && overlap(boxOf(j), box))
+                return false;
+        }
+        return true;
+    };
+    for (std::ptrdiff_t distance = 1; distance < count; ++distance) {
+        for (const std::ptrdiff_t i : {focus - distance, focus + distance})
+            if (i >= 0 && i < count && !keeps(i, distance)) placements_[i].label.clear();
+    }
+}
+
+double LabelLayout::fontSize(const SlicePlacement& placement) { return style().textHeight * placement.labelSize; }
+
+glm::dvec2 LabelLayout::halfText(const SlicePlacement& placement) const {
+    return fontSize(placement) * glm::dvec2(width_ + (placement.focus ? kFocusPrefixWidth : 0), kDigitHeight) / 2.0;
+}
+
+glm::dvec2 LabelLayout::halfPlate(const SlicePlacement& placement) const {
+    const glm::dvec2 margin = placement.focus ? glm::dvec2(kFocusPlateMarginX, kFocusPlateMarginY)
+                                              : glm::dvec2(kPlateMarginX, kPlateMarginY);
+    return halfText(placement) + fontSize(placement) * margin;
+}
+
+glm::dvec2 LabelLayout::onPlane(double u) const {
+    const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+    return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
+}
+
+double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale) const {
+    const double r = radius_ * oval_.reachAt(u);
+    const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+    const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.up(p)));
+    const double e = (a * d + r * std::sqrt(std::max(a * a + d * d - r * r, 0.0))) / (d * d - r * r);
+    return (e * d - a) * scale;
+}
+
+glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
+    const double u = parameterOf(i, placements_.size());
+    const glm::dvec2 along = onPlane(u + 1e-3) - onPlane(u - 1e-3);
+    glm::dvec2 outward{0, -1};
+    if (glm::length(along) > 0)
+        outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -kLabelDrop));
+    const double radius = extentOf(u, outward, scale);
+    const double drop = oval_.isRow() && placements_[i].focus ? kStripFocusDrop * style().textHeight : 0;
+    return outward * (radius + kLabelGap + drop + glm::dot(glm::abs(outward), halfText(placements_[i])));
+}
+
+Box LabelLayout::boxAt(std::size_t i, double scale) const {
+    const double u = parameterOf(i, placements_.size());
+    return {scale * onPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
+            halfPlate(placements_[i])};
+}
+
+glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
+    return glm::dvec2(p) * (camera.magnification() / -p.z) +
+           glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
+}
+
+bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+                 double aspect) const {
+    for (std::size_t j = 0; j < placements_.size(); ++j) {
+        const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
+        if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
+        const double u = parameterOf(j, placements_.size());
+        const double radius = radius_ * oval_.reachAt(u) * camera.magnification() / -p.z;
+        if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
+    }
+    return false;
+}
+
+Box LabelLayout::boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+              const SlicePlacement& placement) const {
+    const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
+    const glm::dvec2 top = onScreen(p, camera, aspect);
+    const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
+    return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
+            halfPlate(placement) + glm::dvec2(name, 0)};
+}
+
+std::ptrdiff_t LabelLayout::smallestStep(std::ptrdiff_t focus, double scale) const {
+    const auto count = static_cast<std::ptrdiff_t>(placements_.size());
+    const auto fits = [&](std::ptrdiff_t step) {
+        for (std::ptrdiff_t i = focus % step; i < count; i += step) {
+            if (!placements_[i].drawn) continue;
+            const Box box = boxAt(i, scale);
+            for (std::ptrdiff_t j = i + step; j < count; j += step)
+                if (placements_[j].drawn && overlap(box, boxAt(j, scale))) return false;
+        }
+        return true;
+    };
+    std::ptrdiff_t step = 1;
+    while (step < count && !fits(step)) ++step;
+    return step;
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,91 @@
+#pragma once
+// The labels of slices: where they are, and which of them are shown.
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "scene/camera.hpp"
+#include "scene/layout.hpp"
+#include "scene/oval.hpp"
+#include "scene/picture_boxes.hpp"
+
+namespace oval4d::scene {
+
+/// Decides where the labels are and which of them are shown.
+class LabelLayout {
+  public:
+    /// `radius` is that of the slices with their balls.
+    LabelLayout(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements);
+
+    /// Reduces the size of all labels but that of the focus slice so that they fit side by side in columns of this
+    /// width.
+    void shrink(double columnWidth);
+
+    /// Returns how far the labels extend beyond `bounds`, the bounds of the slices, on each side, if one unit on the
+    /// plane at distance 1 from the eye appears as `scale` viewport heights.
+    Rect overhang(const Rect& bounds, double scale) const;
+
+    /// Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and
+    /// beside and somewhat below the slices on the arms of the oval.
+    void place(const Camera& camera);
+
+    /// Appends the name of the section to the focus slice's label, if there is room for it in the picture.
+    void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
+
+    /// Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
+    /// the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's, another
+    /// slice, or the box of the axes, or extend below `bottom`, where the coordinates are.
+    void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
+
+  private:
+    static double fontSize(const SlicePlacement& placement);
+
+    glm::dvec2 halfText(const SlicePlacement& placement) const;
+
+    // Half the size of the plate behind a label.
+    glm::dvec2 halfPlate(const SlicePlacement& placement) const;
+
+    // The center of the slice with the parameter u, on the plane at distance 1 from the eye.
+    glm::dvec2 onPlane(double u) const;
+
+    // Returns how far the slice with the parameter u, a sphere, extends on the screen from its center in the direction
+    // of a unit vector; at its depth, a world unit appears as `scale` viewport heights. Away from the optical axis,
+    // perspective stretches the sphere: the planes through the eye that touch it, n · p = e d for points p on the
+    // screen and depths d, fulfill (n · c − e d)² = r² (1 + e²) for its center c.
+    double extentOf(double u, const glm::dvec2& direction, double scale) const;
+
+    // Returns the vector on the screen from slice i to the center of its label; at the slice's depth, a world unit
+    // appears as `scale` viewport heights.
+    glm::dvec2 offsetOf(std::size_t i, double scale) const;
+
+    // Returns the box of label i before the viewer moves the camera, measured from the center of the focus slice, if
+    // one unit on the plane at distance 1 from the eye appears as `scale` viewport heights.
+    Box boxAt(std::size_t i, double scale) const;
+
+    // Returns the place on the screen of a point in view coordinates.
+    static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
+
+    // Returns whether the box of label i overlaps another slice than its own.
+    bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+                     double aspect) const;
+
+    Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                  const SlicePlacement& placement) const;
+
+    // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
+    // viewer moves the camera.
+    std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
+
+    const Oval& oval_;
+    ViewSpace space_;
+    double radius_, width_ = 0;
+    double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
+    std::vector<SlicePlacement>& placements_;
+};
+
+}  // namespace oval4d::scene

@@ -1,0 +1,34 @@
+#pragma once
+// Rectangles in a picture. The unit is the viewport's height.
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace oval4d::scene {
+
+/// The distance of what is drawn from the edges of the picture.
+inline constexpr double kMargin = 0.02;
+
+/// A rectangle, by its sides.
+struct Rect {
+    double left, right, bottom, top;
+};
+
+/// A rectangle, by its center and half its size.
+struct Box {
+    glm::dvec2 center, half;
+};
+
+/// Returns whether two boxes overlap.
+inline bool overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThan(glm::abs(a.center - b.center), a.half + b.half));
+}
+
+/// Returns whether a box and a disk overlap.
+inline bool overlap(const Box& box, const glm::dvec2& center, double radius) {
+    return glm::length(glm::max(glm::abs(center - box.center) - box.half, glm::dvec2(0))) < radius;
+}
+
+}  // namespace oval4d::scene
