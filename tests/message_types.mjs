@@ -16,8 +16,9 @@ const schemas = new Map(await Promise.all(files.map(async (name) => [name, await
 const converted = new Map(); // from each part of a schema to what json-schema-to-typescript reads
 const namedParts = {}; // by name, the parts that are referred to by their names
 
-/** Returns the part of a schema that a reference names: "set.schema.json#/properties/view". */
+/** Returns the part of a schema that a reference names, such as "settings.schema.json#/properties/view", or is. */
 function find(reference) {
+    if (typeof reference === "object") return reference;
     const [file, pointer = ""] = reference.split("#");
     return pointer.split("/").slice(1).reduce((part, key) => part[key], schemas.get(file));
 }
@@ -36,18 +37,21 @@ function convert(schema) {
     return converted.get(schema);
 }
 
-function convertKeywords({ $ref, $anchor, title, minItems, maxItems, ...keywords }) {
-    if ($ref !== undefined) return reference(find($ref), keywords);
+function convertKeywords(schema) {
+    const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, ...keywords } = schema;
+    if ($ref !== undefined) return refer(find($ref), { ...schema, $ref: undefined });
     if (keywords.properties) {
         const members = Object.entries(keywords.properties).map(([name, member]) => [name, convert(member)]);
         keywords.properties = Object.fromEntries(members);
     }
     const types = [keywords.type].flat();
+    const name = $anchor && { title: $anchor };
     if (types.includes("array") && minItems === maxItems && minItems <= kLongestTuple) {
         const allowed = types.map((type) => (type === "array" ? tuple(keywords.items, minItems) : type));
-        keywords = { tsType: allowed.join(" | "), description: keywords.description };
-    } else if (keywords.items) keywords.items = convert(keywords.items);
-    return { ...keywords, ...($anchor && { title: $anchor }) };
+        return { tsType: allowed.join(" | "), description: keywords.description, ...name };
+    }
+    if (keywords.items) keywords.items = convert(keywords.items);
+    return { ...keywords, ...name };
 }
 
 /** Returns the type of an array of `length` items, which are numbers, tuples, or have a name. */
@@ -56,13 +60,35 @@ function tuple(items, length) {
     return `[${Array(length).fill(item).join(", ")}]`;
 }
 
-/** Returns a reference to a part, with the keywords beside it. */
-function reference(part, keywords) {
-    while (part.$ref !== undefined) part = find(part.$ref);
-    const { required, ...others } = keywords;
-    if (part.$anchor === undefined) return convertKeywords({ ...part, ...keywords });
+/**
+ * Converts a reference to a part, with the keywords beside it. Where these are no more than a description and what is
+ * required, it is the name of the part, if there is one.
+ */
+function refer(part, { $ref, ...beside }) {
+    if (part.$ref !== undefined) return refer(find(part.$ref), merge({ ...part, $ref: undefined }, beside));
+    const { required, description = part.description, title, ...others } = beside;
+    if (part.$anchor === undefined || Object.keys(others).length > 0) return convertKeywords(merge(part, beside));
     const name = nameOf(part);
-    return { tsType: required ? `Required<${name}>` : name, description: part.description, ...others };
+    return { tsType: required ? `Required<${name}>` : name, description };
+}
+
+/** Adds keywords to a schema. Properties and items that both have are merged in the same way. */
+function merge(schema, more) {
+    if (schema.$ref !== undefined) return { ...schema, ...more };
+    if (schema.$anchor !== undefined) return { $ref: schema, ...more };
+    const result = { ...schema };
+    for (const [keyword, value] of Object.entries(more)) {
+        if (value === undefined) continue;
+        const own = result[keyword];
+        if (keyword === "properties" && own) {
+            const names = new Set([...Object.keys(value), ...Object.keys(own)]);
+            const both = (name) => (own[name] && value[name] ? merge(own[name], value[name]) : (value[name] ?? own[name]));
+            result.properties = Object.fromEntries([...names].map((name) => [name, both(name)]));
+        } else if (keyword === "items" && own) result.items = merge(own, value);
+        else if (keyword === "required" && own) result.required = [...new Set([...own, ...value])];
+        else result[keyword] = value;
+    }
+    return result;
 }
 
 function nameOf(part) {

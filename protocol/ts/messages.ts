@@ -338,6 +338,31 @@ export interface SetRequest {
      */
     continues?: boolean;
     /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    draft?: boolean;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    moving?: boolean;
+    /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    section?: {
+        /**
+         * w of the focus slice.
+         */
+        w?: number;
+        /**
+         * What the focus slice is, such as "icosahedron"; empty if it has no name.
+         */
+        name?: string;
+        /**
+         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
+         */
+        vertices?: string;
+    };
+    /**
      * A name or alias from the catalogue, any other name that the server understands, the name of a loaded polytope, or the object from a state. Sets the focus to 0 and keeps the ratio of the spacing to the circumradius.
      */
     polytope?:
@@ -434,14 +459,6 @@ export interface SetRequest {
      */
     turning?: boolean;
     /**
-     * Ignored. Allowed so that a state can be sent back as a set.
-     */
-    draft?: boolean;
-    /**
-     * Ignored. Allowed so that a state can be sent back as a set.
-     */
-    moving?: boolean;
-    /**
      * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
      */
     shown?: ShownParts;
@@ -498,23 +515,6 @@ export interface SetRequest {
          */
         number: number;
     } | null;
-    /**
-     * Ignored. Allowed so that a state can be sent back as a set.
-     */
-    section?: {
-        /**
-         * w of the focus slice.
-         */
-        w?: number;
-        /**
-         * What the focus slice is, such as "icosahedron"; empty if it has no name.
-         */
-        name?: string;
-        /**
-         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
-         */
-        vertices?: string;
-    };
     last?: Turn;
 }
 export interface CellKind {
@@ -941,7 +941,18 @@ export interface State {
      * Present if the surfaces of a field are coarser than usual, because it turns or changes quickly. A picture of the same revision without it follows once the field rests.
      */
     draft?: true;
+    /**
+     * The object that is shown.
+     */
     polytope: {
+        /**
+         * The kinds of cells, the rarest first; a kind is numbered by its index here.
+         */
+        kinds: Required<CellKind>[];
+        /**
+         * The point of the file's coordinates about which the object turns, in the frame of reference. Absent if it is the origin.
+         */
+        center?: [number, number, number, number];
         name: string;
         /**
          * The number of vertices.
@@ -959,14 +970,78 @@ export interface State {
          * The number of cells.
          */
         cells: number;
+    };
+    slices: {
         /**
-         * The kinds of cells, the rarest first; a kind is numbered by its index here.
+         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
          */
-        kinds: Required<CellKind>[];
+        count: number;
         /**
-         * The point of the file's coordinates about which the object turns, in the frame of reference. Absent if it is the origin.
+         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
          */
-        center?: [number, number, number, number];
+        spacing: number;
+        /**
+         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
+         */
+        focus: number;
+        /**
+         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
+         */
+        offset: number;
+        /**
+         * w of the focus slice, in the coordinates of the object's file: sets focus and offset such that |offset| is at most half of the spacing; at most 10 circumradii from the point about which the object turns.
+         */
+        w?: number;
+    };
+    /**
+     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w is that of the focus slice.
+     */
+    point: [number, number, number, number];
+    /**
+     * Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
+     */
+    moving: boolean;
+    /**
+     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+     */
+    shown: Required<ShownParts>;
+    /**
+     * How the viewer has moved the camera from its initial position. Not part of the undo history.
+     */
+    camera: {
+        /**
+         * The rotation to the right about the vertical axis, in radians.
+         */
+        azimuth: number;
+        /**
+         * The rotation upward, in radians.
+         */
+        elevation: number;
+        /**
+         * The magnification; 1 initially.
+         */
+        zoom: number;
+    };
+    /**
+     * Present for fields only.
+     */
+    field?: FieldDefinition;
+    /**
+     * The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the rhombic dodecahedron.
+     */
+    section: {
+        /**
+         * w of the focus slice.
+         */
+        w: number;
+        /**
+         * What the focus slice is, such as "icosahedron"; empty if it has no name.
+         */
+        name: string;
+        /**
+         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
+         */
+        vertices: string;
     };
     /**
      * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. 1 initially.
@@ -1001,92 +1076,23 @@ export interface State {
      * The step in radians by which the keys k, j, K and J change α and β.
      */
     step: number;
-    slices: {
-        /**
-         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
-         */
-        count: number;
-        /**
-         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
-         */
-        spacing: number;
-        /**
-         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
-         */
-        focus: number;
-        /**
-         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
-         */
-        offset: number;
-    };
-    /**
-     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w is that of the focus slice.
-     */
-    point: [number, number, number, number];
-    /**
-     * Whether all slices are shown, in the oval or at the same size in a straight row (strip), or only the focus slice, alone or beside the matrix of planar sections.
-     */
     view: View;
     /**
      * Whether the polytope turns continuously, which repeats the last rotation.
      */
     turning: boolean;
-    /**
-     * Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
-     */
-    moving: boolean;
-    /**
-     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
-     */
-    shown: Required<ShownParts>;
-    /**
-     * How the viewer has moved the camera from its initial position. Not part of the undo history.
-     */
-    camera: {
-        /**
-         * The rotation to the right about the vertical axis, in radians.
-         */
-        azimuth: number;
-        /**
-         * The rotation upward, in radians.
-         */
-        elevation: number;
-        /**
-         * The magnification; 1 initially.
-         */
-        zoom: number;
-    };
-    /**
-     * What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, nothing, or how the cell faces a light in four dimensions. For a field, what the colors of its surfaces show: the level, the w of the slice, nothing, or how fast the surface moves outward while the hyperplane moves along w (growth), or the value of the second function or, without one, of the field itself (value).
-     */
     color: Coloring;
-    /**
-     * The background of pictures; the other colors are chosen for it. auto: dark, or light for clients whose hello has the scheme light. transparent: none in PNG files, and otherwise white.
-     */
     background: Background;
-    /**
-     * How the caps of a field's surfaces are drawn, where the end of the box cuts through the body: in the color of the surface, colored by the value of the second function or, without one, of the field itself, or not at all. Present for fields only.
-     */
     caps?: Caps;
     /**
      * The values at which the surfaces of a field are shown. Present for fields only.
      */
     levels?: number[];
-    /**
-     * The side of the levels that belongs to the bodies of a field: where its value is smaller, or larger. Present for fields only.
-     */
     inside?: Inside;
     /**
      * The fog in the slices of a field: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, whose values increase, and constant beyond. Without points, there is no fog. Present for fields only.
      */
     fog?: FogPoint[];
-    /**
-     * Present for fields only.
-     */
-    field?: FieldDefinition;
-    /**
-     * The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or parallel to the w axis.
-     */
     projection: Projection;
     /**
      * The w of the eye of the perspective projection, in circumradii.
@@ -1110,26 +1116,6 @@ export interface State {
          */
         number: number;
     } | null;
-    /**
-     * The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the rhombic dodecahedron.
-     */
-    section: {
-        /**
-         * w of the focus slice.
-         */
-        w: number;
-        /**
-         * What the focus slice is, such as "icosahedron"; empty if it has no name.
-         */
-        name: string;
-        /**
-         * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
-         */
-        vertices: string;
-    };
-    /**
-     * The last rotation, which the key '.' repeats and the space bar continues. Null before the first rotation.
-     */
     last: Turn;
 }
 /**

@@ -33,6 +33,33 @@ struct MessageSchema {
     valijson::Schema compiled;
 };
 
+// Adds keywords to a schema. Those that both have replace its own, except that properties, items and what is required
+// are combined.
+void addKeywords(const json& more, json& schema) {
+    for (const auto& [keyword, value] : more.items()) {
+        const auto own = schema.find(keyword);
+        if (own == schema.end()) {
+            schema[keyword] = value;
+        } else if (keyword == "properties") {
+            for (const auto& [name, property] : value.items()) {
+                if (own->contains(name)) {
+                    addKeywords(property, own->at(name));
+                } else {
+                    (*own)[name] = property;
+                }
+            }
+        } else if (keyword == "items") {
+            addKeywords(value, *own);
+        } else if (keyword == "required") {
+            for (const json& name : value) {
+                if (std::ranges::find(*own, name) == own->end()) own->push_back(name);
+            }
+        } else {
+            *own = value;
+        }
+    }
+}
+
 // Reads schemas, each file once.
 class SchemaReader {
   public:
@@ -47,16 +74,22 @@ class SchemaReader {
     }
 
   private:
-    // Replaces references to other files by what they refer to. valijson resolves those within a file ("#/…").
+    // Replaces references to other files by what they refer to. valijson resolves those within a file ("#/…"), but does
+    // not know the keyword unevaluatedProperties, which afterward means the same as additionalProperties.
     void resolveReferences(json& schema) {
-        if (schema.is_object() && schema.contains("$ref") && !schema.at("$ref").get<std::string>().starts_with('#')) {
-            json merged = read(schema.at("$ref"));
-            schema.erase("$ref");
-            merged.update(schema);  // keywords beside $ref
-            schema = std::move(merged);
-        }
         if (!schema.is_structured()) return;
         for (json& part : schema) resolveReferences(part);
+        const bool refers =
+            schema.is_object() && schema.contains("$ref") && !schema.at("$ref").get<std::string>().starts_with('#');
+        if (!refers) return;
+        json whole = read(schema.at("$ref"));
+        schema.erase("$ref");
+        addKeywords(schema, whole);
+        if (const auto rule = whole.find("unevaluatedProperties"); rule != whole.end()) {
+            whole["additionalProperties"] = *rule;
+            whole.erase("unevaluatedProperties");
+        }
+        schema = std::move(whole);
     }
 
     std::map<std::string, json> files_;

@@ -3,7 +3,7 @@
 import table from "../../protocol/commands.json";
 import parts from "../../protocol/schema/parts.schema.json";
 import planes from "../../protocol/schema/planes.schema.json";
-import set from "../../protocol/schema/set.schema.json";
+import settings from "../../protocol/schema/settings.schema.json";
 
 /** A command; protocol/commands.json describes the members. */
 export interface CommandRow {
@@ -25,10 +25,10 @@ interface Schema {
     properties?: Record<string, Schema>;
 }
 
-const kNotOnTheLine = ["type", "id", "continues", "revision", "orientation", "draft", "moving", "section", "field", "last"]; // members of `set` without a setting
+const kNotOnTheLine = ["orientation", "field", "last"]; // settings of messages alone
 
 /** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
-export const kSettings = new Map<string, string[]>(settingsOf(set.properties as Record<string, Schema>));
+export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, Schema>));
 
 /**
  * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the order of the
@@ -37,7 +37,7 @@ export const kSettings = new Map<string, string[]>(settingsOf(set.properties as 
 export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${plane},${all[all.length - 1 - i]}`]);
 
 /** The kinds of elements of a polytope. */
-export const kElementKinds = set.properties.highlight.properties.element.enum;
+export const kElementKinds = settings.properties.highlight.properties.element.enum;
 
 /** The settings of an object in `set`. Those of nested objects have their own names, but `slices.count` is `slices`. */
 function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
