@@ -154,7 +154,7 @@ export class Client {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        // A server of an earlier version, which knows no schemes, draws dark pictures.
+        // A scheme is sent only if it is "light": servers of earlier versions know none, and draw dark pictures.
         const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
         return this.request({ type: "hello", stream, encoding, ...own });
     }

@@ -52,7 +52,7 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
     const Seconds cost = correctedCost(*lane, estimate);
     const JobLength length = cost > kLongJob * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
     lane->jobs_.push_back({std::move(job), estimate, cost, length});
-    recordActivity(lane, length, now);
+    updateActiveLanes(lane, length, now);
     if (lane->jobs_.size() == 1) scheduleLane(lane);
     return true;
 }
@@ -125,7 +125,7 @@ void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
 
 /// Records that the lane queues a job of this length. Adds the lane to `active_` unless it has queued a long job within
 /// kActive, because threads are reserved only for lanes with short jobs.
-void FairQueue::recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now) {
+void FairQueue::updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;
     if (lane->lastLong_ && now - *lane->lastLong_ <= kActive) return;

@@ -128,8 +128,8 @@ class FairQueue {
     /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
     /// jobs is active.
     static constexpr Seconds kVeryLongJob{0.25};
-    /// A lane with short jobs is active for this long after its last job was queued, or until the lane is destroyed.
-    /// The jobs that a lane queues within this time after one of its long jobs do not make it active.
+    /// How long a lane stays active after it has queued a short job, unless it is destroyed. A lane does not become
+    /// active within this time after it has queued a long job.
     static constexpr std::chrono::seconds kActive{10};
 
     /// A job that pop() returned. The caller must run it at once and then call finished().
@@ -198,7 +198,7 @@ class FairQueue {
     static Seconds nextCost(const ClientFlow& client, JobLength length);
     void scheduleLane(const LanePtr& lane);
     void scheduleClient(const ClientFlowPtr& client, JobLength length);
-    void recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now);
+    void updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
     void forgetInactive(Clock::time_point now);
 

@@ -34,17 +34,17 @@ Result<std::monostate> choose(const std::string& name, const std::string& value,
                  name + " must be " + text::alternatives(text::namesOf(choices)) + ", not " + text::inQuotes(value)};
 }
 
-/// The bounds of the size of a file, in millimeters.
-struct SizeBounds {
+/// The least and the greatest value of the option `size` of an export, in millimeters.
+struct MillimeterRange {
     double least, most;
 };
-SizeBounds sizeBoundsOf(const exports::Format& format) {
+MillimeterRange sizeRangeOf(const exports::Format& format) {
     const bool isDrawing = format.writeDrawing != nullptr;
-    return isDrawing ? SizeBounds{exports::kMinDrawingSize, exports::kMaxDrawingSize}
-                     : SizeBounds{exports::kMinSize, exports::kMaxSize};
+    return isDrawing ? MillimeterRange{exports::kMinDrawingSize, exports::kMaxDrawingSize}
+                     : MillimeterRange{exports::kMinSize, exports::kMaxSize};
 }
 
-Result<std::monostate> takeSize(const std::string& text, const SizeBounds& bounds, double& size) {
+Result<std::monostate> takeSize(const std::string& text, const MillimeterRange& bounds, double& size) {
     const char* const end = text.data() + text.size();
     double value = 0;
     const auto [stopped, fault] = std::from_chars(text.data(), end, value);
@@ -170,7 +170,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (!chosen) return chosen.error();
     const geometry::Hyperplanes& planes = *chosen;
     const bool drawing = request.format->writeDrawing != nullptr;
-    if (const auto [least, most] = sizeBoundsOf(*request.format); !(request.size >= least && request.size <= most)) {
+    if (const auto [least, most] = sizeRangeOf(*request.format); !(request.size >= least && request.size <= most)) {
         return Error{ErrorCode::out_of_range, std::string("the size of a ") + (drawing ? "drawing" : "body") +
                                                   " must be " +
                                                   text::outsideBounds(least, most, " millimeters", request.size)};
@@ -260,7 +260,7 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
         } else if (name == "label") {
             done = choose(name, value, exports::kLabels, request.label);
         } else if (name == "size") {
-            done = takeSize(value, sizeBoundsOf(format), request.size);
+            done = takeSize(value, sizeRangeOf(format), request.size);
         } else {
             rest.emplace_back(std::move(name), std::move(written));
         }

@@ -81,7 +81,8 @@ void setClearColor(const scene::Style& style) {
     glClearColor(channel(16), channel(8), channel(0), alpha);
 }
 
-/// See Scene::clearsCoordinates().
+/// Clears the part of the picture that belongs to the parallel coordinates, if slices may extend into it, because the
+/// viewer has moved the camera.
 void clearCoordinates(const scene::Scene& scene) {
     if (!scene.clearsCoordinates()) return;
     glEnable(GL_SCISSOR_TEST);
@@ -201,7 +202,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     const auto prepare = [&](SurfacePart& surfacePart, SurfaceBatch::Part part) {
         DepthRange depths;  // not needed here
         surfacePart.batch.collect(scene, depths, part);
-        surfacePart.rasterizer.prepare(scene.viewport, scene.style(), surfacePart.batch);
+        surfacePart.rasterizer.projectAndLight(scene.viewport, scene.style(), surfacePart.batch);
     };
     const auto prepareNear = [&] {
         prepare(near, SurfaceBatch::Part::near);

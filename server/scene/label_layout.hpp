@@ -26,8 +26,9 @@ class LabelLayout {
     /// width.
     void shrink(double columnWidth);
 
-    /// Returns how far the labels extend beyond `bounds`, the bounds of the slices, on each side, if one unit on the
-    /// plane at distance 1 from the eye appears as `scale` viewport heights.
+    /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds`: the bounds of
+    /// the slices on the plane at distance 1 from the eye. `scale`: the length of one unit of this plane in the
+    /// picture, in viewport heights.
     Rect overhang(const Rect& bounds, double scale) const;
 
     /// Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and

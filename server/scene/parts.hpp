@@ -17,13 +17,13 @@ struct Parts {
 
 /// A part of the picture and its name, which is used in messages, queries, stored sessions and on the ':' command line.
 /// The action of the key that shows or hides the part (protocol/keymap.json) has the same name.
-struct PartRow {
+struct NamedPart {
     std::string_view name;
     bool Parts::* flag;
 };
 
 /// All parts. Stored sessions contain the flags in this order; therefore a new row must be the last one.
-inline constexpr auto kParts = std::to_array<PartRow>({{"faces", &Parts::faces},
+inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &Parts::faces},
                                                        {"bars", &Parts::bars},
                                                        {"balls", &Parts::balls},
                                                        {"coordinates", &Parts::coordinates},

@@ -42,7 +42,7 @@ using text::isDigit;
 using text::isLetter;
 
 // The value of a part of an expression, and what it says about units.
-struct Term {
+struct ValueWithUnit {
     double value = 0;          // without the unit
     double plain = 0;          // the part of the value that consists of numbers without a unit
     bool isPlain = false;      // whether this is all of it
@@ -69,21 +69,21 @@ class Parser {
         std::string what;
     };
 
-    Term parse() {
-        const Term term = sum();
+    ValueWithUnit parse() {
+        const ValueWithUnit term = sum();
         if (at_ != text_.size()) fail("an operator is expected" + hint());
         return term;
     }
 
   private:
     // Returns a sum, in radians if it has a unit.
-    Term sum() {
+    ValueWithUnit sum() {
         const Depth deeper(*this);
-        Term total = inRadians(product());
+        ValueWithUnit total = inRadians(product());
         while (true) {
             const bool isDifference = take("-") || take(kMinusSign);
             if (!isDifference && !take("+")) return total;
-            const Term term = inRadians(product());
+            const ValueWithUnit term = inRadians(product());
             const double sign = isDifference ? -1 : 1;
             total.value += sign * term.value;
             total.plain += sign * term.plain;
@@ -92,37 +92,37 @@ class Parser {
             total.isInRadians = total.isInRadians || term.isInRadians;
         }
     }
-    Term product() {
-        Term total = signedPower();
+    ValueWithUnit product() {
+        ValueWithUnit total = signedPower();
         while (true) {
             const bool isQuotient = take("/");
             if (!isQuotient && !take("*")) return total;
-            const Term factor = signedPower();
+            const ValueWithUnit factor = signedPower();
             if (isQuotient && factor.hasUnit && factor.isGroup)
                 failAt(factor.unitAt, "an angle cannot be divided by an angle, and neither can a number");
             total = joined(total, factor, isQuotient ? total.value / factor.value : total.value * factor.value);
         }
     }
-    Term signedPower() {
+    ValueWithUnit signedPower() {
         const Depth deeper(*this);
         if (take("-") || take(kMinusSign)) {
-            Term term = signedPower();
+            ValueWithUnit term = signedPower();
             term.value = -term.value;
             term.plain = -term.plain;
             return term;
         }
         if (take("+")) return signedPower();
-        const Term base = angle();
+        const ValueWithUnit base = angle();
         if (!take("^")) return base;
         if (base.hasUnit) failAt(base.unitAt, "the power of an angle is no angle; write the unit after the exponent");
-        const Term exponent = signedPower();
+        const ValueWithUnit exponent = signedPower();
         return joined(base, exponent, std::pow(base.value, exponent.value));
     }
     // Returns the product or power of two terms, of which at most one has a unit.
-    Term joined(const Term& a, const Term& b, double value) {
+    ValueWithUnit joined(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
-        Term result = a.hasUnit ? a : b;
+        ValueWithUnit result = a.hasUnit ? a : b;
         result.value = value;
         result.isPlain = a.isPlain && b.isPlain;
         result.plain = result.isPlain ? value : 0;
@@ -131,15 +131,15 @@ class Parser {
         return result;
     }
     // Applies the unit of a product.
-    Term inRadians(Term term) {
+    ValueWithUnit inRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
         if (term.isInRadians) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
         term.value *= std::numbers::pi / 180;
         term.isInDegrees = false;
         return term;
     }
-    Term angle() {
-        Term term = atom();
+    ValueWithUnit angle() {
+        ValueWithUnit term = atom();
         skipBlanks();
         const std::size_t start = at_;
         const bool isInDegrees = take("°") || takeWord("deg");
@@ -154,9 +154,9 @@ class Parser {
         term.isGroup = false;
         return term;
     }
-    Term atom() {
+    ValueWithUnit atom() {
         if (take("(")) {
-            Term term = sum();
+            ValueWithUnit term = sum();
             if (!take(")")) fail("a ')' is missing");
             term.isGroup = true;
             return term;
@@ -168,8 +168,8 @@ class Parser {
         if (at_ < text_.size() && isLetter(text_[at_])) return named();
         fail("a number, a name or '(' is expected");
     }
-    static Term pi() { return {.value = std::numbers::pi, .isInRadians = true}; }
-    Term number() {
+    static ValueWithUnit pi() { return {.value = std::numbers::pi, .isInRadians = true}; }
+    ValueWithUnit number() {
         double value = 0;
         const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
         if (error == std::errc::result_out_of_range) fail("the number is too large or too small");
@@ -177,7 +177,7 @@ class Parser {
         at_ = static_cast<std::size_t>(end - text_.data());
         return {.value = value, .plain = value, .isPlain = true};
     }
-    Term named() {
+    ValueWithUnit named() {
         const std::size_t start = at_;
         while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
         const std::string_view name = text_.substr(start, at_ - start);
@@ -238,14 +238,14 @@ class Parser {
 
 Error bad(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
 
-Result<Term> evaluated(std::string_view given, bool units) {
+Result<ValueWithUnit> evaluated(std::string_view given, bool units) {
     const std::string text = text::withPlainBlanks(given);
     if (text.find_first_not_of(" \t") == std::string_view::npos)
         return bad("a number is expected, such as 0.2 or pi/8");
     if (text.size() > kMaxLength)
         return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
     try {
-        const Term term = Parser(text, units).parse();
+        const ValueWithUnit term = Parser(text, units).parse();
         if (!std::isfinite(term.value)) return bad(text::inQuotes(text) + " is not a finite number");
         return term;
     } catch (const Parser::SyntaxError& error) {

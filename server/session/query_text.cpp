@@ -63,9 +63,9 @@ bool startsWithUnit(std::string_view text) {
     return text.size() == kLetters || (!text::isLetter(text[kLetters]) && text[kLetters] != '(');
 }
 
-/// Decodes the value of a parameter. As in a form (application/x-www-form-urlencoded), "+" is a blank; but in
-/// arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, where a blank has no
-/// meaning. Before a unit, as in "30 °", it is a blank. Returns nothing if an escape is malformed.
+/// Decodes the value of a parameter. A "+" is a blank, as in forms (application/x-www-form-urlencoded). Where the value
+/// is arithmetic, however, a "+" between two operands is a plus sign, as in 0.1+pi/8, because a blank has no meaning
+/// there; a unit, as in 30+°, is no operand. Returns nothing if an escape is malformed.
 std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
     const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
     std::string value;

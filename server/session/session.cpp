@@ -268,7 +268,7 @@ std::size_t ownObjectMemory(const Session& session) {
     const auto add = [&](const slicing::Object& object) { objects.try_emplace(slicing::identityOf(object), &object); };
     auto addAll = [&, last = static_cast<const State*>(nullptr)](const State& state) mutable {
         const State* previous = std::exchange(last, &state);
-        // Skipped if the previous state has the same objects, as most do.
+        // Most states have the same objects as the state before them, which have been added already.
         if (previous != nullptr && previous->object == state.object && previous->source == state.source) return;
         for (const slicing::Object* object : state.objects()) add(*object);
     };

@@ -69,9 +69,9 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn);
 void rotate(State& state, const geometry::Turn& turn);
 
 /// Starts to turn the object toward the orientation in which the element points to +w; with TurnToward::immediately,
-/// rotates it to this orientation at once. Without TurnToward::index, chooses the element that is highlighted, or one
-/// that contains it or is contained in it; see slicing::elementToTurnTo(). Ends continuous turning. Error:
-/// `out_of_range` if the object has no such element.
+/// rotates it to this orientation at once. Without TurnToward::index, chooses an element of the given kind: if one is
+/// highlighted, this element, or one that contains it or is contained in it; else the element closest to +w. See
+/// slicing::elementToTurnTo(). Ends continuous turning. Error: `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
 /// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if

@@ -133,10 +133,10 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
     return std::move(*field);
 }
 
-enum class Kind : std::uint8_t { polytope, cloud, field };
+enum class ObjectKind : std::uint8_t { polytope, cloud, field };
 
-void requirePolytope(Kind kind) {
-    if (kind != Kind::polytope) throw std::runtime_error("an unknown kind of object");
+void requirePolytope(ObjectKind kind) {
+    if (kind != ObjectKind::polytope) throw std::runtime_error("an unknown kind of object");
 }
 
 /// Reads a jagged array and checks that all its rows lie within `items`.
@@ -156,14 +156,14 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     files.clear();
     ByteWriter archive(out);
     std::visit(Visitor{[&](const PolytopePtr& p) {
-                           archive(Kind::polytope), visitPolytope(archive, *p);
+                           archive(ObjectKind::polytope), visitPolytope(archive, *p);
                            archive(p->cellTypes.size());
                            for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
                            archive(p->originInFile);
                        },
-                       [&](const CloudPtr& cloud) { archive(Kind::cloud), visitCloud(archive, *cloud); },
+                       [&](const CloudPtr& cloud) { archive(ObjectKind::cloud), visitCloud(archive, *cloud); },
                        [&](const FieldPtr& field) {
-                           archive(Kind::field), writeField(*field, archive, files, 0);
+                           archive(ObjectKind::field), writeField(*field, archive, files, 0);
                            archive(field->name), archive(field->serial);
                        }},
                object);
@@ -171,14 +171,14 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
 
 Object decodeObject(std::string_view bytes, const MappedFiles& files) {
     ByteReader archive(bytes);
-    Kind kind{};
+    ObjectKind kind{};
     archive(kind);
-    if (kind == Kind::cloud) {
+    if (kind == ObjectKind::cloud) {
         auto cloud = std::make_shared<geometry::PointCloud>();
         visitCloud(archive, *cloud);
         return CloudPtr(std::move(cloud));
     }
-    if (kind == Kind::field) {
+    if (kind == ObjectKind::field) {
         auto field = std::make_shared<fields::Field>(readField("", archive, files));
         archive(field->name), archive(field->serial);
         return FieldPtr(std::move(field));
@@ -198,27 +198,27 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
 void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
     std::visit(
         Visitor{[&](const PolytopePtr& p) {
-                    archive(Kind::polytope), archive(p->vertices), archive(p->originInFile);
+                    archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
                     visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
                 },
                 [&](const CloudPtr& cloud) {
-                    archive(Kind::cloud), archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
+                    archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
                 },
-                [&](const FieldPtr& field) { archive(Kind::field), writeField(*field, archive, files, maxInMemory); }},
+                [&](const FieldPtr& field) { archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory); }},
         object);
 }
 
 Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices, const MappedFiles& files) {
-    Kind kind{};
+    ObjectKind kind{};
     archive(kind);
-    if (kind == Kind::field) return std::make_shared<const fields::Field>(readField(name, archive, files));
+    if (kind == ObjectKind::field) return std::make_shared<const fields::Field>(readField(name, archive, files));
     std::vector<glm::dvec4> vertices;
     archive(vertices);
     if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");
     glm::dvec4 originInFile;
     archive(originInFile);
     if (!std::isfinite(glm::length(originInFile))) throw std::runtime_error("an origin that is not finite");
-    if (kind == Kind::cloud) {
+    if (kind == ObjectKind::cloud) {
         std::vector<double> radii;
         archive(radii);
         try {

@@ -309,7 +309,7 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
         cellSpan_[c] = span;
     }
     stands_.assign(cells, true);
-    for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c) stands_[c] = standsOnFaces(polytope, c, out);
+    for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c) stands_[c] = lowestSectionCollapsesOntoFaces(polytope, c, out);
     loops_.clear();
     loopCorners_.clear();
     coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
@@ -324,7 +324,7 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
 }
 
 // Requires that numberEdges() has run.
-bool PolytopeSlicer::standsOnFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+bool PolytopeSlicer::lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     for (const std::uint32_t f : polytope.cells[cell]) {
         for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {

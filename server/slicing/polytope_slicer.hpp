@@ -85,10 +85,11 @@ class PolytopeSlicer {
                below_[edge[1]] < upTo_[edge[1]];
     }
     void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
-    // Returns whether the section of a cell just above a hyperplane through its lowest vertices moves, in the
-    // hyperplane, to the border of those of its 2-faces that lie in it, or to nothing if there are none. Returns true
-    // for a cell without vertices in a hyperplane below it. Otherwise the cell nearly lies in the hyperplane.
-    bool standsOnFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
+    // Takes the section of a cell just above the hyperplane through its lowest vertices. Returns whether this section,
+    // moved into the hyperplane, collapses onto the borders of the cell's 2-faces that lie there, or to nothing if none
+    // does. If not, the cell itself nearly lies in the hyperplane. Returns true for a cell without vertices in a
+    // hyperplane below it.
+    bool lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
     void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
     bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
@@ -114,7 +115,7 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> segmentBegin_;
     std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with its vertices on both sides
     std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
-    std::vector<bool> stands_;               // per cell: standsOnFaces()
+    std::vector<bool> stands_;               // per cell: lowestSectionCollapsesOntoFaces()
     CoincidingEdges coinciding_;             // per slice edge
     // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
     // it. next_ is kNone for a slot that has no next slot or has already been traced.

@@ -144,7 +144,8 @@ class ObjectList {
 
 // --- Parts of a state
 
-// Lengths are limited in proportion to the circumradius; this factor allows for rounding errors.
+// Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, they may
+// exceed these limits by this fraction.
 constexpr double kSlack = 1e-9;
 
 // A turn in one plane, or in two that are perpendicular, has the form [plane, angle, angle or null] that earlier
@@ -214,7 +215,7 @@ json encoded(const scene::Look& look) {
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
-    for (const scene::PartRow& part : scene::kParts) flags.push_back(parts.*part.flag);
+    for (const scene::NamedPart& part : scene::kParts) flags.push_back(parts.*part.flag);
     const auto& [kind, eye] = projection;
     return {static_cast<unsigned>(view),
             std::move(flags),

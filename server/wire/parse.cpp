@@ -276,7 +276,7 @@ constexpr auto kRequestTypes = std::to_array<RequestType>({
      [](const json& message) -> Body { return session::Command{session::OpenAddress{message.at("query")}}; }},
     {"get", [](const json& message) -> Body { return getOf(message); }},
     {"ping", [](const json& /*message*/) -> Body { return Ping{}; }},
-    {"shown", [](const json& message) -> Body { return ShownRevision{message.at("revision")}; }},
+    {"shown", [](const json& message) -> Body { return PictureShown{message.at("revision")}; }},
 });
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.

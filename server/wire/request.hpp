@@ -60,7 +60,7 @@ struct Get {
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };
 /// Reports that the client has shown the picture with this revision.
-struct ShownRevision {
+struct PictureShown {
     std::uint64_t revision = 0;
 };
 
@@ -70,7 +70,7 @@ struct Ping {};
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
-    std::variant<Hello, Get, ShownRevision, Ping, session::Command> body;
+    std::variant<Hello, Get, PictureShown, Ping, session::Command> body;
 };
 
 }  // namespace oval4d::wire

@@ -126,7 +126,7 @@ void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
     w.member("view", text::nameOf(scene::kViews, fixed.view));
     w.key("shown");
     w.beginObject();
-    for (const scene::PartRow& part : scene::kParts) w.member(part.name, fixed.shown.*part.flag);
+    for (const scene::NamedPart& part : scene::kParts) w.member(part.name, fixed.shown.*part.flag);
     w.endObject();
     w.key("viewport");
     w.beginObject();

@@ -42,7 +42,7 @@ bool contains(std::string_view text, std::string_view part) {
     return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-void judge(const net::AccessFields& who) {
+void judge(const net::AccessCheckInput& who) {
     using Verdict = net::AccessControl::Verdict;
     const net::AccessControl loopback({}, {}, "", true);
     if (loopback.check(who) == Verdict::allowed) {
@@ -61,7 +61,7 @@ void judge(const net::AccessFields& who) {
     const std::string cookie = open.cookieFor(who);
     require(cookie.empty() || who.token == kToken, "the cookie is for who has the token");
     if (cookie.empty()) return;
-    net::AccessFields back = who;
+    net::AccessCheckInput back = who;
     back.token = {};
     const std::string pair = cookie.substr(0, cookie.find(';'));
     back.cookie = pair;
@@ -104,7 +104,7 @@ void describe(session::QueryParameters query) {
 OVAL4D_FUZZER(address) {
     std::string_view rest = fuzz::textOf(data, size);
     const auto target = net::parseRequestTarget(fuzz::takeUntil(rest, '\n'));
-    net::AccessFields who;
+    net::AccessCheckInput who;
     for (std::string_view* header : {&who.host, &who.origin, &who.authorization, &who.cookie})
         *header = fuzz::takeUntil(rest, '\n');
     if (target) {

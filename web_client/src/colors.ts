@@ -7,13 +7,13 @@ import { isField } from "./fields";
 import { capitalize, formatCount } from "./format";
 import type { Section } from "./tools";
 
-interface ColoringText {
+interface LabelAndTooltip {
     label: string;
     title: string;
 }
 
 /** The colorings, for polytopes and for fields. A coloring without a text has the same effect as `plain`. */
-const kColorings: Record<Coloring, { polytope?: ColoringText; field?: ColoringText }> = {
+const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
         polytope: { label: "Cell", title: "Each cell has its own color" },
         field: { label: "Level", title: "Each level has its own color" },

@@ -185,7 +185,8 @@ Result<Samples> readSlabs(const Source& source, hid_t dataset, hid_t stored, con
     return buffer->take();
 }
 
-// Returns the path of the dataset of numbers with the most dimensions, from 1 to 4; empty if there is none.
+// Returns the path of the dataset with the most dimensions, of those that contain numbers and have 1 to 4 dimensions; an
+// empty string if there is none. Adds a warning if there are several.
 std::string choose(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
     std::size_t dimensions = 0, candidates = 0;

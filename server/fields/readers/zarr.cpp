@@ -141,7 +141,8 @@ class ChunkReader {
     std::vector<std::byte> chunk_;
 };
 
-// The coordinates of a dimension: an array beside the other one, which is called like it.
+// Reads the coordinates of a dimension from the array at `path`. It lies beside the array of the samples and has the
+// dimension's name. Returns nothing if there is none.
 std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {

@@ -92,14 +92,14 @@ AccessControl::AccessControl(std::vector<std::string> hosts, std::vector<std::st
         hosts_ = loopback ? std::vector<std::string>{"localhost", "127.0.0.1", "[::1]"} : std::vector<std::string>{"*"};
 }
 
-AccessControl::Verdict AccessControl::check(const AccessFields& fields) const {
+AccessControl::Verdict AccessControl::check(const AccessCheckInput& fields) const {
     if (!isAllowedHost(fields.host)) return Verdict::bad_host;
     if (!isAllowedOrigin(fields.origin, fields.host)) return Verdict::bad_origin;
     if (!hasCorrectToken(fields)) return Verdict::bad_token;
     return Verdict::allowed;
 }
 
-std::string AccessControl::cookieFor(const AccessFields& fields) const {
+std::string AccessControl::cookieFor(const AccessCheckInput& fields) const {
     if (token_.empty() || !store::equalInConstantTime(fields.token, token_)) return {};
     // Without a Path attribute, the cookie applies to the page's own folder. It therefore works behind any path prefix
     // that a proxy adds.
@@ -131,17 +131,17 @@ bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view ho
     return false;
 }
 
-bool AccessControl::isCrossSite(const AccessFields& fields) const {
+bool AccessControl::isCrossSite(const AccessCheckInput& fields) const {
     const bool isLink =
         equalsIgnoringCase(fields.fetchMode, "navigate") && equalsIgnoringCase(fields.fetchDestination, "document");
     return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isLink && !isListedOrigin(fields.origin);
 }
 
-bool AccessControl::hasToken(const AccessFields& fields) {
+bool AccessControl::hasToken(const AccessCheckInput& fields) {
     return !fields.token.empty() || !fields.authorization.empty() || !cookieIn(fields.cookie).empty();
 }
 
-bool AccessControl::hasCorrectToken(const AccessFields& fields) const {
+bool AccessControl::hasCorrectToken(const AccessCheckInput& fields) const {
     if (token_.empty()) return true;
     return store::equalInConstantTime(fields.token, token_) ||
            store::equalInConstantTime(bearerIn(fields.authorization), token_) ||

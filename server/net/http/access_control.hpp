@@ -10,7 +10,7 @@ namespace oval4d::net {
 
 /// The parts of a request that the access rules check: the values of header fields, and the token in the query. A part
 /// that is absent is empty. The views refer to the memory of the request.
-struct AccessFields {
+struct AccessCheckInput {
     std::string_view host{}, origin{}, authorization{}, cookie{};
     std::string_view token{};  ///< the query parameter "token"
     /// What the browser says about the request (W3C Fetch Metadata): Sec-Fetch-Site, such as "same-origin" or
@@ -41,12 +41,12 @@ class AccessControl {
 
     enum class Verdict { allowed, bad_host, bad_origin, bad_token };
     /// Checks the host, then the origin, then the token, and returns the first failure.
-    Verdict check(const AccessFields& fields) const;
+    Verdict check(const AccessCheckInput& fields) const;
 
     /// Returns whether a page of another site requests something for itself, according to the browser, and the origin
     /// of that page is not an allowed foreign origin. Such requests must not cause expensive work. A link on such a
     /// page that a person follows is no such request.
-    bool isCrossSite(const AccessFields& fields) const;
+    bool isCrossSite(const AccessCheckInput& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.
     bool isListedOrigin(std::string_view origin) const;
@@ -58,16 +58,16 @@ class AccessControl {
     bool requiresToken() const { return !token_.empty(); }
 
     /// Returns whether the request contains a token, correct or not.
-    static bool hasToken(const AccessFields& fields);
+    static bool hasToken(const AccessCheckInput& fields);
 
     /// Returns the value of a Set-Cookie field that stores the token in a cookie, so that later requests of the page
     /// need no token in the query. Returns an empty string unless the query contains the correct token.
-    std::string cookieFor(const AccessFields& fields) const;
+    std::string cookieFor(const AccessCheckInput& fields) const;
 
   private:
     bool isAllowedHost(std::string_view host) const;
     bool isAllowedOrigin(std::string_view origin, std::string_view host) const;
-    bool hasCorrectToken(const AccessFields& fields) const;
+    bool hasCorrectToken(const AccessCheckInput& fields) const;
 
     std::vector<std::string> hosts_, origins_;
     std::string token_;

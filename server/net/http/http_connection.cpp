@@ -95,7 +95,7 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request) {
     return parseRequestTarget({request.target().data(), request.target().size()});
 }
 
-AccessFields accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
+AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
     const session::QueryParameters& query = target.query;
     const auto token = std::ranges::find(query, "token", &session::QueryParameters::value_type::first);
     const auto field = [&](std::string_view name) {
@@ -237,7 +237,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
 /// if the reply is to set a cookie.
 std::optional<Reply> HttpConnection::checkAccess(const HttpRequest& request, const RequestTarget& target,
                                                  std::string& cookie) const {
-    AccessFields fields = accessFieldsOf(request, target);
+    AccessCheckInput fields = accessFieldsOf(request, target);
     // Everybody may load the page's own files. Behind a proxy that changes Host, their requests have a foreign Origin.
     if (!isRestricted(target)) fields.origin = {};
     const auto now = Client::Clock::now();

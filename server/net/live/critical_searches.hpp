@@ -11,7 +11,7 @@
 
 namespace oval4d::net {
 
-/// A search for critical w that waits for a worker or runs.
+/// A queued or running search for critical w.
 class CriticalSearchRun {
   public:
     /// `by`: the connection that requested it, or null. The search stops when the workers are to stop.

@@ -191,7 +191,7 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
     co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);
 }
 
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::ShownRevision shown, RequestId id) {
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id) {
     if (id) peer->send(doneMessage(id, revision()));
     if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
         client->second.pacing.shown(shown.revision);
@@ -732,7 +732,7 @@ void LiveSession::schedulePacing() {
 }
 
 void LiveSession::expirePictures() {
-    for (auto& [key, client] : clients_) client.pacing.expire(Clock::now(), shownTimeout());
+    for (auto& [key, client] : clients_) client.pacing.assumeShown(Clock::now(), shownTimeout());
     update();
     schedulePacing();
 }

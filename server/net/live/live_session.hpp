@@ -130,7 +130,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     // Each executes requests of one kind, and answers them.
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, session::Command command, RequestId id);
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::ShownRevision shown, RequestId id);
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Ping ping, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     Lanes lanesOf(const ClientPtr& own) const;

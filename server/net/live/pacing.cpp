@@ -17,7 +17,7 @@ void Pacing::shown(std::uint64_t revision) {
     while (!unshown_.empty() && unshown_.front().revision <= revision) unshown_.pop_front();
 }
 
-void Pacing::expire(Clock::time_point now, Clock::duration timeout) {
+void Pacing::assumeShown(Clock::time_point now, Clock::duration timeout) {
     while (!unshown_.empty() && unshown_.front().written && *unshown_.front().written + timeout <= now) {
         unshown_.pop_front();
     }

@@ -123,7 +123,7 @@ std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
 }
 
 // Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors.
-std::optional<MirrorSet> truncation(std::string_view text) {
+std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};
     for (const auto& [name, rings] : kNamed) {
@@ -192,7 +192,7 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
     do {
         reader.skipBlanks();
         const std::size_t brace = reader.rest.find('{');
-        const auto rings = brace == std::string_view::npos ? std::nullopt : truncation(reader.rest.substr(0, brace));
+        const auto rings = brace == std::string_view::npos ? std::nullopt : parseRingPrefix(reader.rest.substr(0, brace));
         if (!rings) {
             return NameError::impossible(
                 "a Schläfli symbol has a form such as {3,3,5}, t0,1{4,3,3}, {5}×{7} or t{4,3}×{}");

@@ -38,9 +38,9 @@ constexpr std::size_t kMaxWork = 150'000'000;   // the sum over all steps of the
 // equations, and the next round solves them more exactly.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// Points that are to lie in one hyperplane: the vertices of a cell. If the hyperplanes of the two cells of a 2-face are
-// nearly parallel, its vertices are also to lie in a hyperplane across these. The hyperplane that fits the points best
-// contains their mean.
+// Points that are moved into one hyperplane. The vertices of each cell are such a set. So are those of each 2-face whose
+// two cells lie in nearly parallel hyperplanes, because these do not determine its plane; the hyperplane of the 2-face
+// is perpendicular to that of its cell. The hyperplane that fits the points best contains their mean.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, along which its own one extends

@@ -20,7 +20,7 @@ constexpr float kMinAlpha = 0.02f;      // shapes that are more transparent are 
 constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
 
 /// How a shape of a given radius is drawn.
-struct Thickness {
+struct DrawnRadius {
     float scale;  ///< factor for the radius
     float alpha;  ///< factor for the opacity
     float half;   ///< half the radius in pixels
@@ -29,8 +29,8 @@ struct Thickness {
 
 /// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
 /// for a bar and 2 for a ball.
-Thickness thickness(float pixels, int dimensions) {
-    Thickness t{1, 1, 0.5f * pixels, 0};
+DrawnRadius drawnRadius(float pixels, int dimensions) {
+    DrawnRadius t{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {
         const float part = pixels / kMinRadius;
         t = {1 / part, dimensions == 2 ? part * part : part, 0.5f * kMinRadius, 0};
@@ -62,7 +62,7 @@ void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form fo
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
     const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
     if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
-    const Thickness size = thickness(radius * projection_.focalLength() / -center.z, 2);
+    const DrawnRadius size = drawnRadius(radius * projection_.focalLength() / -center.z, 2);
     if (size.alpha * opacity < kMinAlpha) return;
     const glm::vec3 z = -center / std::sqrt(distance2);
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
@@ -88,7 +88,7 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
-    const Thickness size = thickness(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
+    const DrawnRadius size = drawnRadius(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
     if (size.alpha * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
@@ -196,8 +196,8 @@ std::string highlight(double shininess) {
     return code;
 }
 
-// A point on a ball or bar is closer to the eye than the flat patch by n.z times the radius. The radius is 2 place.z
-// pixels.
+// A ball or bar is drawn as a flat patch; a point on it is closer to the eye than the patch by n.z times the radius.
+// place.z is half the radius in pixels.
 constexpr std::string_view kSurfaceDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";

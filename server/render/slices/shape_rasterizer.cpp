@@ -64,7 +64,8 @@ struct Canvas {
     Rows rows{0, 0};  ///< those that are drawn
     std::uint32_t* pixels = nullptr;
     float* nearness = nullptr;  ///< the depth buffer
-    /// For each row y that a patch covers, its pixels: left[y] … right[y] − 1. There is room for kLanes more rows.
+    /// In row y, the current patch covers the pixels left[y] … right[y] − 1. The arrays have kLanes more entries than
+    /// there are rows, because rows are computed kLanes at a time.
     int *left = nullptr, *right = nullptr;
     float ambient = 0, gloss = 0;
     unsigned shininess = 1;

@@ -115,9 +115,9 @@ struct alignas(32) SetUp {
     Numbers rowP, rowQ, rowR;  // the first row that is drawn and whose center is at least as high as p, q or r
     // For each edge, half a pixel to the left of it: x at the base of its lower end, and the step to the next row.
     Lanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
-    // The gradient of a quantity: d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy, for its values a, b and c at
-    // the corners, which are not sorted. The first corner is at (originX, originY), relative to the center of pixel
-    // (0, 0).
+    // The factors of gradients. A quantity with the values a, b and c at the corners, in the order in which these were
+    // given, has d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy. The first corner is at (originX, originY),
+    // relative to the center of pixel (0, 0).
     Lanes xB, xC, yB, yC, originX, originY;
 };
 
@@ -319,7 +319,7 @@ OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points,
 
 }  // namespace
 
-void SurfaceRasterizer::prepare(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces) {
+void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces) {
     viewport_ = viewport;
     surfaces_ = &surfaces;
     const Lighting lighting{.halfWidth = 0.5F * static_cast<float>(viewport.width),
@@ -431,7 +431,7 @@ double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> indices) con
 
 #else
 
-void SurfaceRasterizer::prepare(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
+void SurfaceRasterizer::projectAndLight(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
                                 const SurfaceBatch& /*surfaces*/) {}
 void SurfaceRasterizer::draw(const SurfaceCanvas& /*canvas*/, std::span<const std::uint32_t> /*indices*/,
                              Blending /*blending*/) const {}

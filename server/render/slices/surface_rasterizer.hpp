@@ -36,7 +36,7 @@ class SurfaceRasterizer {
     /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. Light is
     /// computed per vertex, as by SurfaceProgram, because triangles are so small that light is almost linear in each of
     /// them.
-    void prepare(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
+    void projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
 
     /// Draws triangles, each given by the indices of three vertices, in order. Several threads may draw different rows
     /// at the same time.

@@ -37,7 +37,7 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
     options_ = options;
     sign_ = options.inside == fields::Inside::below ? 1 : -1;
     level_ = sign_ * options.level;
-    state_ = State::working;
+    status_ = RunStatus::working;
     numbers_.clear();
     caps_.clear();
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -46,8 +46,8 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
             heights_[axis].push_back(lattice_.part(axis, i).w - (axis == 0 ? w : 0));
     }
     visit({glm::ivec4(0), lattice_.points() - 1});
-    if (state_ == State::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
-    if (state_ == State::too_large) {
+    if (status_ == RunStatus::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
+    if (status_ == RunStatus::too_large) {
         return Error{ErrorCode::too_large, "the surface of an exact slice has more than the allowed " +
                                                std::to_string(options.maxTriangles) + " triangles"};
     }
@@ -58,10 +58,10 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
 
 // Cuts the cells of a range, if the surface may meet it: divides it in two until it is at most a brick.
 void ExactSlicer::visit(const CellRange& range) {
-    if (state_ != State::working || !meetsHyperplane(range)) return;
+    if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
     if (++visits_ % kVisitsPerQuestion == 0 && options_.mustStop && options_.mustStop()) {
-        state_ = State::stopped;
+        status_ = RunStatus::stopped;
         return;
     }
     const fields::Bounds bounds = lattice_.bounds(range.first, range.end);
@@ -112,7 +112,7 @@ void ExactSlicer::cutBrick(const CellRange& range) {
             for (c.y = 0; c.y < size.y; ++c.y) {
                 for (c.x = 0; c.x < size.x; ++c.x) {
                     const glm::ivec4 cell = range.first + c;
-                    if (state_ != State::working || !meetsHyperplane({cell, cell + 1})) continue;
+                    if (status_ != RunStatus::working || !meetsHyperplane({cell, cell + 1})) continue;
                     std::array<double, 16> heights{}, values{};
                     for (unsigned corner = 0; corner < 16; ++corner) {
                         const glm::ivec4 step(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U, corner >> 3U);
@@ -165,7 +165,7 @@ void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights
         findCrossings(cut, above);
         cutPentatope(cut, above, upper | lower);
     }
-    if (out_->triangles.size() + caps_.size() > options_.maxTriangles) state_ = State::too_large;
+    if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = RunStatus::too_large;
 }
 
 // All simplices with the same edge compute its crossing from the same numbers. The value is clamped to those of the

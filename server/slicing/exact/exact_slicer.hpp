@@ -69,7 +69,7 @@ class ExactSlicer {
     static constexpr int kBrick = 4;  // cells along each side of a brick, which is sampled as a whole
     static constexpr std::size_t kBrickPoints = 625;
 
-    enum class State : std::uint8_t { working, too_large, stopped };
+    enum class RunStatus : std::uint8_t { working, too_large, stopped };
     using Triangle = std::array<std::uint32_t, 3>;
 
     // The cells from `first` up to, but not including, `end`.
@@ -114,7 +114,7 @@ class ExactSlicer {
     Options options_;
     double level_ = 0, sign_ = 1;
     std::array<std::vector<double>, 4> heights_;  // per axis and index: its part of a point's height
-    State state_ = State::working;
+    RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;
     SimplexIndex numbers_;
     std::vector<Triangle> caps_;

@@ -61,7 +61,7 @@ inline std::vector<SettingValue> settingValues() {
         {"highlight", "vertex:3", polytope,
          [](const State& now) { return now.look.highlight == slicing::Element{slicing::ElementKind::vertex, 3}; }},
         {"turning", "on", polytope, [](const State& now) { return now.turning; }}};
-    for (const scene::PartRow& part : scene::kParts) {
+    for (const scene::NamedPart& part : scene::kParts) {
         const bool shown = !(scene::Parts().*part.flag);
         values.push_back({std::string(part.name), shown ? "on" : "off", polytope,
                           [flag = part.flag, shown](const State& now) { return now.look.parts.*flag == shown; }});

@@ -86,7 +86,7 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContents::focus);
     EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContents::focus);
     EXPECT_TRUE(std::holds_alternative<Ping>(parsed(R"({"type":"ping"})").body));
-    EXPECT_EQ(std::get<ShownRevision>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
+    EXPECT_EQ(std::get<PictureShown>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
 /// A member of a set message: its place as a JSON pointer (RFC 6901), a value, and whether a Set holds this value.

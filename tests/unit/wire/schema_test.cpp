@@ -186,7 +186,7 @@ TEST(Tables, TheColorsAreThoseOfTheCode) {
 
 TEST(Tables, ThePartsAreThoseOfTheSchemas) {
     Names parts;
-    for (const scene::PartRow& part : scene::kParts) parts.emplace(part.name);
+    for (const scene::NamedPart& part : scene::kParts) parts.emplace(part.name);
     for (const json& schema : {readSchema("set.schema.json"), readSchema("state.schema.json"),
                                readSchema("slices.schema.json").at("properties").at("scene")}) {
         Names shown;

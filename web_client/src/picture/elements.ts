@@ -2,7 +2,7 @@
 
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
-/** A half-open range in the arrays of Elements. */
+/** A half-open range in the arrays of SliceElements. */
 export type Range = [begin: number, end: number];
 
 /** The elements of one slice. */
@@ -15,7 +15,8 @@ export interface Body {
     distance: number; // from the eye, at the last sort
 }
 
-export class Elements {
+/** The flat arrays of the vertices, edges and faces of all drawn slices. */
+export class SliceElements {
     bodies: Body[] = [];
     vertexCount = 0;
     edgeCount = 0;

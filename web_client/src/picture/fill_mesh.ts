@@ -16,7 +16,7 @@ const kFaded = 1;
 const kFull = 2;
 
 /** One slice's part of the mesh. */
-interface Part {
+interface SliceFill {
     fill: Fill;
     position: Vector;
     first: number; // index of its first point
@@ -24,7 +24,7 @@ interface Part {
 
 export class FillMesh {
     readonly geometry = new BufferGeometry();
-    private parts: Part[] = [];
+    private parts: SliceFill[] = [];
     private readonly shapes = new ShapeBuffers();
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
@@ -41,7 +41,7 @@ export class FillMesh {
             corners += fill.triangles.length;
         }
         this.reserve(points, corners);
-        for (const part of this.parts) this.writePart(part, picture);
+        for (const part of this.parts) this.writeFill(part, picture);
         this.shapes.markChanged();
         this.paint(picture, highlighted);
         return slices.some((slice) => slice.fill);
@@ -62,7 +62,7 @@ export class FillMesh {
 
     /** Orders the triangles for this camera. */
     sortForCamera({ eye }: Lens): void {
-        const distance = ({ position: [x, y, z] }: Part): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+        const distance = ({ position: [x, y, z] }: SliceFill): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
         let used = 0;
         for (const presence of [kFull, kFaded]) {
@@ -85,7 +85,7 @@ export class FillMesh {
         this.geometry.setIndex(this.index.attribute);
     }
 
-    private writePart({ fill, position, first }: Part, { scene }: Slices): void {
+    private writeFill({ fill, position, first }: SliceFill, { scene }: Slices): void {
         const { points, triangles, tints } = fill;
         const { shapes } = this;
         for (let i = 0; i < points.length; ++i) {

@@ -5,7 +5,7 @@ import { BufferGeometry } from "three";
 
 import type { Slices, Vector } from "@oval4d/protocol";
 
-import { Elements } from "./elements";
+import { SliceElements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
 import { cellColor, type HighlightedElements } from "./highlighted_elements";
@@ -16,7 +16,7 @@ import { ShapeBuffers } from "./shape_buffers";
 export class Mesh {
     readonly geometry = new BufferGeometry();
 
-    private readonly elements = new Elements();
+    private readonly elements = new SliceElements();
     private readonly order = new PaintersOrder(this.elements);
     private readonly shapes = new ShapeBuffers();
     private count = 0; // indices

@@ -5,7 +5,7 @@
 
 import type { Parts, Vector } from "@oval4d/protocol";
 
-import { type Body, Buckets, type Elements, ensureCapacity } from "./elements";
+import { type Body, Buckets, ensureCapacity, type SliceElements } from "./elements";
 import type { Lens } from "./lens";
 import { kQuad } from "./shape_buffers";
 import { sortByKey } from "./sort";
@@ -28,7 +28,7 @@ export class PaintersOrder {
     /** The number of indices of the slices that are farther away than the point passed to writeIndices(). */
     farther = 0;
 
-    constructor(private readonly elements: Elements) {}
+    constructor(private readonly elements: SliceElements) {}
 
     /** Sets which parts are painted, and makes room for new elements. */
     setParts(parts: SolidParts): void {

@@ -35,7 +35,7 @@ TEST(Pacing, UnwrittenPicturesDoNotExpire) {
     pacing.sent(1);
     pacing.sent(2);
     EXPECT_FALSE(pacing.deadline(1s));
-    pacing.expire(kStart + 1h, 1s);
+    pacing.assumeShown(kStart + 1h, 1s);
     EXPECT_FALSE(pacing.hasRoom());
 }
 
@@ -46,9 +46,9 @@ TEST(Pacing, WrittenPicturesExpireInOrder) {
     pacing.written(1, kStart);
     pacing.written(2, kStart + 300ms);
     EXPECT_EQ(pacing.deadline(1s), kStart + 1s);
-    pacing.expire(kStart + 999ms, 1s);
+    pacing.assumeShown(kStart + 999ms, 1s);
     EXPECT_FALSE(pacing.hasRoom());
-    pacing.expire(kStart + 1s, 1s);
+    pacing.assumeShown(kStart + 1s, 1s);
     EXPECT_TRUE(pacing.hasRoom());
     EXPECT_EQ(pacing.deadline(1s), kStart + 1300ms);
 }
