@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "session/setting_table.hpp"
 #include "unit/wire/support.hpp"
 
 namespace oval4d::wire {
@@ -108,6 +109,34 @@ void expectKnownKeywords(const json& schema, const std::string& where) {
             expectKnownKeywords(content, where + "/" + keyword);
         }
     }
+}
+
+TEST(Tables, SetAndStateHaveTheSettings) {
+    const json settings = readSchema("settings.schema.json").at("properties");
+    const json set = readSchema("set.schema.json"), state = readSchema("state.schema.json");
+    EXPECT_EQ(set.at("additionalProperties"), false);
+    for (const auto& [name, schema] : settings.items()) {
+        EXPECT_EQ(set.at("properties").at(name), schema) << name;
+        EXPECT_TRUE(state.at("properties").contains(name)) << name;
+    }
+    const auto required = state.at("required").get<std::set<std::string>>();
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            const std::string name(setting.name.object.empty() ? setting.name.member : setting.name.object);
+            EXPECT_TRUE(settings.contains(name)) << name;
+            EXPECT_EQ(required.contains(name), !setting.forFields) << name;
+        }
+    });
+}
+
+TEST(Tables, KeywordsBesideAReferenceAreAdded) {
+    const json whole = readSchema("state.schema.json");
+    const json& merged = whole.at("properties").at("polytope").at("properties").at("kinds").at("items");
+    EXPECT_EQ(merged.at("required"), json({"name", "cells", "color"}));
+    EXPECT_EQ(merged.at("properties").at("cells").at("type"), "integer");
+    EXPECT_EQ(whole.at("properties").at("polytope").at("type"), "object");
+    EXPECT_THROW(readSchema("none.schema.json"), json::exception);
+    EXPECT_THROW(readSchema("set.schema.json#/properties/none"), json::exception);
 }
 
 TEST(Tables, TheSchemasUseWhatIsChecked) {
