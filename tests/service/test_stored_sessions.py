@@ -1,0 +1,42 @@
+"""Sessions that earlier versions have stored are opened with every setting that they had, and their undo steps."""
+
+import json
+import math
+import shutil
+from pathlib import Path
+
+import pytest
+from harness import Server
+from wire import Client
+
+VERSIONS = sorted(path for path in Path(__file__).with_name("stored_sessions").iterdir() if path.is_dir())
+
+
+def expect_contains(value, stored, where):
+    """Asserts that a part of a state is what was stored. Later versions may have more members."""
+    if isinstance(stored, dict):
+        for name, member in stored.items():
+            assert name in value, f"{where}/{name}"
+            expect_contains(value[name], member, f"{where}/{name}")
+    elif isinstance(stored, list):
+        assert len(value) == len(stored), where
+        for i, (each, item) in enumerate(zip(value, stored)):
+            expect_contains(each, item, f"{where}/{i}")
+    elif isinstance(stored, float):
+        assert math.isclose(value, stored, rel_tol=1e-12, abs_tol=1e-12), where
+    else:
+        assert value == stored, where
+
+
+@pytest.mark.parametrize("folder", VERSIONS, ids=lambda folder: folder.name)
+async def test_sessions_of_every_version_are_opened(tmp_path, folder):
+    shutil.copy(folder / "sessions.sqlite", tmp_path)
+    sessions = json.loads((folder / "sessions.json").read_text(encoding="utf-8"))
+    assert sessions
+    with Server("--store", f"sqlite:{tmp_path}/sessions.sqlite", "--session-expiry", "1e9") as server:
+        for stored in sessions:
+            async with Client(server, stored["session"], token=stored["token"]) as client:
+                for state in stored["states"]:  # the newest first
+                    expect_contains(await client.request("get", what="state"), state, stored["name"])
+                    if state is not stored["states"][-1]:
+                        await client.request("undo")
