@@ -10,76 +10,76 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr MotionTiming::Clock::time_point kStart{1h};
+constexpr MotionTiming::Clock::time_point kOpened{1h};
 
 TEST(MotionTiming, TheFirstStepIsDueAtOnce) {
     MotionTiming timing;
-    EXPECT_EQ(timing.step(kStart), MotionTiming::kInterval);
+    EXPECT_EQ(timing.step(kOpened), MotionTiming::kInterval);
 }
 
 TEST(MotionTiming, StepsAreAtLeastAnIntervalApart) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kStart));
-    EXPECT_FALSE(timing.step(kStart + MotionTiming::kInterval / 2));
-    EXPECT_EQ(timing.due(), kStart + MotionTiming::kInterval);
+    ASSERT_TRUE(timing.step(kOpened));
+    EXPECT_FALSE(timing.step(kOpened + MotionTiming::kInterval / 2));
+    EXPECT_EQ(timing.due(), kOpened + MotionTiming::kInterval);
     EXPECT_EQ(timing.step(timing.due()), MotionTiming::kInterval);
 }
 
 // Whatever the times of the steps are, an object turns as far in a second as the second is long.
 TEST(MotionTiming, StepsCoverTheTimeThatHasPassed) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kStart));
-    auto now = kStart;
+    ASSERT_TRUE(timing.step(kOpened));
+    auto now = kOpened;
     MotionTiming::Clock::duration covered{0};
     for (const auto pause : {17ms, 40ms, 5ms, 16ms, 249ms, 100ms, 18ms}) {
         now += pause;
         covered += timing.step(now).value_or(0ms);
     }
-    EXPECT_EQ(covered, now - kStart);
+    EXPECT_EQ(covered, now - kOpened);
 }
 
 TEST(MotionTiming, NothingJumpsAfterAPause) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kStart));
-    EXPECT_EQ(timing.step(kStart + 1h), MotionTiming::kLongestStep);
+    ASSERT_TRUE(timing.step(kOpened));
+    EXPECT_EQ(timing.step(kOpened + 1h), MotionTiming::kLongestStep);
     timing.stop();
-    EXPECT_EQ(timing.step(kStart + 2h), MotionTiming::kInterval);
+    EXPECT_EQ(timing.step(kOpened + 2h), MotionTiming::kInterval);
 }
 
 TEST(DraftTiming, OneChangeIsNotQuick) {
-    DraftTiming timing(kStart);
+    DraftTiming timing(kOpened);
     EXPECT_FALSE(timing.isQuick());
-    timing.change(kStart + 1ms);
+    timing.change(kOpened + 1ms);
     EXPECT_FALSE(timing.isQuick());
-    EXPECT_EQ(timing.changed(), kStart + 1ms);
+    EXPECT_EQ(timing.changed(), kOpened + 1ms);
 }
 
 TEST(DraftTiming, ChangesThatFollowEachOtherAreQuickUntilTheSessionRests) {
-    DraftTiming timing(kStart);
-    timing.change(kStart);
-    timing.change(kStart + 299ms);
+    DraftTiming timing(kOpened);
+    timing.change(kOpened);
+    timing.change(kOpened + 299ms);
     EXPECT_TRUE(timing.isQuick());
-    EXPECT_EQ(timing.restEnds(), kStart + 499ms);
-    timing.rest(kStart + 498ms);
+    EXPECT_EQ(timing.restEnds(), kOpened + 499ms);
+    timing.rest(kOpened + 498ms);
     EXPECT_TRUE(timing.isQuick());
-    timing.rest(kStart + 499ms);
+    timing.rest(kOpened + 499ms);
     EXPECT_FALSE(timing.isQuick());
 }
 
 TEST(DraftTiming, ALaterChangeIsNotQuick) {
-    DraftTiming timing(kStart);
-    timing.change(kStart);
-    timing.change(kStart + 100ms);
-    timing.change(kStart + 400ms);
+    DraftTiming timing(kOpened);
+    timing.change(kOpened);
+    timing.change(kOpened + 100ms);
+    timing.change(kOpened + 400ms);
     EXPECT_FALSE(timing.isQuick());
 }
 
 TEST(DraftTiming, APeriodOfQuickChangesMayBegin) {
-    DraftTiming timing(kStart);
-    timing.change(kStart);
+    DraftTiming timing(kOpened);
+    timing.change(kOpened);
     timing.begin();
     EXPECT_TRUE(timing.isQuick());
-    timing.rest(kStart + 200ms);
+    timing.rest(kOpened + 200ms);
     EXPECT_FALSE(timing.isQuick());
 }
 
