@@ -22,9 +22,9 @@ struct SettingName {
 };
 
 /// The rule of a setting of which applySet() accepts every value.
-struct Unchecked {};
+struct AcceptsAnyValue {};
 /// The rule of a number that applySet() accepts within fixed bounds.
-struct Bounded {
+struct NumberWithBounds {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     Bounds bounds;
 };
@@ -39,7 +39,7 @@ struct NotInState {};
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
-    static constexpr bool kHasBounds = std::is_same_v<Rule, Bounded>;
+    static constexpr bool kHasBounds = std::is_same_v<Rule, NumberWithBounds>;
     static constexpr bool kIsCheckedByApplySet = std::is_same_v<Rule, CheckedByApplySet>;
 
     SettingName name;
@@ -77,9 +77,10 @@ void forEachSetting(const Visitor& visit) {
     setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{});
     setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{});
     setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), CheckedByApplySet{});
-    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), Bounded{"alpha", kAngle});
-    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), Bounded{"beta", kAngle});
-    setting({"step", "", "step"}, &Set::step, at(&State::step), Bounded{"the step", {kMinStep, kTwoPi, kRadians}});
+    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), NumberWithBounds{"alpha", kAngle});
+    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), NumberWithBounds{"beta", kAngle});
+    setting({"step", "", "step"}, &Set::step, at(&State::step),
+            NumberWithBounds{"the step", {kMinStep, kTwoPi, kRadians}});
 
     const auto slices = &State::slices;
     setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), CheckedByApplySet{});
@@ -92,29 +93,29 @@ void forEachSetting(const Visitor& visit) {
         CheckedByApplySet{});
 
     const auto look = &State::look;
-    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), Unchecked{});
+    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AcceptsAnyValue{});
     setting({"turning", "", "turning"}, &Set::turning, NotInState{}, CheckedByApplySet{});
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     setting({"azimuth", "camera", "azimuth"}, &Set::azimuth, at(look, orbit, &Orbit::azimuth),
-            Bounded{"the camera's azimuth", kOrbitAngle});
+            NumberWithBounds{"the camera's azimuth", kOrbitAngle});
     setting({"elevation", "camera", "elevation"}, &Set::elevation, at(look, orbit, &Orbit::elevation),
-            Bounded{"the camera's elevation", kOrbitAngle});
+            NumberWithBounds{"the camera's elevation", kOrbitAngle});
     setting({"zoom", "camera", "zoom"}, &Set::zoom, at(look, orbit, &Orbit::zoom),
-            Bounded{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
-    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), Unchecked{});
-    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), Unchecked{});
+            NumberWithBounds{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
+    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AcceptsAnyValue{});
+    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AcceptsAnyValue{});
     const auto projection = &Look::projection;
     setting({"projection", "", "projection"}, &Set::projection, at(look, projection, &scene::ProjectionSettings::kind),
-            Unchecked{});
+            AcceptsAnyValue{});
     setting({"eye", "", "eye"}, &Set::eye, at(look, projection, &scene::ProjectionSettings::eye),
-            Bounded{"the eye", {kMinEye, kMaxEye, " circumradii"}});
+            NumberWithBounds{"the eye", {kMinEye, kMaxEye, " circumradii"}});
     const auto field = &Look::field;
     setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels),
             CheckedByApplySet{}, true);
     setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside),
             CheckedByApplySet{}, true);
-    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), Unchecked{}, true);
+    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AcceptsAnyValue{}, true);
     setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), CheckedByApplySet{}, true);
     const auto cellTypes = &Look::cellTypes;
     setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden),
@@ -126,7 +127,7 @@ void forEachSetting(const Visitor& visit) {
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
         const auto& [name, flag] = scene::kParts[i];
         visit(Setting{SettingName{name, "shown", name}, [i](auto& set) -> auto& { return set.parts[i]; },
-                      at(look, &Look::parts, flag), Unchecked{}, false});
+                      at(look, &Look::parts, flag), AcceptsAnyValue{}, false});
     }
 }
 
