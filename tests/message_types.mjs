@@ -37,9 +37,11 @@ function convert(schema) {
     return converted.get(schema);
 }
 
-function convertKeywords(schema) {
-    const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, ...keywords } = schema;
+function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, ...schema }) {
+    const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, default: initially, ...keywords } = schema;
     if ($ref !== undefined) return refer(find($ref), { ...schema, $ref: undefined });
+    // Links of the documents lead nowhere in a comment.
+    if (keywords.description) keywords.description = keywords.description.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1");
     if (keywords.properties) {
         const members = Object.entries(keywords.properties).map(([name, member]) => [name, convert(member)]);
         keywords.properties = Object.fromEntries(members);

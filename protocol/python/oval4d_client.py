@@ -9,6 +9,8 @@
 ../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
 slices in CBOR; with python3-numpy, arrays can be shown as fields, and surfaces are its arrays. A separate thread handles the socket.
 Therefore any thread may call the client, and the connection stays open while a script is idle.
+
+It is one file, although it is long, so that a project can copy it.
 """
 
 import array
@@ -146,7 +148,7 @@ class Client:
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
         try:
-            self._socket = self._run(self._open(url, headers))
+            self._socket = asyncio.run_coroutine_threadsafe(self._open(url, headers), self._loop).result()
         except BaseException:
             self._stop()
             raise
@@ -438,7 +440,7 @@ class Client:
     _stream = "none"
 
     async def _open(self, url, headers):
-        options = {"subprotocols": [SUBPROTOCOL], "max_size": None, "compression": None}
+        options = {"subprotocols": [SUBPROTOCOL], "max_size": None, "compression": None, "open_timeout": self.timeout}
         version = int(websockets.__version__.split(".")[0])
         if version >= 15:
             options["proxy"] = None

@@ -6,7 +6,7 @@ import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
 import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, GetRequest, HelloRequest } from "./messages.js";
 import type { Keymap, PingRequest, Pong, Request, Scheme, State, Stream, Welcome } from "./messages.js";
 import type { Slices } from "./slices.js";
-import type { ExportedFile, Message, Viewport } from "./types.js";
+import type { Command, ExportedFile, Message, Viewport } from "./types.js";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {
@@ -162,7 +162,7 @@ export class Client {
     request(message: HelloRequest): Promise<Welcome>;
     request(message: PingRequest): Promise<Pong>;
     request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswers[What]>;
-    request(message: Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>): Promise<Done>;
+    request(message: Command): Promise<Done>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;
         const answer = new Promise((resolve, reject) => {

@@ -5,20 +5,20 @@ import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, 
 import type { Vector } from "./types.js";
 
 /** A value for each kind of element of a slice. */
-type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
+type PerElementKind<T> = Record<"vertices" | "edges" | "faces", T>;
 
 /** The elements of all slices, or of all parts of the projection. */
 interface ElementColumns {
     /** The number of elements in each slice or part. */
-    counts: OfEach<Integers>;
+    counts: PerElementKind<Integers>;
     vertices: Float32Array;
     edges: Integers;
     /** The number of corners of each face. */
     sides: Integers;
     corners: Integers;
-    of: OfEach<Integers>;
+    of: PerElementKind<Integers>;
     tints?: Integers;
-    seen?: OfEach<Integers>;
+    seen?: PerElementKind<Integers>;
     balls?: { scale: Float32Array; opacity: Float32Array };
 }
 
@@ -96,10 +96,10 @@ function widener(room: Room): (integers: Integers) => Uint32Array {
 /** Returns the elements of each slice or part. The arrays are views of the columns, or of arrays that `room` returned. */
 function elementsOf(columns: ElementColumns, room: Room): Elements[] {
     const wide = widener(room);
-    const wideOfEach = (lists: OfEach<Integers>): OfEach<Uint32Array> => {
+    const wideOfEach = (lists: PerElementKind<Integers>): PerElementKind<Uint32Array> => {
         return { vertices: wide(lists.vertices), edges: wide(lists.edges), faces: wide(lists.faces) };
     };
-    const partOfEach = (lists: OfEach<Uint32Array>, i: number): OfEach<Uint32Array> => ({
+    const partOfEach = (lists: PerElementKind<Uint32Array>, i: number): PerElementKind<Uint32Array> => ({
         vertices: lists.vertices.subarray(...vertices[i]!),
         edges: lists.edges.subarray(...edges[i]!),
         faces: lists.faces.subarray(...faces[i]!),

@@ -29,23 +29,23 @@ export type Encoding = "json" | "cbor";
 export type Scheme = "dark" | "light";
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 /**
- * Whether all slices are shown, in the oval or at the same size in a straight row (strip), or only the focus slice, alone or beside the matrix of planar sections.
+ * What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar sections; or all slices at the same size in a straight row, in order of w from the left (strip).
  */
 export type View = "oval" | "single" | "matrix" | "strip";
 /**
- * What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, nothing, or how the cell faces a light in four dimensions. For a field, what the colors of its surfaces show: the level, the w of the slice, nothing, or how fast the surface moves outward while the hyperplane moves along w (growth), or the value of the second function or, without one, of the field itself (value).
+ * What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
  */
 export type Coloring = "cell" | "kind" | "w" | "plain" | "light" | "growth" | "value";
 /**
- * The background of pictures; the other colors are chosen for it. auto: dark, or light for clients whose hello has the scheme light. transparent: none in PNG files, and otherwise white.
+ * The background of pictures; the other colors are chosen for it. See Backgrounds.
  */
 export type Background = "auto" | "dark" | "light" | "white" | "transparent";
 /**
- * How the caps of a field's surfaces are drawn, where the end of the box cuts through the body: in the color of the surface, colored by the value of the second function or, without one, of the field itself, or not at all. Present for fields only.
+ * For fields only: the caps of the surfaces, where the boundary of the box cuts through the body: in the color of the surface, colored by value, or not drawn. Exported bodies have caps in any case.
  */
 export type Caps = "plain" | "value" | "open";
 /**
- * The side of the levels that belongs to the bodies of a field: where its value is smaller, or larger. Present for fields only.
+ * For fields only: whether the bodies are where the function is below a level, or above it. A change of the object sets it to `below` for a formula and `above` for an array.
  */
 export type Inside = "below" | "above";
 /**
@@ -61,7 +61,7 @@ export type Projection = "off" | "perspective" | "orthogonal";
  */
 export type ElementKind = "vertex" | "edge" | "face" | "cell";
 /**
- * The last rotation, which the key '.' repeats and the space bar continues. Null before the first rotation.
+ * The last rotation, for `.` and the space bar; null changes nothing.
  */
 export type Turn = {
     /**
@@ -334,7 +334,7 @@ export interface SetRequest {
      */
     revision?: number;
     /**
-     * Whether the change belongs to the undo step of the previous command, as in a gesture; the default is false.
+     * Whether the change belongs to the undo step of the previous command, as the parts of one gesture do.
      */
     continues?: boolean;
     /**
@@ -363,7 +363,7 @@ export interface SetRequest {
         vertices?: string;
     };
     /**
-     * A name or alias from the catalogue, any other name that the server understands, the name of a loaded polytope, or the object from a state. Sets the focus to 0 and keeps the ratio of the spacing to the circumradius.
+     * The polytope. Another one sets focus and offset to 0, and the spacing keeps its ratio to the circumradius.
      */
     polytope?:
         | string
@@ -395,19 +395,19 @@ export interface SetRequest {
               center?: [number, number, number, number];
           };
     /**
-     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. 1 initially.
+     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.
      */
     pace?: number;
     /**
-     * The velocity of the observer in units of x, y and z per unit of the object's own w: what moves with it stands still. [0, 0, 0] initially.
+     * The velocity with which the observer moves, in units of x, y and z per unit of the object's own w: whatever moves with this velocity appears at rest.
      */
     follow?: [number, number, number];
     /**
-     * The velocity of the observer to whose rest frame a Lorentz boost leads; at most 0.999 long, where 1 is the speed of light in units of x, y and z per unit of w, after pace has scaled w. [0, 0, 0] initially.
+     * The velocity of the observer to whose rest frame a Lorentz boost leads, where 1 is the speed of light in units of x, y and z per unit of w, after `pace` has scaled w.
      */
     boost?: [number, number, number];
     /**
-     * The matrix M by rows, where v' = M v maps the polytope's own coordinates to the rotated ones. Orthogonal with determinant 1, to within 1e-6.
+     * The matrix M, where v' = M v maps the polytope's own coordinates to the rotated ones: a rotation matrix to within 1e-6, else `not_a_rotation`.
      */
     orientation?: [
         [number, number, number, number],
@@ -416,50 +416,50 @@ export interface SetRequest {
         [number, number, number, number]
     ];
     /**
-     * α in radians: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+     * α: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
      */
     alpha?: number;
     /**
-     * β in radians: the second angle of the keys r, t and y.
+     * β: the second angle of the keys r, t and y.
      */
     beta?: number;
     /**
-     * The step in radians by which the keys k, j, K and J change α and β.
+     * The step by which the keys k, j, K and J change α and β.
      */
     step?: number;
     slices?: {
         /**
-         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
+         * The number of slices; if set alone, the span (count − 1) · spacing stays the same.
          */
         count?: number;
         /**
-         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
+         * δ, the distance between neighboring hyperplanes, in the polytope's units.
          */
         spacing?: number;
         /**
-         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
+         * f, the index n of the focus slice, which lies in the hyperplane w = offset + n · spacing.
          */
         focus?: number;
         /**
-         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
+         * w of the hyperplane n = 0, measured from the center.
          */
         offset?: number;
         /**
-         * w of the focus slice, in the coordinates of the object's file: sets focus and offset such that |offset| is at most half of the spacing; at most 10 circumradii from the point about which the object turns.
+         * w of the focus slice, in the coordinates of the object's file: sets `focus` and `offset` such that the offset is at most half of the spacing.
          */
         w?: number;
     };
     /**
-     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file; each coordinate at most 10 circumradii from the point about which the object turns. Its w moves the focus slice, as slices.w does, unless slices has focus, offset or w.
+     * The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w moves the focus slice as `slices.w` does, unless `slices` has `focus`, `offset` or `w`.
      */
     point?: [number, number, number, number];
     view?: View;
     /**
-     * Whether the polytope turns continuously, which repeats the last rotation.
+     * Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each step is a revision.
      */
     turning?: boolean;
     /**
-     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+     * Which parts are drawn.
      */
     shown?: ShownParts;
     /**
@@ -483,12 +483,12 @@ export interface SetRequest {
     background?: Background;
     caps?: Caps;
     /**
-     * The values at which the surfaces of a field are shown. Present for fields only.
+     * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
      */
     levels?: number[];
     inside?: Inside;
     /**
-     * The fog in the slices of a field: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, whose values increase, and constant beyond. Without points, there is no fog. Present for fields only.
+     * For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array (initially) means no fog. A change of the object empties it.
      */
     fog?: FogPoint[];
     field?: FieldDefinition;
@@ -498,15 +498,15 @@ export interface SetRequest {
      */
     eye?: number;
     /**
-     * The kinds of cells that are not drawn, as indices from 0 into polytope.kinds. Emptied when the polytope changes.
+     * Cells of these kinds are not drawn, nor are bars and balls that belong to no other cell. If only one of `hidden` and `faded` is set, its kinds are removed from the other; a kind in both is hidden. A change of the polytope empties both.
      */
     hidden?: number[];
     /**
-     * The kinds of cells that are drawn faintly, as indices from 0 into polytope.kinds. A kind in both lists is hidden. Emptied when the polytope changes.
+     * Cells of these kinds are drawn faintly.
      */
     faded?: number[];
     /**
-     * The element that is drawn in another color in slices, projection and parallel coordinates; null if there is none.
+     * The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is none. A change of the polytope sets it to null.
      */
     highlight?: {
         element: ElementKind;
@@ -534,7 +534,7 @@ export interface FogPoint {
     color?: number;
 }
 /**
- * If it has a formula, the field called /polytope is loaded first, unless the session has it. Otherwise ignored.
+ * If it has a `formula`, the field called `polytope` is loaded first, as by `load`, unless the session has it; otherwise ignored.
  */
 export interface FieldDefinition {
     /**
@@ -973,23 +973,23 @@ export interface State {
     };
     slices: {
         /**
-         * Odd; the server's limit is in welcome. If set alone, the span (count − 1) · spacing stays the same.
+         * The number of slices; if set alone, the span (count − 1) · spacing stays the same.
          */
         count: number;
         /**
-         * δ: the distance between neighboring hyperplanes, in the polytope's units (edge length 2); from 0.000001 to 10 circumradii.
+         * δ, the distance between neighboring hyperplanes, in the polytope's units.
          */
         spacing: number;
         /**
-         * f: the index n of the focus slice, the hyperplane w = offset + n · spacing.
+         * f, the index n of the focus slice, which lies in the hyperplane w = offset + n · spacing.
          */
         focus: number;
         /**
-         * w of the hyperplane n = 0, in the polytope's units, measured from the point about which it turns; from -10 to 10 circumradii.
+         * w of the hyperplane n = 0, measured from the center.
          */
         offset: number;
         /**
-         * w of the focus slice, in the coordinates of the object's file: sets focus and offset such that |offset| is at most half of the spacing; at most 10 circumradii from the point about which the object turns.
+         * w of the focus slice, in the coordinates of the object's file: sets `focus` and `offset` such that the offset is at most half of the spacing.
          */
         w?: number;
     };
@@ -1002,7 +1002,7 @@ export interface State {
      */
     moving: boolean;
     /**
-     * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.
+     * Which parts are drawn.
      */
     shown: Required<ShownParts>;
     /**
@@ -1044,19 +1044,19 @@ export interface State {
         vertices: string;
     };
     /**
-     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. 1 initially.
+     * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.
      */
     pace: number;
     /**
-     * The velocity of the observer in units of x, y and z per unit of the object's own w: what moves with it stands still. [0, 0, 0] initially.
+     * The velocity with which the observer moves, in units of x, y and z per unit of the object's own w: whatever moves with this velocity appears at rest.
      */
     follow: [number, number, number];
     /**
-     * The velocity of the observer to whose rest frame a Lorentz boost leads; at most 0.999 long, where 1 is the speed of light in units of x, y and z per unit of w, after pace has scaled w. [0, 0, 0] initially.
+     * The velocity of the observer to whose rest frame a Lorentz boost leads, where 1 is the speed of light in units of x, y and z per unit of w, after `pace` has scaled w.
      */
     boost: [number, number, number];
     /**
-     * The matrix M by rows, where v' = M v maps the polytope's own coordinates to the rotated ones. Orthogonal with determinant 1, to within 1e-6.
+     * The matrix M, where v' = M v maps the polytope's own coordinates to the rotated ones: a rotation matrix to within 1e-6, else `not_a_rotation`.
      */
     orientation: [
         [number, number, number, number],
@@ -1065,32 +1065,32 @@ export interface State {
         [number, number, number, number]
     ];
     /**
-     * α in radians: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+     * α: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
      */
     alpha: number;
     /**
-     * β in radians: the second angle of the keys r, t and y.
+     * β: the second angle of the keys r, t and y.
      */
     beta: number;
     /**
-     * The step in radians by which the keys k, j, K and J change α and β.
+     * The step by which the keys k, j, K and J change α and β.
      */
     step: number;
     view: View;
     /**
-     * Whether the polytope turns continuously, which repeats the last rotation.
+     * Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each step is a revision.
      */
     turning: boolean;
     color: Coloring;
     background: Background;
     caps?: Caps;
     /**
-     * The values at which the surfaces of a field are shown. Present for fields only.
+     * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
      */
     levels?: number[];
     inside?: Inside;
     /**
-     * The fog in the slices of a field: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, whose values increase, and constant beyond. Without points, there is no fog. Present for fields only.
+     * For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array (initially) means no fog. A change of the object empties it.
      */
     fog?: FogPoint[];
     projection: Projection;
@@ -1099,15 +1099,15 @@ export interface State {
      */
     eye: number;
     /**
-     * The kinds of cells that are not drawn, as indices from 0 into polytope.kinds. Emptied when the polytope changes.
+     * Cells of these kinds are not drawn, nor are bars and balls that belong to no other cell. If only one of `hidden` and `faded` is set, its kinds are removed from the other; a kind in both is hidden. A change of the polytope empties both.
      */
     hidden: number[];
     /**
-     * The kinds of cells that are drawn faintly, as indices from 0 into polytope.kinds. A kind in both lists is hidden. Emptied when the polytope changes.
+     * Cells of these kinds are drawn faintly.
      */
     faded: number[];
     /**
-     * The element that is drawn in another color in slices, projection and parallel coordinates; null if there is none.
+     * The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is none. A change of the polytope sets it to null.
      */
     highlight: {
         element: ElementKind;

@@ -7,7 +7,7 @@
 #include "cli/state_arguments.hpp"
 #include "pipeline/frame_limits.hpp"
 #include "pipeline/pipeline.hpp"
-#include "wire/messages.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d {
 

@@ -16,8 +16,8 @@ enum class ErrorCode {
     unknown_type,        ///< the type of the message is unknown
     unknown_key,         ///< the key is not bound to an action
     unknown_polytope,    ///< the name of the polytope is unknown
-    unknown_command,     ///< the ':' line names an unknown command or setting
-    bad_expression,      ///< a number or angle on the ':' line or in a query cannot be parsed
+    unknown_command,     ///< the page's command line names an unknown command or setting
+    bad_expression,      ///< a number or angle on the page's command line or in a query cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
     bad_polytope,        ///< a loaded polytope is invalid

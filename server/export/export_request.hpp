@@ -37,10 +37,10 @@ struct ExportRequest {
     /// whichever is larger.
     double size = 60;
     Label label = Label::none;
-    /// The slices of ExportContents::oval, if they are not those of the session: at these w, in the coordinates of the
-    /// object's file (see ObjectInfo::originInFile) and in this order; or `fit` slices at the middles of as many equal
-    /// parts of the object's extent along w, of which none is empty if the object is a convex polytope. At most one of
-    /// the two is given.
+    /// The slices of ExportContents::oval, if they are not those of the session: at these values of w, in the
+    /// coordinates of the object's file (see ObjectInfo::originInFile) and in this order; or `fit` slices at the
+    /// middles of as many equal parts of the object's extent along w, of which none is empty if the object is a convex
+    /// polytope. At most one of the two is given.
     std::vector<double> at = {};
     std::optional<int> fit = {};
 

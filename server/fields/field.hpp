@@ -45,8 +45,8 @@ struct Field : geometry::ObjectInfo {
     Box box;               ///< the domain, in the function's coordinates
     glm::dvec4 center{0};  ///< of the box, in the function's coordinates
     glm::dmat4 toFunction{1};
-    std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; for an
-                                                        ///< image, a parallelepiped
+    std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; if
+                                                        ///< isImage, a parallelepiped
     bool isImage = false;                               ///< whether imageOf() made this field; it shares the functions
                                                         ///< of the original
     double level = 0;                                   ///< the initial level
@@ -78,7 +78,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 /// Sets the second function of the field. Both functions use the same coordinates.
 void setSecondFunction(Field& field, SecondFunction second);
 
-/// Returns the field as it appears in `frame`, with this serial number. The image has the same functions on the same
+/// Returns the field in the frame of reference `frame`, with this serial number. It has the same functions on the same
 /// box; only its coordinates as a 4-D object differ.
 Field imageOf(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 

@@ -80,7 +80,7 @@ class ScalarFunction {
     virtual EvaluationCost cost() const = 0;
 
     /// Returns the memory used, in bytes.
-    virtual std::size_t memory() const = 0;
+    virtual std::size_t memoryBytes() const = 0;
 };
 
 }  // namespace oval4d::fields

@@ -34,7 +34,7 @@ struct ReferenceFrame {
     bool operator==(const ReferenceFrame&) const = default;
 };
 
-/// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.
+/// Applies the linear map to each point. Returns the largest distance of a mapped point from the origin.
 double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points);
 
 }  // namespace oval4d::geometry

@@ -151,8 +151,8 @@ Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
 
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
 
-// With the left angle λ and the right angle ρ, the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) are the
-// same rotation; the pair with the smaller angles is the one whose real parts have a sum that is not negative.
+// λ and ρ are the half angles of the unit quaternions l and r; the rotation angles are λ + ρ and λ − ρ. (l, r) and
+// (−l, −r) give the same rotation; choose the pair with l.w + r.w ≥ 0, which has the smaller angles.
 Rotation Rotation::power(double fraction) const {
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};

@@ -14,8 +14,8 @@
 namespace oval4d::geometry {
 
 /// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The
-/// enumerators are in the order of the number keys 2 … 7 that select the planes.
-enum class Plane : std::uint8_t { xy, xz, xw, yz, yw, zw };
+/// enumerators are in the order of the number keys 2 … 7 that select the planes. Stored sessions contain their numbers.
+enum class Plane : std::uint8_t { xy = 0, xz = 1, xw = 2, yz = 3, yw = 4, zw = 5 };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
 

@@ -79,7 +79,7 @@ std::chrono::duration<double> Client::countBytes(std::size_t bytes, Clock::time_
     return messageBytes_.timeUntilRepaid(now);
 }
 
-bool Client::idle(Clock::time_point now) const {
+bool Client::hasFullRateLimits(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
     return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
 }
@@ -126,8 +126,9 @@ ClientPtr Clients::at(const address& any) {
 }
 
 void Clients::forgetIdle(TokenBucket::Clock::time_point now) {
-    std::erase_if(clients_,
-                  [now](const auto& entry) { return entry.second.use_count() == 1 && entry.second->idle(now); });
+    std::erase_if(clients_, [now](const auto& entry) {
+        return entry.second.use_count() == 1 && entry.second->hasFullRateLimits(now);
+    });
     sweepAt_ = std::min(std::max(kFirstSweep, 2 * clients_.size()), kMaxClients);
 }
 

@@ -74,7 +74,7 @@ class Client {
 
     /// Returns whether all rate limits have fully recovered. Deleting the client and creating it again would then
     /// change nothing.
-    bool idle(Clock::time_point now) const;
+    bool hasFullRateLimits(Clock::time_point now) const;
 
   private:
     const std::string name_;

@@ -181,7 +181,7 @@ Result<DataFolder::Opened> DataFolder::open(const std::string& name) const {
     return opened;
 }
 
-std::string DataFolder::presentVersion(const Opened& opened) {
+std::string DataFolder::currentVersion(const Opened& opened) {
     if (opened.folder) return versionOfZarr(opened.folder->descriptor());
     std::string version;
     for (const auto& file : opened.files) version += net::versionOf(file->descriptor());
@@ -288,11 +288,11 @@ Result<session::LoadedObject> DataFolder::readNow(const session::LoadObject& loa
             return allocate(bytes);
         });
     } catch (const std::runtime_error&) {
-        if (presentVersion(opened) == opened.version) throw;
+        if (currentVersion(opened) == opened.version) throw;
         return changed;
     }
     if (!loaded) return loaded.error();
-    if (onDisk && presentVersion(opened) != opened.version) return changed;
+    if (onDisk && currentVersion(opened) != opened.version) return changed;
     auto marked = shared(std::move(*loaded), load);
     if (!marked) return marked.error();
     return keep(key, std::move(*marked), onDisk);

@@ -75,7 +75,7 @@ class DataFolder {
 
     std::vector<std::string> list() const;
     Result<Opened> open(const std::string& name) const;
-    static std::string presentVersion(const Opened& opened);
+    static std::string currentVersion(const Opened& opened);
     Result<session::LoadedObject> readNow(const session::LoadObject& load, const session::Limits& limits, Opened opened,
                                           const Reader& reader, const std::string& key);
     Result<FieldCache::FilePtr> allocate(std::size_t bytes);

@@ -66,7 +66,7 @@ struct Options {
     std::string fieldCacheFolder;                     ///< folder of files of samples; empty: /var/tmp
     std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of these files
     std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of cached polytopes not in use
-    std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached results of searches for critical w
+    std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached searches for critical values of w
 
     process::SandboxMode sandbox = process::SandboxMode::automatic;
     std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from other limits

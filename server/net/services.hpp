@@ -47,7 +47,7 @@ struct Services {
     polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
     DataFolder& data;                       ///< the arrays that the server offers
     const FieldCache& fieldCache;           ///< files of samples of these arrays
-    slicing::CriticalCache& critical;       ///< the critical w of fields
+    slicing::CriticalCache& critical;       ///< the critical values of w of fields
 };
 
 }  // namespace oval4d::net

@@ -123,8 +123,9 @@ void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     }
 }
 
-/// Records that the lane queues a job of this length. Adds the lane to `active_` unless it has queued a long job within
-/// kActive, because threads are reserved only for lanes with short jobs.
+/// Records that the lane queues a job of this length. Adds the lane to `active_`, unless it has queued a long job in
+/// the last kActive. While `active_` has lanes, no long job starts on a reserved thread, because only lanes with short
+/// jobs need these threads.
 void FairQueue::updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;

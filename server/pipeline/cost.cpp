@@ -1,5 +1,6 @@
 #include "pipeline/cost.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -56,8 +57,10 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
     // few times as many pixels.
     constexpr double kSlices = 4;
     const double cubes = state.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
-    const double field =
-        surfaces(state, kSlices, cubes, quality) + fog(state, kSlices, cubes, pixels / kSlices, quality);
+    // Lattices have at least cubesAcross(), also in small slices.
+    const double field = std::max(surfaces(state, kSlices, cubes, quality),
+                                  surfaces(state, state.slices.count, slicing::cubesAcross(quality), quality)) +
+                         fog(state, kSlices, cubes, pixels / kSlices, quality);
     return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers + field);
 }
 

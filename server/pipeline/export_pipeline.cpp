@@ -78,7 +78,7 @@ Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::opti
     return std::monostate{};
 }
 
-// Returns the hyperplanes at the w of ExportRequest::at, which are those that the labels of slices show.
+// Returns the hyperplanes at the values of w in ExportRequest::at, which are those that the labels of slices show.
 Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
     const double origin = slicing::infoOf(state.object).originInFile.w;
     const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;

@@ -13,7 +13,7 @@ namespace oval4d::pipeline {
 /// and the command line. Errors: `no_body` if there is nothing to export; `too_large` if the file exceeds a limit or
 /// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
 /// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
-/// `out_of_range` for w in `at` that are equal or farther from the object's center than session::kMaxOffset
+/// `out_of_range` for values of w in `at` that are equal or farther from the object's center than session::kMaxOffset
 /// circumradii, for more slices than ExportLimits::slices, and for the size of a body or a drawing outside its bounds.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});

@@ -5,7 +5,7 @@ namespace oval4d::pipeline {
 slicing::SectionNames FocusSectionNamer::names(const session::State& state) {
     if (!slicing::SectionNamer::mayHaveName(state.object, state.orientation, state.focusW())) return {};
     const auto& [count, spacing, focus, offset] = state.slices;
-    slicer_.slice(state.object, state.orientation, {focus, 1, spacing, offset}, slice_);
+    slicer_.sliceWithoutSurfaces(state.object, state.orientation, {focus, 1, spacing, offset}, slice_);
     return {namer_.nameOfSlice(slice_, 0), namer_.nameOfVertices(slice_, 0, slicing::elementCounts(state.object)[1])};
 }
 

@@ -37,7 +37,7 @@ class Pipeline {
 
     /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores; if it is
     /// null, one core is used. `fillSteps` limits the time for filling self-intersecting faces in messages (see
-    /// slicing::Filler::fill()).
+    /// slicing::FaceFiller::fill()).
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              std::size_t fillSteps = kFillSteps);
 

@@ -76,9 +76,9 @@ class InvalidPolytope : public std::invalid_argument {
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geometry::JaggedArray faces,
                       geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell = {});
 
-/// Returns the image of the polytope under the linear map of `frame`, with the serial number `serial`. The map changes
-/// neither the incidences nor convexity, and preserves the orientation because its determinant is positive. The image
-/// has the name and the cell types of `polytope`.
+/// Returns the polytope in the frame of reference `frame`, with the serial number `serial`. The linear map of `frame`
+/// changes neither the incidences nor convexity, and preserves the orientation because its determinant is positive. The
+/// transformed polytope has the name and the cell types of `polytope`.
 Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 /// Returns the memory that the polytope occupies, in bytes, without its names.

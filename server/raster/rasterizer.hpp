@@ -46,7 +46,7 @@ class LocalRasterizer : public Rasterizer {
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
 
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
-    /// slicing::Filler::fill()).
+    /// slicing::FaceFiller::fill()).
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
@@ -74,7 +74,7 @@ class LocalRasterizer : public Rasterizer {
     };
 
     parallel::ForkJoin* forkJoin_;
-    std::size_t fillSteps_ = slicing::Filler::kNoLimit;
+    std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     std::optional<render::Renderer> renderer_;  // created on first use
     Memory memory_;
 };

@@ -14,7 +14,7 @@ namespace oval4d::raster {
 
 /// Limits on the work and memory of a rasterizer process.
 struct RasterizerLimits {
-    std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::Filler::fill()
+    std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::FaceFiller::fill()
     std::size_t objectBytes = 0;  ///< the maximum size of the object cache; the latest object is always kept
 };
 

@@ -24,11 +24,11 @@ using process::TransferResult;
 
 namespace {
 
-/// A cache of the most recently drawn objects, the latest first, each with its image in the frame of reference in which
-/// it was drawn last.
+/// A cache of the most recently drawn objects, the latest first. Each is kept as it was loaded, and transformed to the
+/// frame of reference in which it was drawn last.
 class RecentObjects {
   public:
-    /// Returns the image that the request describes; null if its source is not in the cache.
+    /// Returns the requested object in its frame of reference; null if the source object is not in the cache.
     const slicing::Object* find(const DrawRequest& request) {
         const auto found = std::ranges::find(kept_, request.source,
                                              [](const Kept& kept) { return slicing::infoOf(kept.source).serial; });

@@ -122,8 +122,8 @@ struct Renderer::Impl {
     void drawFogBehindFrame(const scene::Scene& scene);
     void drawFog(const scene::Scene& scene, DepthRange depths);
 
-    /// Some of the surfaces that are drawn to the picture in memory.
-    struct SurfacePart {
+    /// The nearer or the farther half of the surfaces that are drawn to the picture in memory.
+    struct SurfacePass {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
     };
@@ -143,9 +143,9 @@ struct Renderer::Impl {
     NonconvexSlicePainter::Layers layers;
     ProjectionPainter projectionPainter;
     ProjectionPainter::Layers projectionLayers;
-    SurfaceBatch surfaces;                    // those that OpenGL draws
-    std::array<SurfacePart, 2> surfaceParts;  // the nearer and the farther slices
-    std::optional<FogPainter> fogPainter;     // made for the first picture with fog
+    SurfaceBatch surfaces;                     // those that OpenGL draws
+    std::array<SurfacePass, 2> surfacePasses;  // the nearer and the farther slices
+    std::optional<FogPainter> fogPainter;      // made for the first picture with fog
 };
 
 void Renderer::Impl::flushShapes() {
@@ -198,39 +198,39 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using Depth = ShapeRasterizer::Depth;
     using Blending = SurfaceRasterizer::Blending;
-    auto& [near, far] = surfaceParts;
-    const auto prepare = [&](SurfacePart& surfacePart, SurfaceBatch::Part part) {
+    auto& [near, far] = surfacePasses;
+    const auto prepare = [&](SurfacePass& pass, SurfaceBatch::DepthHalf half) {
         DepthRange depths;  // not needed here
-        surfacePart.batch.collect(scene, depths, part);
-        surfacePart.rasterizer.projectAndLight(scene.viewport, scene.style(), surfacePart.batch);
+        pass.batch.collect(scene, depths, half);
+        pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
     };
     const auto prepareNear = [&] {
-        prepare(near, SurfaceBatch::Part::near);
+        prepare(near, SurfaceBatch::DepthHalf::near);
         crossingPainter.paint(scene, layers);
     };
     const auto prepareFar = [&] {
-        prepare(far, SurfaceBatch::Part::far);
+        prepare(far, SurfaceBatch::DepthHalf::far);
         if (scene.projectionPlacement.shown) projectionPainter.paint(scene, projectionLayers);
     };
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
-    const auto opaque = [](const SurfacePart& part) { return std::span(part.batch.opaque()); };
+    const auto opaque = [](const SurfacePass& pass) { return std::span(pass.batch.opaque()); };
     const auto add = [this](const ShapeBatch& batch, Depth depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
     add(layers.faces, Depth::written);
-    for (const SurfacePart* part : {&near, &far})
-        shapeRasterizer.add(part->rasterizer, opaque(*part).first(part->batch.fringesBegin()), Blending::none);
-    for (const SurfacePart* part : {&near, &far})
-        shapeRasterizer.add(part->rasterizer, opaque(*part).subspan(part->batch.fringesBegin()), Blending::alpha);
+    for (const SurfacePass* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, opaque(*pass).first(pass->batch.fringesBegin()), Blending::none);
+    for (const SurfacePass* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, opaque(*pass).subspan(pass->batch.fringesBegin()), Blending::alpha);
     add(layers.skeleton, Depth::written);
     if (scene.projectionPlacement.shown) {
         add(projectionLayers.solid, Depth::written);
         add(projectionLayers.translucent, Depth::tested);
     }
-    for (const SurfacePart* part : {&far, &near})
-        shapeRasterizer.add(part->rasterizer, part->batch.translucent(), Blending::alpha);
+    for (const SurfacePass* pass : {&far, &near})
+        shapeRasterizer.add(pass->rasterizer, pass->batch.translucent(), Blending::alpha);
     add(layers.faded, Depth::tested);
 }
 
@@ -278,13 +278,13 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
     if (scene.projectionPlacement.shown) surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    fogPainter->copyDepths(scene.viewport, FogPainter::Solids::frame);
+    fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::frame);
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 // Draws the fog behind balls and bars. Must be called when only surfaces have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
-    fogPainter->copyDepths(scene.viewport, FogPainter::Solids::surfaces);
+    fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
     for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::Part::behind);
 }
 
@@ -336,7 +336,7 @@ void Renderer::freeMemory() {
     impl_->projectionPainter = {};
     impl_->projectionLayers = {};
     impl_->surfaces = {};
-    impl_->surfaceParts = {};
+    impl_->surfacePasses = {};
     if (impl_->fogPainter) impl_->fogPainter->freeMemory();
 }
 

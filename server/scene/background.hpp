@@ -13,13 +13,13 @@ enum class Scheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
     std::to_array<text::Choice<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
 
-/// The background of a picture.
+/// The background of a picture. Stored sessions contain the numbers of the enumerators.
 enum class Background : std::uint8_t {
-    automatic,    ///< dark or light, as the viewer prefers; dark if the viewer has not said so; "auto" in messages
-    dark,         ///< nearly black
-    light,        ///< nearly white, as the page in its light scheme
-    white,        ///< as paper
-    transparent,  ///< none in PNG files; elsewhere white. The colors are those on white.
+    automatic = 0,    ///< dark or light, as the viewer prefers; dark if the viewer has not said so; "auto" in messages
+    dark = 1,         ///< nearly black
+    light = 2,        ///< nearly white, as the page in its light scheme
+    white = 3,        ///< as paper
+    transparent = 4,  ///< none in PNG files; elsewhere white. The colors are those on white.
 };
 inline constexpr auto kBackgrounds =
     std::to_array<text::Choice<Background>>({{"auto", Background::automatic},

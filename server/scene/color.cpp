@@ -91,10 +91,10 @@ void paintByType(const slicing::Object& object, Scheme scheme, std::vector<Color
 
 // A diverging color scale for values from −1 to 1: blue, gray at 0, amber.
 constexpr int kScaleSteps = 255;
-using Scale = std::array<Color, kScaleSteps>;
-Scale divergingScale(Scheme scheme) {
+using ColorScale = std::array<Color, kScaleSteps>;
+ColorScale divergingScale(Scheme scheme) {
     constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
-    Scale scale{};
+    ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = 2.0 * i / (kScaleSteps - 1) - 1, reach = std::abs(t);
         const Lightness lightness{0.74 - 0.06 * reach * (t < 0 ? 1.5 : -0.5), 0.62 - reach * (t < 0 ? 0.15 : 0.05)};
@@ -105,12 +105,14 @@ Scale divergingScale(Scheme scheme) {
 }
 
 // The scales for both schemes, by the numbers of their enumerators.
-using Scales = std::array<Scale, kSchemes.size()>;
-Scales scalesFor(Scale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
-const Scale& scaleOf(const Scales& scales, Scheme scheme) { return scales.at(static_cast<std::size_t>(scheme)); }
+using ScalePerScheme = std::array<ColorScale, kSchemes.size()>;
+ScalePerScheme scalesFor(ColorScale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
+const ColorScale& scaleOf(const ScalePerScheme& scales, Scheme scheme) {
+    return scales.at(static_cast<std::size_t>(scheme));
+}
 
-const Scales& divergingScales() {
-    static const Scales kScales = scalesFor(divergingScale);
+const ScalePerScheme& divergingScales() {
+    static const ScalePerScheme kScales = scalesFor(divergingScale);
     return kScales;
 }
 
@@ -120,10 +122,10 @@ const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
 // A scale of one hue for the cosine of the angle between a cell's normal and the light, from −1 (turned away) to 1. The
 // lightness falls smoothly on the dark side, too, so that cells there differ from each other.
-Scale lightScale(Scheme scheme) {
+ColorScale lightScale(Scheme scheme) {
     constexpr double kHue = 4.2;
     constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};
-    Scale scale{};
+    ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double light = std::pow(static_cast<double>(i) / (kScaleSteps - 1), 1.3);
         const Lightness lightness{kDark.onDark + kRange.onDark * light, kDark.onLight + kRange.onLight * light};
@@ -133,10 +135,10 @@ Scale lightScale(Scheme scheme) {
 }
 
 // A scale whose lightness grows evenly while the hue turns from blue through green to yellow.
-Scale sequentialScale(Scheme scheme) {
+ColorScale sequentialScale(Scheme scheme) {
     constexpr double kBlue = 4.8, kYellow = 1.8;
     constexpr Lightness kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
-    Scale scale{};
+    ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = static_cast<double>(i) / (kScaleSteps - 1);
         const Lightness lightness{std::lerp(kDarkest.onDark, kLightest.onDark, t),
@@ -146,7 +148,7 @@ Scale sequentialScale(Scheme scheme) {
     return scale;
 }
 
-Color colorAt(const Scale& scale, double value) {
+Color colorAt(const ColorScale& scale, double value) {
     return scale.at(static_cast<std::size_t>(std::lround((std::clamp(value, -1.0, 1.0) + 1) / 2 * (kScaleSteps - 1))));
 }
 
@@ -177,7 +179,7 @@ Color divergingColor(double value, Scheme scheme) {
 }
 
 Color sequentialColor(double value, Scheme scheme) {
-    static const Scales kScales = scalesFor(sequentialScale);
+    static const ScalePerScheme kScales = scalesFor(sequentialScale);
     return colorAt(scaleOf(kScales, scheme), 2 * value - 1);
 }
 
@@ -205,7 +207,7 @@ void CellPainter::paint(const slicing::Object& object, Coloring coloring, Scheme
         paintBy(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
         if (changed) findNormals(object);
-        static const Scales kScales = scalesFor(lightScale);
+        static const ScalePerScheme kScales = scalesFor(lightScale);
         paintBy(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }

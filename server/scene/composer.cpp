@@ -101,7 +101,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.fill.clear();
     if (out.crossing && !isField && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
     out.patchCells.clear();
-    for (const slicing::Fill::Patch& patch : out.fill.patches)
+    for (const slicing::FilledFaces::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
     if (out.showsDensity()) measureDensity(orientation, out);
     if (out.showsHistogram()) measureValues(object, orientation, out);

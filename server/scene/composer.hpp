@@ -24,8 +24,8 @@ namespace oval4d::scene {
 /// composer.
 class Composer {
   public:
-    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::Filler::fill(). By
-    /// default, there is no limit.
+    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill().
+    /// By default, there is no limit.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
@@ -67,9 +67,9 @@ class Composer {
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
     void measureValues(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
-    std::size_t fillSteps_ = slicing::Filler::kNoLimit;
+    std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     CellPainter cellPainter_;
-    slicing::Filler filler_;
+    slicing::FaceFiller filler_;
     std::uint64_t object_ = 0;    // the serial number of the object of the last call
     bool objectChanged_ = false;  // whether the object has changed since the last call of compose()
     double ballRadius_ = 0;       // the ball radius of this object, as a fraction of the slice radius

@@ -10,24 +10,24 @@ namespace oval4d::scene {
 namespace {
 
 constexpr int kMaxLevel =
-    static_cast<int>(DensityPlot::kLine) * (DensityPlot::kRows - 1) / 2;  // steps from 0 to the circumradius
-constexpr int kLevels = 2 * kMaxLevel + 1;
+    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // bins from 0 to the circumradius
+constexpr int kBins = 2 * kMaxLevel + 1;
 
 // Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves
 // are rounded to the even integer, so opposite values remain opposite.
 constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
 
-std::uint32_t stepOf(float level) {
+std::uint32_t binOf(float level) {
     return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kMaxLevel);
 }
 
 }  // namespace
 
 void DensityPlot::measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius) {
-    const glm::dmat4 toSteps = turn * (kMaxLevel / circumradius);
+    const glm::dmat4 toBins = turn * (kMaxLevel / circumradius);
     for (std::vector<float>& levels : levels_) levels.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const glm::dvec4 at = toSteps * vertices[i];
+        const glm::dvec4 at = toBins * vertices[i];
         for (int k = 0; k < 4; ++k)
             levels_[k][i] = static_cast<float>(std::clamp<double>(at[k], -kMaxLevel, kMaxLevel));
     }
@@ -48,28 +48,27 @@ void DensityPlot::countColumn(int column) {
     const float *from = levels_[gap].data(), *to = levels_[gap + 1].data();
     const std::size_t count = levels_[gap].size();
 
-    // Consecutive vertices often have the same step. Counting them in different tables keeps each increment independent
-    // of the previous one.
+    // Neighboring vertices often fall into the same histogram bin. Several tables, used in turn, let the CPU overlap
+    // the increments.
     constexpr std::size_t kTables = 4, kBatch = 256;
-    std::array<std::array<std::uint32_t, kLevels>, kTables> tables{};
-    std::array<std::uint32_t, kBatch> steps;
+    std::array<std::array<std::uint32_t, kBins>, kTables> tables{};
+    std::array<std::uint32_t, kBatch> bins;
     for (std::size_t begin = 0; begin < count; begin += kBatch) {
         const std::size_t size = std::min(kBatch, count - begin);
-        for (std::size_t i = 0; i < size; ++i)
-            steps[i] = stepOf(from[begin + i] + t * (to[begin + i] - from[begin + i]));
-        for (std::size_t i = 0; i < size; ++i) ++tables[i % kTables][steps[i]];
+        for (std::size_t i = 0; i < size; ++i) bins[i] = binOf(from[begin + i] + t * (to[begin + i] - from[begin + i]));
+        for (std::size_t i = 0; i < size; ++i) ++tables[i % kTables][bins[i]];
     }
 
     const auto add = [&](int rowFromBelow, std::uint32_t weight) {
         weights_[index(kRows - 1 - rowFromBelow, column)] += weight;
     };
-    for (std::uint32_t step = 0; step < kLevels; ++step) {
+    for (std::uint32_t bin = 0; bin < kBins; ++bin) {
         std::uint32_t lines = 0;
-        for (const auto& table : tables) lines += table[step];
+        for (const auto& table : tables) lines += table[bin];
         if (lines == 0) continue;
-        const std::uint32_t above = step % kLine;
-        const int row = static_cast<int>(step / kLine);
-        add(row, lines * (kLine - above));
+        const std::uint32_t above = bin % kLineWeight;
+        const int row = static_cast<int>(bin / kLineWeight);
+        add(row, lines * (kLineWeight - above));
         if (above > 0) add(row + 1, lines * above);
     }
 }

@@ -15,22 +15,22 @@
 namespace oval4d::scene {
 
 /// A density plot of the parallel coordinates of many vertices. Each vertex has a line, which joins its values on
-/// neighboring axes; each of the kRows × kColumns weights tells how many lines pass there. The axes x, y, z and w are at
-/// the columns 0, kGap, 2 kGap and 3 kGap. Row 0 is at +circumradius, the last row at −circumradius. Reuses its memory
-/// between measurements.
+/// neighboring axes; each of the kRows × kColumns weights tells how many lines pass there. The axes x, y, z and w are
+/// at the columns 0, kGap, 2 kGap and 3 kGap. Row 0 is at +circumradius, the last row at −circumradius. Reuses its
+/// memory between measurements.
 class DensityPlot {
   public:
     static constexpr int kGap = 64;  ///< columns from one axis to the next
     static constexpr int kColumns = 3 * kGap + 1;
     static constexpr int kRows = 65;
-    /// The weight that each line adds to each column; the two rows between which the line passes share it.
-    static constexpr std::uint32_t kLine = 4;
+    /// The weight of one line in one column. It is split between the two nearest rows by linear interpolation.
+    static constexpr std::uint32_t kLineWeight = 4;
 
     /// Computes the density plot of the points turn · v for all v in `vertices`. Coordinates are clamped to
     /// ±circumradius.
     void measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius);
 
-    /// Returns the weights, row by row. The sum of each column is kLine times the number of vertices.
+    /// Returns the weights, row by row. The sum of each column is kLineWeight times the number of vertices.
     std::span<const std::uint32_t> weights() const { return weights_; }
 
     /// Returns the square roots of the weights, row by row, scaled such that the largest is 255. The square root keeps
@@ -45,7 +45,7 @@ class DensityPlot {
   private:
     void countColumn(int column);
 
-    std::array<std::vector<float>, 4> levels_;  // x, y, z and w of each vertex, in steps; a row is kLine steps high
+    std::array<std::vector<float>, 4> levels_;  // x, y, z and w of each vertex, in bins; a row is kLineWeight bins high
     std::vector<std::uint32_t> weights_;
     std::vector<std::uint8_t> tones_;
 };

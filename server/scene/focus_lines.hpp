@@ -10,9 +10,9 @@
 namespace oval4d::scene {
 
 /// The ends of a line, in view coordinates: the eye is at the origin and looks along −z.
-using ViewLine = std::array<glm::dvec3, 2>;
+using Segment = std::array<glm::dvec3, 2>;
 
 /// Returns the lines along x, y and z through the focus point, whose middle it is, in the slice at `placement`.
-std::array<ViewLine, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
+std::array<Segment, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
 
 }  // namespace oval4d::scene

@@ -31,7 +31,8 @@ constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to tha
 
 }  // namespace
 
-LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements)
+LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double originW,
+                         std::vector<SlicePlacement>& placements)
     : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
     // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
     double w = 0;
@@ -97,8 +98,8 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
         const Box box = boxOf(i);
         if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
         if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
-        if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
-                        isOverSlice(i, box, camera, toView, aspect)))
+        if (isMoved &&
+            (box.center.y < bottom + box.half.y || overlap(box, axes) || isOverSlice(i, box, camera, toView, aspect)))
             return false;
         // The labels between the focus slice and this one, and as many on the other side, have been decided on.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
@@ -122,8 +123,8 @@ glm::dvec2 LabelLayout::halfText(const SlicePlacement& placement) const {
 }
 
 glm::dvec2 LabelLayout::halfPlate(const SlicePlacement& placement) const {
-    const glm::dvec2 margin = placement.focus ? glm::dvec2(kFocusPlateMarginX, kFocusPlateMarginY)
-                                              : glm::dvec2(kPlateMarginX, kPlateMarginY);
+    const glm::dvec2 margin =
+        placement.focus ? glm::dvec2(kFocusPlateMarginX, kFocusPlateMarginY) : glm::dvec2(kPlateMarginX, kPlateMarginY);
     return halfText(placement) + fontSize(placement) * margin;
 }
 
@@ -153,8 +154,7 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
 
 Box LabelLayout::boxAt(std::size_t i, double scale) const {
     const double u = parameterOf(i, placements_.size());
-    return {scale * onPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
-            halfPlate(placements_[i])};
+    return {scale * onPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)), halfPlate(placements_[i])};
 }
 
 glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
@@ -163,7 +163,7 @@ glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, doub
 }
 
 bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
-                 double aspect) const {
+                              double aspect) const {
     for (std::size_t j = 0; j < placements_.size(); ++j) {
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
@@ -175,12 +175,11 @@ bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& ca
 }
 
 Box LabelLayout::boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
-              const SlicePlacement& placement) const {
+                           const SlicePlacement& placement) const {
     const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
     const glm::dvec2 top = onScreen(p, camera, aspect);
     const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
-    return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
-            halfPlate(placement) + glm::dvec2(name, 0)};
+    return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)), halfPlate(placement) + glm::dvec2(name, 0)};
 }
 
 std::ptrdiff_t LabelLayout::smallestStep(std::ptrdiff_t focus, double scale) const {

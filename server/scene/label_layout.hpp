@@ -75,8 +75,7 @@ class LabelLayout {
     bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
                      double aspect) const;
 
-    Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
-                  const SlicePlacement& placement) const;
+    Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
     // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
     // viewer moves the camera.

@@ -30,15 +30,15 @@ constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 constexpr bool showsAllSlices(View view) { return view == View::oval || view == View::strip; }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
-/// the cell from which it was cut.
+/// the cell from which it was cut. Stored sessions contain the numbers of the enumerators.
 enum class Coloring : std::uint8_t {
-    cell,       ///< the cell itself; for fields: the level
-    cell_type,  ///< the type of the cell; called "kind" in messages
-    w,          ///< the w of the cell's center after the rotation; for fields: the w of the slice
-    plain,      ///< none: everything has the same color
-    light,      ///< the angle between the cell's normal and the direction toward a light in four dimensions
-    growth,     ///< for fields: how fast the surface moves outward as w increases
-    value,      ///< for fields: the value of the second function or, without one, of the function itself
+    cell = 0,       ///< the cell itself; for fields: the level
+    cell_type = 1,  ///< the type of the cell; called "kind" in messages
+    w = 2,          ///< the w of the cell's center after the rotation; for fields: the w of the slice
+    plain = 3,      ///< none: everything has the same color
+    light = 4,      ///< the angle between the cell's normal and the direction toward a light in four dimensions
+    growth = 5,     ///< for fields: how fast the surface moves outward as w increases
+    value = 6,      ///< for fields: the value of the second function or, without one, of the function itself
 };
 inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell", Coloring::cell},
                                                                           {"kind", Coloring::cell_type},
@@ -50,22 +50,22 @@ inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell
 constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
-/// body inside a surface where the domain ends.
+/// body inside a surface where the domain ends. Stored sessions contain the numbers of the enumerators.
 enum class CapStyle : std::uint8_t {
-    plain,  ///< in the color of the level or of the slice
-    value,  ///< colored as with Coloring::value
-    open,   ///< no caps: the surfaces are open at the domain's boundary
+    plain = 0,  ///< in the color of the level or of the slice
+    value = 1,  ///< colored as with Coloring::value
+    open = 2,   ///< no caps: the surfaces are open at the domain's boundary
 };
 inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
 /// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval
-/// or, if only the focus slice is drawn, beside it.
+/// or, if only the focus slice is drawn, beside it. Stored sessions contain the numbers of the enumerators.
 enum class ProjectionKind : std::uint8_t {
-    off,
-    perspective,  ///< from an eye on the positive w axis
-    orthogonal,   ///< parallel to the w axis
+    off = 0,
+    perspective = 1,  ///< from an eye on the positive w axis
+    orthogonal = 2,   ///< parallel to the w axis
 };
 inline constexpr auto kProjectionKinds =
     std::to_array<text::Choice<ProjectionKind>>({{"off", ProjectionKind::off},

@@ -9,9 +9,9 @@ namespace {
 constexpr Oval kWide{20.5, 49.0, 0.46, 8.3};
 constexpr Oval kTall{7.0, 72.0, 0.52, 9.6};
 
-constexpr double kStripStep = 2.12;   // between neighboring slices in the strip view, in radii of slices with balls
-constexpr double kStripDistance = 4;  // from the eye to the strip, in half widths: nearly a parallel projection
-constexpr double kSingleDistance = 7;      // from the eye to the slice in the single view, in circumradii
+constexpr double kStripStep = 2.12;    // between neighboring slices in the strip view, in radii of slices with balls
+constexpr double kStripDistance = 4;   // from the eye to the strip, in half widths: nearly a parallel projection
+constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 

@@ -9,8 +9,8 @@
 namespace oval4d::scene {
 
 /// The curve on which the slices stand, for a circumradius of 1. The slice with the parameter u (from −1 for the first
-/// slice to 1 for the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the distance
-/// `distance`, downward by the angle `pitch` (radians). If the depth is 0, the slices are in a straight row.
+/// slice to 1 for the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the
+/// distance `distance`, downward by the angle `pitch` (radians). If the depth is 0, the slices are in a straight row.
 struct Oval {
     double halfWidth, depth, pitch, distance;
 
@@ -24,8 +24,8 @@ struct Oval {
 /// The number of slices for which the oval was designed.
 inline constexpr int kReferenceCount = 21;
 
-/// Returns the oval for a picture with this aspect ratio. Its numbers were found by a search for the largest focus slice
-/// at which neighboring slices hide little of each other; they differ for wide and tall windows.
+/// Returns the oval for a picture with this aspect ratio. Its numbers were found by a search for the largest focus
+/// slice at which neighboring slices hide little of each other; they differ for wide and tall windows.
 Oval ovalFor(double aspect);
 
 /// Returns the straight row of the strip view; `reach` is the radius of a slice with its balls.
@@ -39,8 +39,8 @@ inline double parameterOf(std::size_t i, std::size_t count) {
     return count == 1 ? 0 : 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1;
 }
 
-/// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch about
-/// the x axis.
+/// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch
+/// about the x axis.
 struct ViewSpace {
     double cos, sin, distance;
     explicit ViewSpace(const Oval& oval)

@@ -15,8 +15,8 @@ struct Parts {
     bool operator==(const Parts&) const = default;
 };
 
-/// A part of the picture and its name, which is used in messages, queries, stored sessions and on the ':' command line.
-/// The action of the key that shows or hides the part (protocol/keymap.json) has the same name.
+/// A part of the picture and its name, which is used in messages, queries, stored sessions and on the page's command
+/// line. The action of the key that shows or hides the part (protocol/keymap.json) has the same name.
 struct NamedPart {
     std::string_view name;
     bool Parts::* flag;
@@ -24,13 +24,13 @@ struct NamedPart {
 
 /// All parts. Stored sessions contain the flags in this order; therefore a new row must be the last one.
 inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &Parts::faces},
-                                                       {"bars", &Parts::bars},
-                                                       {"balls", &Parts::balls},
-                                                       {"coordinates", &Parts::coordinates},
-                                                       {"labels", &Parts::labels},
-                                                       {"cells", &Parts::cells},
-                                                       {"back", &Parts::back},
-                                                       {"sections", &Parts::sections}});
+                                                         {"bars", &Parts::bars},
+                                                         {"balls", &Parts::balls},
+                                                         {"coordinates", &Parts::coordinates},
+                                                         {"labels", &Parts::labels},
+                                                         {"cells", &Parts::cells},
+                                                         {"back", &Parts::back},
+                                                         {"sections", &Parts::sections}});
 static_assert(sizeof(Parts) == kParts.size(), "every part has a row");
 
 }  // namespace oval4d::scene

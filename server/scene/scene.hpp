@@ -92,7 +92,7 @@ struct Scene : Layout {
     /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
     /// instead of their loops. Also true for fields, of which no faces are drawn.
     bool crossing = false;
-    slicing::Fill fill;                     ///< the filled faces; empty for a field, if faces are hidden, and if
+    slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
                                             ///< `crossing` is false
     SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty for objects other than fields
     FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn

@@ -7,7 +7,7 @@
 
 namespace oval4d::scene {
 
-/// Returns the number of decimals, from 2 to 9, with which the w of neighboring hyperplanes are told apart.
+/// Returns the number of decimals, from 2 to 9, with which the values of w of neighboring hyperplanes are told apart.
 int labelDecimals(const geometry::Hyperplanes& planes);
 
 /// Returns w with this number of decimals and a minus sign (U+2212) if it is negative; "0" if all digits are 0.

@@ -1,6 +1,6 @@
 #pragma once
-// The commands that change a session. They come from messages, from keys and from the ':' line, which is the command
-// line of the page.
+// The commands that change a session. They come from messages, from keys and from the page's command line, which is
+// typed after ':'.
 
 #include <array>
 #include <cstdint>
@@ -110,7 +110,7 @@ struct Undo {};
 struct Redo {};
 /// Restores the initial orientation and focus, and stops continuous turning.
 struct Reset {};
-/// Applies a ':' line; see parseCommandLine().
+/// Applies a line of the page's command line; see parseCommandLine().
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };

@@ -195,7 +195,7 @@ Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const
     return Command{C{}};
 }
 
-// A command of the ':' line: its name, and the function that parses the rest of the line.
+// A command of the page's command line: its name, and the function that parses the rest of the line.
 struct Verb {
     std::string_view name;
     Result<Command> (*read)(std::string_view rest, const Words& words, const State& state);

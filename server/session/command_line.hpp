@@ -1,5 +1,5 @@
 #pragma once
-// The ':' line, which is the command line of the page.
+// The page's command line, which is typed after ':'.
 
 #include <string_view>
 
@@ -9,10 +9,10 @@
 
 namespace oval4d::session {
 
-/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or
-/// "reset". `state` is the current state: its angles are used if "rotate" gives none, and "hide", "fade" and "show"
-/// change its lists of cell types. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`,
-/// `unknown_key`.
+/// Parses a line of the page's command line, with or without the ':', such as "polytope 24-cell", "set slices=31",
+/// "rotate xw,yz pi/8 pi/5" or "reset". `state` is the current state: its angles are used if "rotate" gives none, and
+/// "hide", "fade" and "show" change its lists of cell types. Errors: `unknown_command`, `bad_expression`,
+/// `out_of_range`, `unknown_polytope`, `unknown_key`.
 Result<Command> parseCommandLine(std::string_view written, const State& state);
 
 }  // namespace oval4d::session

@@ -1,5 +1,5 @@
 #pragma once
-// Arithmetic expressions on the ':' line and in queries, such as "pi/sqrt(3)-pi/8".
+// Arithmetic expressions on the page's command line and in queries, such as "pi/sqrt(3)-pi/8".
 
 #include <string_view>
 #include <vector>

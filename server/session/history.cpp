@@ -15,8 +15,8 @@ State withOrbit(State state, const scene::CameraOrbit& orbit) {
     return state;
 }
 
-// Returns whether the states differ at most in the camera. Ignores whether images of the same object in the same frame
-// of reference have been made more than once.
+// Returns whether the states differ at most in the camera. Ignores whether the same object has been transformed to the
+// same frame of reference more than once.
 bool isSameStep(const State& a, const State& b) {
     State compared = withOrbit(a, b.look.orbit);
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;

@@ -1,16 +1,19 @@
 #include "session/key_actions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <ranges>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "session/history.hpp"
 #include "session/object_lookup.hpp"
+#include "session/setting_table.hpp"
 #include "session/settings.hpp"
 #include "slicing/slicer.hpp"
+#include "text/choice.hpp"
 
 namespace oval4d::session {
 
@@ -61,88 +64,103 @@ Done always(ActionContext& c) {
     return std::monostate{};
 }
 
-constexpr auto kActions = std::to_array<Action>({
-    {"rotate", always<[](ActionContext& c) {
-         const geometry::Turn turn(c.plane, c.state.alpha,
-                                   c.isDoubleRotation ? std::optional(c.state.beta) : std::nullopt);
-         rotate(c.state, c.inverse ? turn.inverse() : turn);
-     }>},
-    {"repeat",
-     [](ActionContext& c) -> Done {
-         if (!c.state.lastTurn) return kNoRotationYet;
-         rotate(c.state, *c.state.lastTurn);
-         return std::monostate{};
-     }},
-    {"turn",
-     [](ActionContext& c) -> Done {
-         if (!c.state.lastTurn) return kNoRotationYet;
-         c.state.turning = !c.state.turning;
-         c.state.ongoingTurnToward.reset();
-         return std::monostate{};
-     }},
-    {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},
-    {"alpha_down", always<[](ActionContext& c) { stepAngle(c.state.alpha, -c.state.step); }>},
-    {"beta_up", always<[](ActionContext& c) { stepAngle(c.state.beta, c.state.step); }>},
-    {"beta_down", always<[](ActionContext& c) { stepAngle(c.state.beta, -c.state.step); }>},
-    {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
-    {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
-    {"focus_zero", always<[](ActionContext& c) {
-         moveFocus(c.state, 0);
-         c.state.slices.offset = 0;
-     }>},
-    {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
-    {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
-    {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }},
-    {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }},
-    {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
-    {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
-    {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
-    {"slices_more", always<[](ActionContext& c) {
-         if (c.state.slices.count + 2 <= c.limits.maxSlices) setCount(c.state, c.state.slices.count + 2);
-     }>},
-    {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
-    {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
-    {"view", always<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
-    {"matrix", always<[](ActionContext& c) { toggleView(c.state, scene::View::matrix); }>},
-    {"strip", always<[](ActionContext& c) { toggleView(c.state, scene::View::strip); }>},
-    {"projection", always<[](ActionContext& c) {
-         scene::ProjectionKind& kind = c.state.look.projection.kind;
-         kind =
-             static_cast<scene::ProjectionKind>((static_cast<std::size_t>(kind) + 1) % scene::kProjectionKinds.size());
-     }>},
-    {"undo", nullptr, undo},
-    {"redo", nullptr, redo},
-});
-
-// Returns the action that toggles scene::kParts[part].
-template <std::size_t part>
-constexpr Action toggleAction() {
-    return {scene::kParts[part].name, always<[](ActionContext& c) {
-                bool& flag = c.state.look.parts.*scene::kParts[part].flag;
-                flag = !flag;
-            }>};
+// Returns the value after this one in the table of choices, or the first one after the last.
+template <text::HasChoices Value>
+Value nextChoice(Value value) {
+    const auto& choices = choicesOf(value);
+    auto at = std::ranges::find(choices, value, &std::ranges::range_value_t<decltype(choices)>::value);
+    while (at != choices.end() && at->value == value) ++at;  // names after the first one are aliases
+    return at == choices.end() ? choices.begin()->value : at->value;
 }
 
-// Returns the action that turns an element of the kind slicing::kElementKinds[kind] toward +w.
-template <std::size_t kind>
-Action towardAction() {
-    static const std::string name = "toward_" + std::string(slicing::kElementKinds[kind].name);
-    return {name, [](ActionContext& c) { return turnToward(c.state, {slicing::kElementKinds[kind].value, {}}); }};
+// Returns the actions that have code of their own.
+std::vector<Action> ownActions() {
+    return {
+        {"rotate", always<[](ActionContext& c) {
+             const geometry::Turn turn(c.plane, c.state.alpha,
+                                       c.isDoubleRotation ? std::optional(c.state.beta) : std::nullopt);
+             rotate(c.state, c.inverse ? turn.inverse() : turn);
+         }>},
+        {"repeat",
+         [](ActionContext& c) -> Done {
+             if (!c.state.lastTurn) return kNoRotationYet;
+             rotate(c.state, *c.state.lastTurn);
+             return std::monostate{};
+         }},
+        {"turn",
+         [](ActionContext& c) -> Done {
+             if (!c.state.lastTurn) return kNoRotationYet;
+             c.state.turning = !c.state.turning;
+             c.state.ongoingTurnToward.reset();
+             return std::monostate{};
+         }},
+        {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},
+        {"alpha_down", always<[](ActionContext& c) { stepAngle(c.state.alpha, -c.state.step); }>},
+        {"beta_up", always<[](ActionContext& c) { stepAngle(c.state.beta, c.state.step); }>},
+        {"beta_down", always<[](ActionContext& c) { stepAngle(c.state.beta, -c.state.step); }>},
+        {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
+        {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
+        {"focus_zero", always<[](ActionContext& c) {
+             moveFocus(c.state, 0);
+             c.state.slices.offset = 0;
+         }>},
+        {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
+        {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
+        {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }},
+        {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }},
+        {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
+        {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
+        {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
+        {"slices_more", always<[](ActionContext& c) {
+             if (c.state.slices.count + 2 <= c.limits.maxSlices) setCount(c.state, c.state.slices.count + 2);
+         }>},
+        {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
+        {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
+        {"view", always<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
+        {"undo", nullptr, undo},
+        {"redo", nullptr, redo},
+    };
 }
 
-template <std::size_t... parts, std::size_t... kinds>
-std::vector<Action> allActions(std::index_sequence<parts...> /*unused*/, std::index_sequence<kinds...> /*unused*/) {
-    std::vector<Action> actions(kActions.begin(), kActions.end());
-    (actions.push_back(toggleAction<parts>()), ...);
-    (actions.push_back(towardAction<kinds>()), ...);
+std::vector<Action> allActions() {
+    std::vector<Action> actions = ownActions();
+    for (const scene::NamedPart& part : scene::kParts) {
+        actions.push_back({std::string(part.name), [flag = part.flag](ActionContext& c) -> Done {
+                               bool& isShown = c.state.look.parts.*flag;
+                               isShown = !isShown;
+                               return std::monostate{};
+                           }});
+    }
+    for (const auto& [name, kind] : slicing::kElementKinds) {
+        actions.push_back(
+            {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
+    }
+    for (const auto& [name, view] : scene::kViews) {
+        if (view == scene::View::oval || view == scene::View::single) continue;  // "view" toggles the latter
+        actions.push_back({std::string(name), [to = view](ActionContext& c) -> Done {
+                               toggleView(c.state, to);
+                               return std::monostate{};
+                           }});
+    }
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            using Value = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
+            if constexpr (text::HasChoices<Value> && !std::is_same_v<Value, scene::View>) {
+                actions.push_back({std::string(setting.name.text), [setting](ActionContext& c) -> Done {
+                                       Set set;
+                                       setting.ofSet(set) = nextChoice(setting.ofState(c.state));
+                                       return applySet(c.state, set, c.loaded, c.limits, c.loader);
+                                   }});
+            }
+        }
+    });
     return actions;
 }
 
 }  // namespace
 
 std::span<const Action> keyActions() {
-    static const std::vector<Action> actions = allActions(std::make_index_sequence<scene::kParts.size()>(),
-                                                          std::make_index_sequence<slicing::kElementKinds.size()>());
+    static const std::vector<Action> actions = allActions();
     return actions;
 }
 

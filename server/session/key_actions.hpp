@@ -1,8 +1,9 @@
 #pragma once
 // The actions that keys trigger: functions that change a session.
 
+#include <functional>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "geometry/rotation.hpp"
 #include "session/session.hpp"
@@ -23,14 +24,15 @@ struct ActionContext {
 /// An action. Exactly one of the functions is set. `onState` changes a copy of the current state, which the caller then
 /// commits to the session, or discards if `onState` returns an error. `onSession` changes the session itself.
 struct Action {
-    std::string_view name;  ///< the value of "action" in protocol/keymap.json
-    Result<std::monostate> (*onState)(ActionContext&) = nullptr;
-    Result<std::monostate> (*onSession)(Session&) = nullptr;
+    std::string name;  ///< the value of "action" in protocol/keymap.json
+    std::function<Result<std::monostate>(ActionContext&)> onState = nullptr;
+    std::function<Result<std::monostate>(Session&)> onSession = nullptr;
 };
 
 /// Returns all actions that the server performs: those of the table in key_actions.cpp; for each row of scene::kParts,
-/// one that toggles this part of the picture; and for each row of slicing::kElementKinds, one that turns an element of
-/// this kind toward +w.
+/// one that toggles this part of the picture; for each row of slicing::kElementKinds, one that turns an element of this
+/// kind toward +w; for each view but the oval, one that toggles it; and for each other setting that is an enumeration,
+/// one of the setting's name that shows the next of its values.
 std::span<const Action> keyActions();
 
 }  // namespace oval4d::session

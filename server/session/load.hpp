@@ -61,8 +61,8 @@ Result<LoadedObject> readZarr(const fields::FolderReader& folder, const std::str
 Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
                                 const fields::ReadOptions& options);
 
-/// Returns the field of an array, extended at the end of w by the time steps of another array, `added`. The w of the
-/// present time steps stay the same; the added ones are as far apart as these, or 1 apart if there is only one. The
+/// Returns the field of an array, extended at the end of w by the time steps of another array, `added`. The present
+/// time steps keep their values of w; the added ones are as far apart as these, or 1 apart if there is only one. The
 /// initial level and the initial side that is inside are computed anew. Errors: `bad_field` if one of the objects is
 /// not an array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that the field
 /// has; `too_large` if the samples exceed `limits.maxFieldBytes`.

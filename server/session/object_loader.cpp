@@ -11,7 +11,7 @@ namespace oval4d::session {
 
 namespace {
 
-// The maximum number of elements of a small object. Its image takes less than 0.2 ms and 128 KiB.
+// The maximum number of elements of a small object. To transform it takes less than 0.2 ms and 128 KiB.
 constexpr std::size_t kSmall = 1000;
 
 const Error kLater{ErrorCode::internal, "the object is not available yet"};

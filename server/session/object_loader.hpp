@@ -26,13 +26,14 @@ namespace oval4d::session {
 /// Reads the object that a command specifies. Parameters, result and errors are those of readObject().
 using FileReader = std::function<Result<LoadedObject>(const LoadObject& load, const Limits& limits)>;
 
-/// How a loader searches for the critical w of objects, at which the section changes its type.
+/// How a loader searches for critical values of w: those at which the type of the section changes.
 struct CriticalSearch {
     slicing::CriticalCache* cache = nullptr;  ///< null, or outlives the loader
+    /// The maximum search time: see CriticalOptions::time.
     std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
 };
 
-/// What the critical w of a state depend on.
+/// What the critical values of w of a state depend on.
 struct CriticalArguments {
     slicing::Object object;
     geometry::Rotation orientation;
@@ -41,9 +42,9 @@ struct CriticalArguments {
 };
 CriticalArguments criticalArguments(const State& state);
 
-/// Provides the objects that one command needs, and the critical w of an object. With Mode::immediate, polytopeOf(),
-/// objectFrom() and the other functions build or read the object before they return. With Mode::deferred, they return
-/// an error if the object is not available yet, and the object becomes pending. The caller then calls
+/// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
+/// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
+/// they return an error if the object is not available yet, and the object becomes pending. The caller then calls
 /// loadPendingObject(), on any thread, and applies the command again, until nothing is pending.
 class ObjectLoader {
   public:
@@ -62,24 +63,25 @@ class ObjectLoader {
     /// readObject().
     Result<LoadedObject> objectFrom(const LoadObject& load);
 
-    /// Returns the image of `source` in `frame` (see slicing::imageOf()). Images of small objects are never pending.
+    /// Returns `source` transformed to `frame` (see slicing::imageOf()). Small objects are always transformed at once,
+    /// even with Mode::deferred.
     Result<slicing::Object> imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
-    /// Returns the critical w of the object that the state shows (see slicing::findCriticalSections()). If the search
-    /// was deferred, they are those of the state at the time of the first call, even if the object has turned since.
-    /// For small polytopes, the search is never deferred. Error: `canceled` if the search was stopped.
+    /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). If
+    /// the search was deferred, they are those of the state at the time of the first call, even if the object has
+    /// turned since. For small polytopes, the search is never deferred. Error: `canceled` if the search was stopped.
     Result<slicing::CriticalPtr> criticalSections(const State& state);
 
     /// Returns whether an object is pending: the command failed only because the object is not available yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
     /// Returns whether the pending object must be read from a file.
     bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
-    /// Returns whether a search for critical w is pending, which takes longer than a picture.
+    /// Returns whether a search for critical values of w is pending, which takes longer than a picture.
     bool isSearchPending() const { return std::holds_alternative<CriticalArguments>(pending_); }
-    /// Builds or reads the pending object, or finds the pending critical w, if there is one. `stop` ends a search for
-    /// critical w, which then fails with `canceled`.
+    /// Builds, reads or transforms the pending object, or finds the pending critical values of w. Does nothing if
+    /// nothing is pending. `stop` ends a search for critical values of w, which then fails with `canceled`.
     void loadPendingObject(std::stop_token stop = {});
     /// Returns the estimated duration of loadPendingObject(). For entries of the catalogue, it is accurate to within a
     /// factor of three.
@@ -97,7 +99,7 @@ class ObjectLoader {
     struct Image {
         slicing::Object source;
         geometry::ReferenceFrame frame;
-        slicing::Object object = {};  // null while it is pending
+        slicing::Object object = {};  // `source` in `frame`; null while it is pending
     };
 
     Result<slicing::CriticalPtr> search(const CriticalArguments& arguments, std::stop_token stop);
@@ -118,9 +120,9 @@ class ObjectLoader {
     std::optional<Result<LoadedObject>> fromFile_;
     slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`
     std::optional<Result<slicing::Object>> extended_;
-    slicing::Object searched_;  // the object whose critical w are `critical_`
+    slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    std::vector<Image> images_;  // a command that changes both the object and the frame needs two images
+    std::vector<Image> images_;  // two if a command changes both the object and the frame
 };
 
 }  // namespace oval4d::session

@@ -25,12 +25,13 @@ namespace {
 
 using Done = Result<std::monostate>;
 
-// The images of an extended field: for each image of the shorter field, by its identity, that of the longer one.
+// An extended field in the frames of reference in which the states show it: for each object that was transformed from
+// the shorter field, by its identity, the one that was transformed from the longer field.
 using ExtendedImages = std::map<const void*, slicing::Object>;
 
 // Shows the field `after`, a longer version of `before`, if the state shows `before`; returns whether it does. Keeps
 // all settings, except that spacing and offset keep their ratios to the reach of the slices. States that show the same
-// image also do so afterward: `images` has those that have been made.
+// transformed object also do so afterward: `images` has those that have been made.
 bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
@@ -129,11 +130,7 @@ class Applier {
     Done operator()(const Redo& /*command*/) { return redo(session_); }
     Done operator()(const Reset& /*command*/) {
         State next = session_.current;
-        next.orientation = {};
-        next.slices.focus = 0;
-        next.slices.offset = 0;
-        next.turning = false;
-        next.ongoingTurnToward.reset();
+        reset(next);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -153,12 +150,8 @@ class Applier {
             return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
         };
         State start = session_.current;
-        if (has("rotate") || has("polytope") || has(kFormula)) {
-            // The rotations of an address lead from the initial orientation to its view.
-            start.orientation = {};
-            start.turning = false;
-            start.ongoingTurnToward.reset();
-        }
+        // The rotations of an address lead from the initial orientation to its view.
+        if (has("rotate") || has("polytope") || has(kFormula)) returnToInitialOrientation(start);
         auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
         if (!next) return next.error();
         const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);

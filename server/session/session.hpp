@@ -44,7 +44,7 @@ struct OngoingTurnToward {
 struct State {
     slicing::Object source;  ///< the object as it was built or loaded; never null
     geometry::ReferenceFrame referenceFrame;
-    slicing::Object object;  ///< what is shown: the image of `source` in `referenceFrame` (see slicing::imageOf())
+    slicing::Object object;  ///< what is shown: `source` in `referenceFrame` (see slicing::imageOf())
     geometry::Rotation orientation;
     double alpha, beta;  ///< the angles of the rotation keys, in radians
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians

@@ -1,8 +1,9 @@
 #pragma once
-// The table of settings. From it, the ':' line, the queries of addresses, and the messages `set` and `state` are read
-// and written.
+// The table of settings. From it, the page's command line, the queries of addresses, and the messages `set` and `state`
+// are read and written.
 
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string_view>
 #include <type_traits>
@@ -16,7 +17,7 @@ namespace oval4d::session {
 
 /// The names of a setting.
 struct SettingName {
-    std::string_view text;    ///< on the ':' line and in queries
+    std::string_view text;    ///< on the page's command line and in queries
     std::string_view object;  ///< in messages: the object that contains it, such as "camera"; empty for the message
     std::string_view member;  ///< in messages: its name in this object
 };
@@ -34,6 +35,13 @@ struct CheckedByApplySet {};
 /// The accessor of a setting that states do not have, because it changes other settings.
 struct NotInState {};
 
+/// What sets a setting back to its initial value.
+enum class SetBack : std::uint8_t {
+    never,              ///< nothing: it belongs to the view, and stays; the spacing is scaled with the object
+    by_another_object,  ///< an object that takes the place of another one, to which the value belonged
+    by_reset,           ///< such an object, and the command `reset`
+};
+
 /// A setting. `ofSet` returns a reference to its member of a Set, a std::optional; `ofState` returns its value in a
 /// State, by reference unless the rule is CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
@@ -46,6 +54,7 @@ struct Setting {
     OfSet ofSet;
     OfState ofState;
     Rule rule;
+    SetBack setBack;
     bool forFields;  ///< whether only states with a field have it
 
     /// Returns whether it is an angle in radians, which is read with a unit.
@@ -55,7 +64,7 @@ struct Setting {
     }
 };
 template <typename OfSet, typename OfState, typename Rule>
-Setting(SettingName, OfSet, OfState, Rule, bool) -> Setting<OfSet, OfState, Rule>;
+Setting(SettingName, OfSet, OfState, Rule, SetBack, bool) -> Setting<OfSet, OfState, Rule>;
 
 /// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings that messages
 /// have in the same object follow one another.
@@ -68,66 +77,74 @@ void forEachSetting(const Visitor& visit) {
     const auto at = [](auto... members) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
-    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule,
+    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule, SetBack setBack,
                              bool forFields = false) {
-        visit(Setting{name, [given](auto& set) -> auto& { return set.*given; }, ofState, rule, forFields});
+        visit(Setting{name, [given](auto& set) -> auto& { return set.*given; }, ofState, rule, setBack, forFields});
     };
 
+    using enum SetBack;
     const auto frame = &State::referenceFrame;
-    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{});
-    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{});
-    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), CheckedByApplySet{});
-    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), NumberWithBounds{"alpha", kAngle});
-    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), NumberWithBounds{"beta", kAngle});
+    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{}, never);
+    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{},
+            never);
+    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), CheckedByApplySet{},
+            never);
+    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), NumberWithBounds{"alpha", kAngle}, never);
+    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), NumberWithBounds{"beta", kAngle}, never);
     setting({"step", "", "step"}, &Set::step, at(&State::step),
-            NumberWithBounds{"the step", {kMinStep, kTwoPi, kRadians}});
+            NumberWithBounds{"the step", {kMinStep, kTwoPi, kRadians}}, never);
 
     const auto slices = &State::slices;
-    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), CheckedByApplySet{});
-    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), CheckedByApplySet{});
-    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), CheckedByApplySet{});
-    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), CheckedByApplySet{});
-    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, CheckedByApplySet{});
+    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), CheckedByApplySet{}, never);
+    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), CheckedByApplySet{},
+            never);
+    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), CheckedByApplySet{},
+            by_reset);
+    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), CheckedByApplySet{},
+            by_reset);
+    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, CheckedByApplySet{}, never);
     setting(
         {"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); },
-        CheckedByApplySet{});
+        CheckedByApplySet{}, by_another_object);
 
     const auto look = &State::look;
-    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AcceptsAnyValue{});
-    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, CheckedByApplySet{});
+    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AcceptsAnyValue{}, never);
+    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, CheckedByApplySet{}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     setting({"azimuth", "camera", "azimuth"}, &Set::azimuth, at(look, orbit, &Orbit::azimuth),
-            NumberWithBounds{"the camera's azimuth", kOrbitAngle});
+            NumberWithBounds{"the camera's azimuth", kOrbitAngle}, never);
     setting({"elevation", "camera", "elevation"}, &Set::elevation, at(look, orbit, &Orbit::elevation),
-            NumberWithBounds{"the camera's elevation", kOrbitAngle});
+            NumberWithBounds{"the camera's elevation", kOrbitAngle}, never);
     setting({"zoom", "camera", "zoom"}, &Set::zoom, at(look, orbit, &Orbit::zoom),
-            NumberWithBounds{"the camera's zoom", {kMinZoom, kMaxZoom, ""}});
-    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AcceptsAnyValue{});
-    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AcceptsAnyValue{});
+            NumberWithBounds{"the camera's zoom", {kMinZoom, kMaxZoom, ""}}, never);
+    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AcceptsAnyValue{}, never);
+    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AcceptsAnyValue{}, never);
     const auto projection = &Look::projection;
     setting({"projection", "", "projection"}, &Set::projection, at(look, projection, &scene::ProjectionSettings::kind),
-            AcceptsAnyValue{});
+            AcceptsAnyValue{}, never);
     setting({"eye", "", "eye"}, &Set::eye, at(look, projection, &scene::ProjectionSettings::eye),
-            NumberWithBounds{"the eye", {kMinEye, kMaxEye, " circumradii"}});
+            NumberWithBounds{"the eye", {kMinEye, kMaxEye, " circumradii"}}, never);
     const auto field = &Look::field;
     setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels),
-            CheckedByApplySet{}, true);
+            CheckedByApplySet{}, by_another_object, true);
     setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside),
-            CheckedByApplySet{}, true);
-    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AcceptsAnyValue{}, true);
-    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), CheckedByApplySet{}, true);
+            CheckedByApplySet{}, by_another_object, true);
+    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
+    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), CheckedByApplySet{},
+            by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
     setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden),
-            CheckedByApplySet{});
+            CheckedByApplySet{}, by_another_object);
     setting({"faded", "", "faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded),
-            CheckedByApplySet{});
-    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), CheckedByApplySet{});
+            CheckedByApplySet{}, by_another_object);
+    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), CheckedByApplySet{},
+            by_another_object);
 
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
         const auto& [name, flag] = scene::kParts[i];
         visit(Setting{SettingName{name, "shown", name}, [i](auto& set) -> auto& { return set.parts[i]; },
-                      at(look, &Look::parts, flag), AcceptsAnyValue{}, false});
+                      at(look, &Look::parts, flag), AcceptsAnyValue{}, never, false});
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Settings and elements as text, on the ':' line and in the queries of addresses.
+// Settings and elements as text, on the page's command line and in the queries of addresses.
 
 #include <span>
 #include <string>

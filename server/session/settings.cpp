@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -153,6 +154,17 @@ Result<std::monostate> checkElement(const slicing::Object& object, const slicing
                                               std::to_string(element.index)};
 }
 
+// Sets the settings that `occasion` sets back to their values in `initial`.
+void setBack(State& state, SetBack occasion, const State& initial) {
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            if constexpr (std::is_lvalue_reference_v<decltype(setting.ofState(state))>) {
+                if (setting.setBack >= occasion) setting.ofState(state) = setting.ofState(initial);
+            }
+        }
+    });
+}
+
 }  // namespace
 
 bool isTransferFunction(std::span<const slicing::FogPoint> points) {
@@ -177,23 +189,31 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
         state.slices.spacing * (slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object));
     state.slices.spacing =
         std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
-    state.slices.focus = 0;
-    state.slices.offset = 0;
     state.ongoingTurnToward.reset();
-    state.look.cellTypes = {};
-    state.look.highlight.reset();
-    state.look.focusPoint = glm::dvec3(0);
     const fields::Field* field = slicing::fieldIn(object);
     const fields::Field* const before = slicing::fieldIn(state.source);
     const bool hasSecond = field != nullptr && field->second, hadSecond = before != nullptr && before->second;
     if (hasSecond && !hadSecond) state.look.coloring = scene::Coloring::value;
     if (hadSecond && !hasSecond && state.look.coloring == scene::Coloring::value)
         state.look.coloring = scene::Coloring::cell;
-    state.look.field =
-        field == nullptr ? slicing::FieldSettings{} : slicing::FieldSettings{{field->level}, field->inside};
+    State initial = initialState();
+    if (field != nullptr) initial.look.field = {{field->level}, field->inside};
+    setBack(state, SetBack::by_another_object, initial);
+    state.look.focusPoint = initial.look.focusPoint;  // the setting `point` is a sum of other members
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
+}
+
+void returnToInitialOrientation(State& state) {
+    state.orientation = {};
+    state.turning = false;
+    state.ongoingTurnToward.reset();
+}
+
+void reset(State& state) {
+    returnToInitialOrientation(state);
+    setBack(state, SetBack::by_reset, initialState());
 }
 
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader) {

@@ -37,10 +37,16 @@ inline constexpr double kMaxBoost = 0.999;  ///< length of ReferenceFrame::boost
 bool isTransferFunction(std::span<const slicing::FogPoint> points);
 
 /// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the
-/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets focus, offset and focus point to 0,
-/// makes all cell types fully visible, removes the highlight, resets FieldSettings to the object's defaults, and ends a
-/// turn toward an element. Error: that of `loader`, if it defers making the image; the state is then unchanged.
+/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets the settings that are
+/// SetBack::by_another_object back, those of a field to its defaults, and ends a turn toward an element. Error: that of
+/// `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
+
+/// Sets the orientation back to the initial one, and ends all motion.
+void returnToInitialOrientation(State& state);
+
+/// Does this, and sets the settings that are SetBack::by_reset back.
+void reset(State& state);
 
 /// Shows the object in another frame of reference, which must be within the bounds; does nothing if it is the same. If
 /// the slices have the spacing spanningSpacing(), as they do initially, they have it afterward, too, and the w of the

@@ -1,4 +1,5 @@
 #pragma once
+// A union-find structure of edges that coincide.
 
 #include <algorithm>
 #include <cstdint>

@@ -16,8 +16,9 @@
 
 namespace oval4d::slicing {
 
-/// The kinds of elements, ordered by dimension from 0 to 3. The points of a point cloud count as vertices.
-enum class ElementKind : std::uint8_t { vertex, edge, face, cell };
+/// The kinds of elements, ordered by dimension from 0 to 3. The points of a point cloud count as vertices. Stored
+/// sessions contain the numbers of the enumerators.
+enum class ElementKind : std::uint8_t { vertex = 0, edge = 1, face = 2, cell = 3 };
 inline constexpr auto kElementKinds = std::to_array<text::Choice<ElementKind>>({{"vertex", ElementKind::vertex},
                                                                                 {"edge", ElementKind::edge},
                                                                                 {"face", ElementKind::face},
@@ -78,9 +79,9 @@ struct ElementSources {
 void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
 
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
-/// below `w`. The section w = const of a polytope has the same combinatorial type at all w between two successive
-/// vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlane circumradii count as
-/// equal. Returns std::nullopt if there is no such vertex.
+/// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
+/// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlane circumradii
+/// count as equal. Returns std::nullopt if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 

@@ -17,8 +17,8 @@ namespace {
 
 using polytopes::Polytope;
 
-// Returns the place of a number in a sorted list that contains it.
-std::uint32_t placeIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
+// Returns the index of a number in a sorted list that contains it.
+std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
@@ -35,7 +35,7 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 // Writes the 2-faces of a cell. `vertices` and `edges` are the numbers of the cell's vertices and edges.
 void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
-    const auto pointOf = [&](std::uint32_t v) { return out.vertices[placeIn(vertices, v)] - out.vertices.front(); };
+    const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
     // The signs of the 2-faces agree with each other. They are right or all wrong, depending on which side of the cell
     // faces toward +w.
     double volume = 0;
@@ -50,8 +50,8 @@ void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::ui
         const std::size_t n = loop.size();
         const bool forward = (p.cellSigns[at] > 0) == (volume >= 0);
         for (std::size_t i = 0; i < n; ++i) {
-            out.corners.push_back(placeIn(vertices, loop[forward ? i : (n - i) % n]));
-            out.cornerEdges.push_back(placeIn(edges, p.faceEdges[face][forward ? i : n - 1 - i]));
+            out.corners.push_back(indexIn(vertices, loop[forward ? i : (n - i) % n]));
+            out.cornerEdges.push_back(indexIn(edges, p.faceEdges[face][forward ? i : n - 1 - i]));
         }
         out.faceSource.push_back(static_cast<std::uint32_t>(p.cells.size()) + face);
         out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
@@ -70,7 +70,7 @@ double addShape(const Polytope& p, const Element& element, const ElementSources&
         if (source < faces) continue;
         edges.push_back(source - faces);
         const auto [a, b] = p.edges[edges.back()];
-        out.edges.push_back({placeIn(vertices, a), placeIn(vertices, b)});
+        out.edges.push_back({indexIn(vertices, a), indexIn(vertices, b)});
         out.edgeSource.push_back(source);
     }
     if (element.kind == ElementKind::cell) addCellFaces(p, element.index, vertices, edges, out);

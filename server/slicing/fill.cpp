@@ -7,7 +7,7 @@
 
 namespace oval4d::slicing {
 
-void Fill::clear() {
+void FilledFaces::clear() {
     patches.clear();
     corners.clear();
     patchBegin.assign(1, 0);
@@ -15,13 +15,13 @@ void Fill::clear() {
     cornerBegin.assign(1, 0);
 }
 
-double Filler::Side::at(double y) const {
+double FaceFiller::Side::at(double y) const {
     if (y <= low.y) return low.x;
     if (y >= high.y) return high.x;
     return low.x + slope * (y - low.y);
 }
 
-void Filler::fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps) {
+void FaceFiller::fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps) {
     stepsLeft_ = steps;
     epsilon_ = 1e-10 * circumradius;
     out.clear();
@@ -35,8 +35,9 @@ void Filler::fill(const SliceSet& slices, double circumradius, Fill& out, std::s
     }
 }
 
-void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out) {
-    Fill::Patch patch{{}, 0, slices.faceSource[begin], begin, end, 0};
+void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                          FilledFaces& out) {
+    FilledFaces::Patch patch{{}, 0, slices.faceSource[begin], begin, end, 0};
     if (!findPlane(slices, slice, begin, end, patch)) return;
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
@@ -68,13 +69,13 @@ void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t b
 }
 
 // Subtracts `steps` from those left. Returns false, and subtracts nothing, if too few are left.
-bool Filler::spendSteps(std::size_t steps) {
+bool FaceFiller::spendSteps(std::size_t steps) {
     if (steps > stepsLeft_) return false;
     stepsLeft_ -= steps;
     return true;
 }
 
-void Filler::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, Fill& out) const {
+void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const {
     std::size_t first = 0;
     for (std::uint32_t f = begin; f < end; ++f) {
         const std::size_t size = slices.cornerBegin[f + 1] - slices.cornerBegin[f];
@@ -90,8 +91,8 @@ void Filler::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint3
 }
 
 // Finds the plane of the loops from three of their corners that are far apart. Returns false if all are collinear.
-bool Filler::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                       Fill::Patch& out) {
+bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                           FilledFaces::Patch& out) {
     points_.clear();
     glm::dvec3 area(0);  // twice the signed area vector of the loops
     const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];
@@ -122,7 +123,7 @@ bool Filler::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t 
 }
 
 // Finds the levels. Between two successive levels, no side begins, ends or crosses another.
-void Filler::findLevels() {
+void FaceFiller::findLevels() {
     levels_.clear();
     for (const Side& side : sides_) {
         levels_.push_back(side.low.y);
@@ -158,7 +159,7 @@ void Filler::findLevels() {
 
 // Sweeps upward from level to level. In the strip between two levels, the order of the sides from left to right does
 // not change. Returns the greatest absolute winding number.
-int Filler::sweep(Fill& out) {
+int FaceFiller::sweep(FilledFaces& out) {
     waiting_.resize(sides_.size());
     for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
     std::sort(waiting_.begin(), waiting_.end(),
@@ -202,7 +203,7 @@ int Filler::sweep(Fill& out) {
 
 // Sorts the active sides from left to right at height y. They are nearly sorted from the previous strip, so insertion
 // sort is fastest.
-void Filler::sortActive(double y) {
+void FaceFiller::sortActive(double y) {
     for (std::size_t i = 0; i < active_.size(); ++i) {
         const std::uint32_t side = active_[i];
         const double x = sides_[side].middle = sides_[side].at(y);
@@ -214,7 +215,7 @@ void Filler::sortActive(double y) {
 
 // Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
 // else begins a new piece.
-void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
+void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     for (Piece& piece : open_) {
         if (piece.continued || piece.positive != positive || !canContinue(piece, l, r, bottom)) continue;
@@ -237,7 +238,7 @@ void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, dou
 }
 
 // Returns whether the piece stays convex if its chains continue along these sides.
-bool Filler::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
+bool FaceFiller::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
     const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
     const auto follows = [&](const Side& before, const Side& after, double inward) {
         if (&before == &after) return true;
@@ -249,7 +250,7 @@ bool Filler::canContinue(const Piece& piece, const Side& left, const Side& right
 }
 
 // Completes a piece at height `top` and appends it to `out`, unless it is degenerate.
-void Filler::close(const Piece& piece, double top, Fill& out) const {
+void FaceFiller::close(const Piece& piece, double top, FilledFaces& out) const {
     const std::size_t first = out.corners.size();
     glm::dvec2 last(0);
     const auto add = [&](const glm::dvec2& p) {

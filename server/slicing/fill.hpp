@@ -18,11 +18,11 @@ namespace oval4d::slicing {
 /// it is not 0.
 ///
 /// A patch is a filled face. Slice i has the patches patchBegin[i] … patchBegin[i + 1] − 1. A patch consists of pieces:
-/// convex polygons that do not overlap, unless the patch is filled roughly (see Filler::fill()). Patch p has the pieces
-/// pieceBegin[p] … pieceBegin[p + 1] − 1. Piece k is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] −
-/// 1]. Seen from outside, it is counterclockwise where the winding number is positive, and clockwise where it is
-/// negative.
-struct Fill {
+/// convex polygons that do not overlap, unless the patch is filled roughly (see FaceFiller::fill()). Patch p has the
+/// pieces pieceBegin[p] … pieceBegin[p + 1] − 1. Piece k is the loop corners[cornerBegin[k]] …
+/// corners[cornerBegin[k + 1] − 1]. Seen from outside, it is counterclockwise where the winding number is positive, and
+/// clockwise where it is negative.
+struct FilledFaces {
     struct Patch {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
@@ -39,8 +39,8 @@ struct Fill {
 };
 
 /// Decomposes the faces of slices into convex polygons with a sweep line. Reuses its memory between calls. Only one
-/// thread at a time may use a filler.
-class Filler {
+/// thread at a time may use a face filler.
+class FaceFiller {
   public:
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
@@ -51,7 +51,7 @@ class Filler {
     /// most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each of its loops
     /// becomes the triangles between the sides of the loop and the mean of its corners. These triangles cover exactly
     /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are.
-    void fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps = kNoLimit);
+    void fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps = kNoLimit);
 
   private:
     // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the face's plane.
@@ -79,16 +79,17 @@ class Filler {
         glm::dvec3 origin, x, y;
     };
 
-    void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out);
-    bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill::Patch& out);
+    void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, FilledFaces& out);
+    bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                   FilledFaces::Patch& out);
     bool spendSteps(std::size_t steps);
     void findLevels();
-    int sweep(Fill& out);
-    void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, Fill& out) const;
+    int sweep(FilledFaces& out);
+    void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const;
     void sortActive(double y);
     void addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom);
     bool canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const;
-    void close(const Piece& piece, double top, Fill& out) const;
+    void close(const Piece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this are treated as 0

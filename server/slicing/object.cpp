@@ -134,8 +134,8 @@ std::size_t memoryOf(const Object& object) {
                               [](const FieldPtr& field) {
                                   std::size_t functions = 0;
                                   if (!field->isImage) {
-                                      functions = field->function->memory();
-                                      if (field->second) functions += field->second->function->memory();
+                                      functions = field->function->memoryBytes();
+                                      if (field->second) functions += field->second->function->memoryBytes();
                                   }
                                   return sizeof *field + functions + polytopes::memoryOf(*field->domain);
                               }},

@@ -50,9 +50,10 @@ const geometry::ObjectInfo& infoOf(const Object& object);
 /// Returns the numbers of vertices (or points), edges, 2-faces and cells.
 std::array<std::size_t, 4> elementCounts(const Object& object);
 
-/// Returns the image of the object: the object in the coordinates of `frame`. If `frame` is the default frame, this is
-/// the object itself; otherwise it is a new object with the serial number `serial` or, without this parameter, with a
-/// new one. The image of a field shares its functions. Takes time and memory linear in the number of elements.
+/// Returns the object in the frame of reference `frame`, that is, transformed to its coordinates. If `frame` is the
+/// default frame, this is the object itself; otherwise it is a new object with the serial number `serial` or, without
+/// this parameter, with a new one. A transformed field shares the functions of the original. Takes time and memory
+/// linear in the number of elements.
 Object imageOf(const Object& object, const geometry::ReferenceFrame& frame);
 Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
@@ -60,8 +61,8 @@ Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std:
 /// the largest |w| of the unrotated domain, so that no slice of it is empty.
 double initialSliceExtent(const Object& object);
 
-/// Returns the memory used by an object, in bytes, without its name. For the image of a field, does not count the
-/// functions, because they belong to the original field.
+/// Returns the memory used by an object, in bytes, without its name. For a field that imageOf() made, does not count
+/// the functions, because they belong to the original field.
 std::size_t memoryOf(const Object& object);
 
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.

@@ -196,16 +196,18 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
 }
 
 void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
-    std::visit(
-        Visitor{[&](const PolytopePtr& p) {
-                    archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
-                    visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
-                },
-                [&](const CloudPtr& cloud) {
-                    archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
-                },
-                [&](const FieldPtr& field) { archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory); }},
-        object);
+    std::visit(Visitor{[&](const PolytopePtr& p) {
+                           archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
+                           visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
+                       },
+                       [&](const CloudPtr& cloud) {
+                           archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile),
+                               archive(cloud->radii);
+                       },
+                       [&](const FieldPtr& field) {
+                           archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory);
+                       }},
+               object);
 }
 
 Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices, const MappedFiles& files) {

@@ -18,7 +18,7 @@ namespace oval4d::slicing {
 using MappedFiles = std::vector<fields::MappedFilePtr>;
 
 /// Encodes an object, including its name and serial number, in the byte order and number formats of this machine. The
-/// object must not be an image made by imageOf(). Overwrites `out`. Sets `files` to the files that the receiver needs.
+/// object must not have been made by imageOf(). Overwrites `out`. Sets `files` to the files that the receiver needs.
 void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 
 /// Decodes the bytes that encodeObject() wrote. The sender must be trusted, because not all bytes are validated. Throws

@@ -47,7 +47,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         glm::dmat4 toObject(1);
         if (first != kW) {
             const auto turn = geometry::Rotation::between(unitVector(first), unitVector(kW));
-            slicer_.slice(object, turn * orientation, {0, 1, slices.planes.spacing, point[first]}, slice_);
+            slicer_.sliceWithoutSurfaces(object, turn * orientation, {0, 1, slices.planes.spacing, point[first]},
+                                         slice_);
             set = &slice_;
             number = 0;
             toObject = turn.inverse().matrix();
@@ -137,7 +138,7 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
 }
 
 // Adds the edges in which the hyperplane cuts the slice's faces. The loops that were cut from one cell form one face,
-// which contains the points around which the sum of their winding numbers is not 0 (as in Fill).
+// which contains the points around which the sum of their winding numbers is not 0 (as in FilledFaces).
 void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& out) {
     const std::uint32_t begin = slices.faceBegin[slice], end = slices.faceBegin[slice + 1];
     const auto isAbove = [&](std::uint32_t v) { return distance_[v] > 0 || (distance_[v] == 0 && zeroIsAbove_); };
@@ -153,16 +154,16 @@ void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& ou
         if (crossings_.empty()) continue;
         const glm::dvec2 first = out.points[crossings_.front().point];
         glm::dvec2 along(0);
-        for (const FaceCrossing& crossing : crossings_) {
+        for (const LoopCrossing& crossing : crossings_) {
             const glm::dvec2 offset = out.points[crossing.point] - first;
             if (std::abs(offset.x) + std::abs(offset.y) > std::abs(along.x) + std::abs(along.y)) along = offset;
         }
         const int widest = std::abs(along.x) > std::abs(along.y) ? 0 : 1;
-        for (FaceCrossing& crossing : crossings_) crossing.along = out.points[crossing.point][widest];
-        std::ranges::stable_sort(crossings_, {}, &FaceCrossing::along);
+        for (LoopCrossing& crossing : crossings_) crossing.along = out.points[crossing.point][widest];
+        std::ranges::stable_sort(crossings_, {}, &LoopCrossing::along);
         int winding = 0;
         std::uint32_t from = kNone;
-        for (const FaceCrossing& crossing : crossings_) {
+        for (const LoopCrossing& crossing : crossings_) {
             if (winding == 0) from = crossing.point;
             winding += crossing.winding;
             if (winding == 0 && from != crossing.point) {

@@ -54,7 +54,8 @@ class PlanarSlicer {
                const glm::dvec4& point, PlanarSections& out);
 
   private:
-    struct FaceCrossing {
+    // A point where the loop of a face crosses the hyperplane.
+    struct LoopCrossing {
         double along = 0;         // the position along the line in which the plane meets the face
         int winding = 0;          // the change of the winding number at the crossing
         std::uint32_t point = 0;  // the index of the point of the section
@@ -73,7 +74,7 @@ class PlanarSlicer {
     std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
-    std::vector<FaceCrossing> crossings_;  // of one face
+    std::vector<LoopCrossing> crossings_;  // of one face
     bool zeroIsAbove_ = true;              // whether vertices in the hyperplane count as above it
 };
 

@@ -1,3 +1,5 @@
+// One class in one file, although it is long: its stages fill the same buffers, which no other code may see half full.
+
 #include "slicing/polytope_slicer.hpp"
 
 #include <algorithm>
@@ -36,13 +38,13 @@ void PolytopeSlicer::cutGeneral(const polytopes::Polytope& polytope, SliceSet& o
 
 bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
     touching_.clear();
-    if (anyOnPlane_ && !cutTouching(polytope, out)) return false;
+    if (anyOnPlane_ && !cutTangentPlanes(polytope, out)) return false;
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
-// Cuts separately, by the general method, the slices in hyperplanes that the polytope touches from one side. Returns
-// false if hyperplanes are so close together that more than two of them touch the polytope, within the tolerance.
-bool PolytopeSlicer::cutTouching(const polytopes::Polytope& polytope, SliceSet& out) {
+// Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
+// hyperplanes do, within the tolerance.
+bool PolytopeSlicer::cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
     allBelow_ = below_;
@@ -158,8 +160,8 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
     down_.resize(out.planes.count);
     faceSpan_.resize(faces);
     lyingIn_.resize(faces);
-    segmentBegin_.resize(faces + 1);
-    segments_.clear();
+    faceCrossingBegin_.resize(faces + 1);
+    faceCrossings_.clear();
     const std::uint32_t* vertex = polytope.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
@@ -174,11 +176,11 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
         const std::int32_t mostUpTo = (most + 1) / 2;
         faceSpan_[f] = {leastUpTo, above.to};
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
-        segmentBegin_[f] = static_cast<std::uint32_t>(segments_.size());
+        faceCrossingBegin_[f] = static_cast<std::uint32_t>(faceCrossings_.size());
         if (above.from == above.to) continue;
         if (!polytope.convexFaces || !cutConvexFace(polytope, f, above)) cutNonconvexFace(polytope, f, above, out);
     }
-    segmentBegin_[faces] = static_cast<std::uint32_t>(segments_.size());
+    faceCrossingBegin_[faces] = static_cast<std::uint32_t>(faceCrossings_.size());
     numberEdges(polytope, out);
 }
 
@@ -200,7 +202,7 @@ bool PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uin
         }
     }
     if (ascents != above.to - above.from) return false;
-    for (std::int32_t k = above.from; k < above.to; ++k) addSegment(polytope, face, k, up_[k], down_[k]);
+    for (std::int32_t k = above.from; k < above.to; ++k) addFaceCrossing(polytope, face, k, up_[k], down_[k]);
     return true;
 }
 
@@ -233,12 +235,12 @@ void PolytopeSlicer::cutNonconvexFace(const polytopes::Polytope& polytope, std::
             std::sort(crossings->begin(), crossings->end(),
                       [](const LoopCrossing& a, const LoopCrossing& b) { return a.along < b.along; });
         }
-        for (std::size_t i = 0; i < ups_.size(); ++i) addSegment(polytope, face, k, ups_[i].slot, downs_[i].slot);
+        for (std::size_t i = 0; i < ups_.size(); ++i) addFaceCrossing(polytope, face, k, ups_[i].slot, downs_[i].slot);
     }
 }
 
-void PolytopeSlicer::addSegment(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
-                                std::uint32_t up, std::uint32_t down) {
+void PolytopeSlicer::addFaceCrossing(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
+                                     std::uint32_t up, std::uint32_t down) {
     std::uint32_t edge = kNewEdge;
     const std::uint32_t a = slotPoint_[up];
     const std::uint32_t b = slotPoint_[down];
@@ -253,7 +255,7 @@ void PolytopeSlicer::addSegment(const polytopes::Polytope& polytope, std::uint32
             if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
         }
     }
-    segments_.push_back({plane, up, down, edge});
+    faceCrossings_.push_back({plane, up, down, edge});
 }
 
 void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& out) {
@@ -267,8 +269,8 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
         const std::int32_t plane = below_[polytope.edges[e][0]];
         addToDifferences(out.edgeBegin, plane, plane + 1);
     }
-    for (const Segment& segment : segments_) {
-        if (segment.edge == kNewEdge) addToDifferences(out.edgeBegin, segment.plane, segment.plane + 1);
+    for (const FaceCrossing& crossing : faceCrossings_) {
+        if (crossing.edge == kNewEdge) addToDifferences(out.edgeBegin, crossing.plane, crossing.plane + 1);
     }
     const std::uint32_t total = toRangeBegins(out.edgeBegin);
     out.edges.resize(total);
@@ -286,12 +288,12 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
         sliceEdgeOf_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
     }
     for (std::uint32_t f = 0; f < faces; ++f) {
-        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
-            Segment& segment = segments_[i];
-            if (segment.edge == kNone) continue;
-            segment.edge = segment.edge == kNewEdge
-                               ? add(segment.plane, slotPoint_[segment.up], slotPoint_[segment.down], f)
-                               : sliceEdgeOf_[segment.edge];
+        for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
+            FaceCrossing& crossing = faceCrossings_[i];
+            if (crossing.edge == kNone) continue;
+            crossing.edge = crossing.edge == kNewEdge
+                                ? add(crossing.plane, slotPoint_[crossing.up], slotPoint_[crossing.down], f)
+                                : sliceEdgeOf_[crossing.edge];
         }
     }
 }
@@ -309,7 +311,8 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
         cellSpan_[c] = span;
     }
     stands_.assign(cells, true);
-    for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c) stands_[c] = lowestSectionCollapsesOntoFaces(polytope, c, out);
+    for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c)
+        stands_[c] = lowestSectionCollapsesOntoFaces(polytope, c, out);
     loops_.clear();
     loopCorners_.clear();
     coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
@@ -324,13 +327,14 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
 }
 
 // Requires that numberEdges() has run.
-bool PolytopeSlicer::lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+bool PolytopeSlicer::lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell,
+                                                     const SliceSet& out) const {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     for (const std::uint32_t f : polytope.cells[cell]) {
-        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
-            const Segment& segment = segments_[i];
-            if (segment.plane >= cellSpan_[cell].from) break;  // the segments of a 2-face are sorted by hyperplane
-            if (segment.edge != kNone && out.edgeSource[segment.edge] < faces) return false;
+        for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
+            const FaceCrossing& crossing = faceCrossings_[i];
+            if (crossing.plane >= cellSpan_[cell].from) break;  // the crossings of a 2-face are sorted by hyperplane
+            if (crossing.edge != kNone && out.edgeSource[crossing.edge] < faces) return false;
         }
     }
     return true;
@@ -344,13 +348,13 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
     for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
         const std::uint32_t f = polytope.cells.items[at];
         const bool outward = polytope.cellSigns[at] > 0;
-        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
-            const Segment& segment = segments_[i];
-            if (segment.plane < span.from && stands_[cell]) continue;  // see addLyingFaces()
-            const std::uint32_t from = outward ? segment.up : segment.down;
-            next_[from] = outward ? segment.down : segment.up;
-            nextEdge_[from] = segment.edge;
-            starts_.emplace_back(segment.plane, from);
+        for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
+            const FaceCrossing& crossing = faceCrossings_[i];
+            if (crossing.plane < span.from && stands_[cell]) continue;  // see addLyingFaces()
+            const std::uint32_t from = outward ? crossing.up : crossing.down;
+            next_[from] = outward ? crossing.down : crossing.up;
+            nextEdge_[from] = crossing.edge;
+            starts_.emplace_back(crossing.plane, from);
         }
     }
     for (const auto& [plane, start] : starts_) {

@@ -34,7 +34,7 @@ class PolytopeSlicer {
   private:
     static constexpr std::int32_t kNoPlane = -1;
     static constexpr std::uint32_t kNone = 0xffffffffU;
-    static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see Segment
+    static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see FaceCrossing
 
     // The hyperplanes with the indices in [from, to). None if to ≤ from.
     struct Span {
@@ -45,7 +45,7 @@ class PolytopeSlicer {
     // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
     // down into the hyperplane. Until numberEdges() runs, `edge` is instead kNewEdge or, if the segment moves to an
     // edge of the polytope in the hyperplane, the index of this edge.
-    struct Segment {
+    struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
         std::uint32_t edge;
@@ -68,16 +68,16 @@ class PolytopeSlicer {
     void cutGeneral(const polytopes::Polytope& polytope, SliceSet& out);
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
-    bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
-    // Cuts only the slice in hyperplane `plane` of `all`, and writes it to `single`. During the call, the rotated
-    // vertices of `all` are moved to `single`.
+    bool cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out);
+    // Cuts one slice: that of the hyperplane with the index `plane` in `all.planes`. Writes it to `single`. Borrows
+    // `all.rotatedVertices` and returns them at the end.
     void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
     void cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
-    void addSegment(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
-                    std::uint32_t down);
+    void addFaceCrossing(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+                         std::uint32_t down);
     void numberEdges(const polytopes::Polytope& polytope, SliceSet& out);
     // Returns whether the whole edge lies in a hyperplane.
     bool liesInHyperplane(const std::array<std::uint32_t, 2>& edge) const {
@@ -89,7 +89,8 @@ class PolytopeSlicer {
     // moved into the hyperplane, collapses onto the borders of the cell's 2-faces that lie there, or to nothing if none
     // does. If not, the cell itself nearly lies in the hyperplane. Returns true for a cell without vertices in a
     // hyperplane below it.
-    bool lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
+    bool lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell,
+                                         const SliceSet& out) const;
     void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
     void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
     bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
@@ -100,7 +101,7 @@ class PolytopeSlicer {
     ConvexSlicer convexSlicer_;
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
     std::vector<SliceSet*> touching_;               // per hyperplane: an element of singles_, or null
-    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTouching()
+    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTangentPlanes()
     // Per vertex: the number of hyperplanes strictly below it, and the number of hyperplanes below or through it. The
     // numbers differ if the vertex lies in a hyperplane; the index of this hyperplane is below_.
     std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_
@@ -109,10 +110,10 @@ class PolytopeSlicer {
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
     // is slotBegin_[e] + k − below_[lower end]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
-    std::vector<std::uint32_t> lyingEdges_;   // edges that lie in a hyperplane
-    std::vector<std::uint32_t> sliceEdgeOf_;  // per edge that lies in a hyperplane: its slice edge
-    std::vector<Segment> segments_;           // the segments of 2-face f begin at segmentBegin_[f]
-    std::vector<std::uint32_t> segmentBegin_;
+    std::vector<std::uint32_t> lyingEdges_;    // edges that lie in a hyperplane
+    std::vector<std::uint32_t> sliceEdgeOf_;   // per edge that lies in a hyperplane: its slice edge
+    std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
+    std::vector<std::uint32_t> faceCrossingBegin_;
     std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with its vertices on both sides
     std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> stands_;               // per cell: lowestSectionCollapsesOntoFaces()

@@ -35,11 +35,10 @@ struct SectionNames {
 /// in the process takes 5 ms longer. Repeated calls allocate no memory. Only one thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// Returns false if the section of `object`, rotated by `orientation`, at this w certainly has no name. Sections of
-    /// point clouds and fields never have one. Let n be the number of vertices of a polytope in the hyperplane, and m
-    /// the number of its edges that cross the hyperplane. The section may have a name only if n or n + m is between 1
-    /// and the largest number of vertices of a named shape. Takes time linear in the number of edges, much less than
-    /// cutting the slice.
+    /// A quick test: returns false if the section of `object`, rotated by `orientation`, at w cannot have a name.
+    /// Counts the vertices in the hyperplane (n) and the edges that cross it (m); if neither n nor n + m is from 1 to
+    /// the vertex count of the largest named shape, there is no name. Always false for point clouds and fields. Linear
+    /// in the number of edges; does not cut the slice.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.

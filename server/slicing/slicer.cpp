@@ -20,8 +20,8 @@ void Slicer::slice(const Object& object, const geometry::Rotation& orientation, 
         object);
 }
 
-void Slicer::slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
-                   SliceSet& out) {
+void Slicer::sliceWithoutSurfaces(const Object& object, const geometry::Rotation& orientation,
+                                  const geometry::Hyperplanes& planes, SliceSet& out) {
     slice(object, orientation, planes, {}, {}, out);
 }
 

@@ -28,9 +28,9 @@ class Slicer {
     void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 
-    /// Slices `object` like the function above, but without the surfaces and the fog of a field.
-    void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
-               SliceSet& out);
+    /// Slices `object` like slice(), but without the surfaces and the fog of a field.
+    void sliceWithoutSurfaces(const Object& object, const geometry::Rotation& orientation,
+                              const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
     PolytopeSlicer polytopes_;

@@ -1,17 +1,22 @@
 #include "store/object_codec.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
-#include "slicing/visitor.hpp"
 #include "store/cbor.hpp"
 #include "text/message_text.hpp"
 
@@ -48,35 +53,6 @@ std::vector<glm::dvec4> verticesIn(const json& value) {
         vertices.emplace_back(readNumber(v.at(0), kMaxCoordinate), readNumber(v.at(1), kMaxCoordinate),
                               readNumber(v.at(2), kMaxCoordinate), readNumber(v.at(3), kMaxCoordinate));
     return vertices;
-}
-
-// Decodes [version, name, vertices, 2-faces, cells, the type of each cell].
-slicing::Object polytopeIn(const json& value, const glm::dvec4& originInFile) {
-    geometry::JaggedArray cells = arrayIn(value.at(4));
-    std::vector<std::uint32_t> typeOfCell = readIntegers(value.at(5));
-    if (typeOfCell.size() != cells.size()) throwUnreadable("the numbers of cells and of their types differ");
-    try {
-        Polytope polytope = polytopes::makePolytope(readShortText(value.at(1)), verticesIn(value.at(2)),
-                                                    arrayIn(value.at(3)), std::move(cells), std::move(typeOfCell));
-        polytope.originInFile = originInFile;
-        return std::make_shared<const Polytope>(std::move(polytope));
-    } catch (const polytopes::InvalidPolytope& fault) {
-        throwUnreadable(std::string("a polytope is not valid: ") + fault.what());
-    }
-}
-
-// Decodes [version, name, points, radii].
-slicing::Object cloudIn(const json& value, const glm::dvec4& originInFile) {
-    std::vector<double> radii;
-    for (const json& radius : value.at(3)) radii.push_back(readNumber(radius, 0, kMaxCoordinate));
-    try {
-        geometry::PointCloud cloud =
-            geometry::makePointCloud(readShortText(value.at(1)), verticesIn(value.at(2)), std::move(radii));
-        cloud.originInFile = originInFile;
-        return std::make_shared<const geometry::PointCloud>(std::move(cloud));
-    } catch (const std::invalid_argument& fault) {
-        throwUnreadable(std::string("a point cloud is not valid: ") + fault.what());
-    }
 }
 
 // Encodes samples as 32-bit floats in the byte order of x86-64.
@@ -117,111 +93,183 @@ void readSecond(const json& second, const json& shape, fields::Field& field) {
     if (error) throwUnreadable("a field is not valid: " + error->message);
 }
 
-// Decodes [version, name, formula or samples, box, shape, second function, "field"]; the shape of a formula is empty.
-// The last two are absent if there is no second function.
-slicing::Object fieldIn(const json& value) {
-    const std::vector<glm::dvec4> box = verticesIn(value.at(3));
-    if (box.size() != 2) throwUnreadable("a box does not have two corners");
-    const std::string name = readShortText(value.at(1));
-    const json &source = value.at(2), &shape = value.at(4);
-    const bool hasSecond = value.size() > 5, isFormula = source.is_string();
-    auto field = isFormula ? fields::fieldFromFormula(name, source.get<std::string>(), {box[0], box[1]},
-                                                      hasSecond ? value.at(5).get<std::string>() : std::string())
-                           : fields::fieldFromArray(name, arrayIn(source.get_binary(), {box[0], box[1]}, shape));
-    if (!field) throwUnreadable("a field is not valid: " + field.error().message);
-    if (hasSecond && !isFormula) readSecond(value.at(5), shape, *field);
-    return std::make_shared<const fields::Field>(std::move(*field));
-}
-
-// A record of a file in the data folder is an array of this many members, as its first byte says; see RFC 8949.
-constexpr std::size_t kFileMembers = 3;
-constexpr char kFileRecord = static_cast<char>(0x80 + kFileMembers);
-
-// Encodes [version, name, [path, format, axes, variable, formula and variable of the values, box or null]].
-json encoded(const std::string& name, const fields::FileSource& source) {
+// Encodes [path, format, axes, variable, formula and variable of the values, box or null].
+json encoded(const fields::FileSource& source) {
     const auto& [path, format, axes, variable, values, valuesVariable, box] = source;
-    return json({kRecordVersion, name,
-                 json::array({path, format, axes, variable, values, valuesVariable,
-                              box ? encoded({box->min, box->max}) : json()})});
+    return json::array({path, format, axes, variable, values, valuesVariable,
+                        box ? encoded(std::vector{box->min, box->max}) : json()});
 }
 
-slicing::Object fileIn(const json& value, const FileOpener& open) {
-    const json& source = value.at(2);
+fields::Box boxIn(const json& value) {
+    const std::vector<glm::dvec4> corners = verticesIn(value);
+    if (corners.size() != 2) throwUnreadable("a box does not have two corners");
+    return {corners[0], corners[1]};
+}
+
+slicing::Object openFile(const std::string& name, const json& source, const FileOpener& open) {
     session::LoadObject load;
-    load.name = readShortText(value.at(1));
+    load.name = name;
     load.path = source.at(0).get<std::string>();
     load.format = source.at(1).get<std::string>();
     load.axes = source.at(2).get<std::string>();
     load.variable = source.at(3).get<std::string>();
     load.values = source.at(4).get<std::string>();
     load.valuesVariable = source.at(5).get<std::string>();
-    if (!source.at(6).is_null()) {
-        const std::vector<glm::dvec4> box = verticesIn(source.at(6));
-        if (box.size() != 2) throwUnreadable("a box does not have two corners");
-        load.box = fields::Box{box[0], box[1]};
-    }
+    if (!source.at(6).is_null()) load.box = boxIn(source.at(6));
     const auto object = open ? open(load) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
         throwUnreadable("its field " + text::inQuotes(load.path) + " cannot be read: " + object.error().message);
     return *object;
 }
 
-// A record of an object that was moved when it was loaded has this many members: [version, [origin in the file, the
-// record of the object]]. Records of all other objects have more.
-constexpr std::size_t kMovedMembers = 2;
-constexpr std::size_t kCloudMembers = 4, kPolytopeMembers = 6;
+// --- The record of each kind of object
+//
+// A record is an array that begins with [version, name]. Its length tells which kind of object it contains, so that
+// servers of earlier versions read it, too. A kind that lacks a RecordOf, or has the length of another one, does not
+// compile.
+
+template <typename ObjectPtr>
+struct RecordOf;
+
+template <>
+struct RecordOf<slicing::PolytopePtr> {
+    static constexpr std::array<std::size_t, 1> kLengths{6};
+
+    // [version, name, vertices, 2-faces, cells, the type of each cell]
+    static json encode(const Polytope& p) {
+        return json({kRecordVersion, p.name, encoded(p.vertices), rows(p.faces), rows(p.cells), p.typeOfCell});
+    }
+
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& /*open*/) {
+        geometry::JaggedArray cells = arrayIn(value.at(4));
+        std::vector<std::uint32_t> typeOfCell = readIntegers(value.at(5));
+        if (typeOfCell.size() != cells.size()) throwUnreadable("the numbers of cells and of their types differ");
+        try {
+            Polytope polytope = polytopes::makePolytope(readShortText(value.at(1)), verticesIn(value.at(2)),
+                                                        arrayIn(value.at(3)), std::move(cells), std::move(typeOfCell));
+            polytope.originInFile = originInFile;
+            return std::make_shared<const Polytope>(std::move(polytope));
+        } catch (const polytopes::InvalidPolytope& fault) {
+            throwUnreadable(std::string("a polytope is not valid: ") + fault.what());
+        }
+    }
+};
+
+template <>
+struct RecordOf<slicing::CloudPtr> {
+    static constexpr std::array<std::size_t, 1> kLengths{4};
+
+    // [version, name, points, radii]
+    static json encode(const geometry::PointCloud& cloud) {
+        return json({kRecordVersion, cloud.name, encoded(cloud.points), cloud.radii});
+    }
+
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& /*open*/) {
+        std::vector<double> radii;
+        for (const json& radius : value.at(3)) radii.push_back(readNumber(radius, 0, kMaxCoordinate));
+        try {
+            geometry::PointCloud cloud =
+                geometry::makePointCloud(readShortText(value.at(1)), verticesIn(value.at(2)), std::move(radii));
+            cloud.originInFile = originInFile;
+            return std::make_shared<const geometry::PointCloud>(std::move(cloud));
+        } catch (const std::invalid_argument& fault) {
+            throwUnreadable(std::string("a point cloud is not valid: ") + fault.what());
+        }
+    }
+};
+
+template <>
+struct RecordOf<slicing::FieldPtr> {
+    static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7;
+    static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond};
+
+    // [version, name, file in the data folder], or [version, name, formula or samples, box, shape], where the shape of
+    // a formula is empty; if there is a second function, followed by it and "field".
+    static json encode(const fields::Field& field) {
+        if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
+        const fields::Box& box = field.array ? field.array->box() : field.box;
+        json record({kRecordVersion, field.name, field.array ? binary(field.array->samples()) : json(field.formula),
+                     encoded(std::vector{box.min, box.max}), field.array ? json(field.array->shape()) : json::array()});
+        if (field.second) {
+            record.push_back(encoded(*field.second));
+            record.push_back("field");
+        }
+        return record;
+    }
+
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& open) {
+        if (originInFile != glm::dvec4(0)) throwUnreadable("a field cannot be moved");
+        const std::string name = readShortText(value.at(1));
+        const json& source = value.at(2);
+        if (value.size() == kFileLength) return openFile(name, source, open);
+        const fields::Box box = boxIn(value.at(3));
+        const json& shape = value.at(4);
+        const bool hasSecond = value.size() == kLengthWithSecond, isFormula = source.is_string();
+        auto field = isFormula ? fields::fieldFromFormula(name, source.get<std::string>(), box,
+                                                          hasSecond ? value.at(5).get<std::string>() : std::string())
+                               : fields::fieldFromArray(name, arrayIn(source.get_binary(), box, shape));
+        if (!field) throwUnreadable("a field is not valid: " + field.error().message);
+        if (hasSecond && !isFormula) readSecond(value.at(5), shape, *field);
+        return std::make_shared<const fields::Field>(std::move(*field));
+    }
+};
+
+// The record of an object that was moved when it was loaded: [version, [origin in the file, record of the object]].
+constexpr std::size_t kMovedLength = 2;
 
 json encodedWithOrigin(const glm::dvec4& originInFile, json record) {
     if (originInFile == glm::dvec4(0)) return record;
     return json({kRecordVersion, json::array({encoded(std::vector{originInFile}), std::move(record)})});
 }
 
+template <typename... Kinds>
+consteval bool lengthsDiffer(std::type_identity<std::variant<Kinds...>> /*kinds*/) {
+    std::vector<std::size_t> lengths{kMovedLength};
+    (lengths.insert(lengths.end(), RecordOf<Kinds>::kLengths.begin(), RecordOf<Kinds>::kLengths.end()), ...);
+    std::ranges::sort(lengths);
+    return std::ranges::adjacent_find(lengths) == lengths.end();
+}
+static_assert(lengthsDiffer(std::type_identity<slicing::Object>()));
+
+/// Decodes the record of an object of one of these kinds.
+template <typename... Kinds>
+slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/, const json& record,
+                            const glm::dvec4& originInFile, const FileOpener& open) {
+    std::optional<slicing::Object> object;
+    const auto decodeIfLengthMatches = [&]<typename Kind>(std::type_identity<Kind> /*kind*/) {
+        if (std::ranges::find(RecordOf<Kind>::kLengths, record.size()) != RecordOf<Kind>::kLengths.end())
+            object = RecordOf<Kind>::decode(record, originInFile, open);
+    };
+    (decodeIfLengthMatches(std::type_identity<Kinds>()), ...);
+    if (!object)
+        throwUnreadable("there is no kind of object with a record of " + std::to_string(record.size()) + " members");
+    return std::move(*object);
+}
+
 }  // namespace
 
-bool namesFile(std::string_view record) { return record.starts_with(kFileRecord); }
+bool namesFile(std::string_view record) {
+    // The first byte of an array tells its length if it is less than 24 (RFC 8949, section 3.1).
+    constexpr char kFileRecord = static_cast<char>(0x80 + RecordOf<slicing::FieldPtr>::kFileLength);
+    return record.starts_with(kFileRecord);
+}
 
 std::string encodeObjectRecord(const slicing::Object& object) {
-    const slicing::Visitor encode{
-        [](const slicing::PolytopePtr& p) {
-            return encodedWithOrigin(p->originInFile, json({kRecordVersion, p->name, encoded(p->vertices),
-                                                            rows(p->faces), rows(p->cells), p->typeOfCell}));
+    return std::visit(
+        []<typename Kind>(const Kind& data) {
+            return encodeCbor(encodedWithOrigin(slicing::infoOf(data).originInFile, RecordOf<Kind>::encode(*data)));
         },
-        [](const slicing::CloudPtr& cloud) {
-            return encodedWithOrigin(cloud->originInFile,
-                                     json({kRecordVersion, cloud->name, encoded(cloud->points), cloud->radii}));
-        },
-        [](const slicing::FieldPtr& field) {
-            if (field->source) return encoded(field->name, *field->source);
-            const fields::Box& box = field->array ? field->array->box() : field->box;
-            json record({kRecordVersion, field->name,
-                         field->array ? binary(field->array->samples()) : json(field->formula),
-                         encoded({box.min, box.max}), field->array ? json(field->array->shape()) : json::array()});
-            if (field->second) {
-                record.push_back(encoded(*field->second));
-                record.push_back("field");
-            }
-            return record;
-        }};
-    return encodeCbor(std::visit(encode, object));
+        object);
 }
 
 slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open) {
     return translatingErrors([&] {
-        json value = parseRecord(bytes);
-        glm::dvec4 originInFile(0);
-        if (value.size() == kMovedMembers) {
-            const std::vector<glm::dvec4> origins = verticesIn(value.at(1).at(0));
-            if (origins.size() != 1) throwUnreadable("an object does not have one origin");
-            originInFile = origins.front();
-            value = json(value.at(1).at(1));
-            if (value.size() != kCloudMembers && value.size() != kPolytopeMembers)
-                throwUnreadable("an object with an origin is neither a polytope nor a point cloud");
-        }
-        if (value.size() == kFileMembers) return fileIn(value, open);
-        const bool isField = value.size() == 5 || value.size() == 7;
-        return value.size() == kCloudMembers ? cloudIn(value, originInFile)
-               : isField                     ? fieldIn(value)
-                                             : polytopeIn(value, originInFile);
+        const json value = parseRecord(bytes);
+        constexpr std::type_identity<slicing::Object> kKinds;
+        if (value.size() != kMovedLength) return decodeOneOf(kKinds, value, glm::dvec4(0), open);
+        const std::vector<glm::dvec4> origins = verticesIn(value.at(1).at(0));
+        if (origins.size() != 1) throwUnreadable("an object does not have one origin");
+        return decodeOneOf(kKinds, value.at(1).at(1), origins.front(), open);
     });
 }
 

@@ -154,10 +154,12 @@ void RedisStore::connect() {
     saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
     hashScript_ = textOf(*ask({"SCRIPT", "LOAD", kHash}));
     removeScript_ = textOf(*ask({"SCRIPT", "LOAD", kRemove}));
-    detectOlderServers();
+    updatePlainTokenDeadline();
 }
 
-void RedisStore::detectOlderServers() {
+// Sets the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same
+// Redis: the expiry time after such servers were first noticed, or no time if there are none.
+void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});
     if (known->elements != 1 || known->element[0]->integer == 0) return;

@@ -48,7 +48,7 @@ class RedisStore final : public Store {
     Reply receive();
     Reply ask(const Arguments& command);
     Reply ask(const std::string& script, const std::string& id, const Arguments& arguments);
-    void detectOlderServers();
+    void updatePlainTokenDeadline();
     bool storesPlainTokens() const;
 
     std::string host_, user_, password_, database_;
@@ -57,7 +57,7 @@ class RedisStore final : public Store {
     const std::string self_;  // random name of this server in Redis
     std::unique_ptr<redisContext, Closer> context_;
     std::string claimScript_, saveScript_, hashScript_, removeScript_;  // SHA-1 digests of the loaded scripts
-    // Until this time, tokens are also stored as plain text, for servers of version 0.1.0.
+    // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.
     std::chrono::steady_clock::time_point plainUntil_;
     std::size_t size_ = 0;
 };

@@ -51,7 +51,7 @@ class IdScan {
     Database& from_;
 };
 
-struct Row {
+struct SalvagedSession {
     std::string tokenHash, whole, head;
     std::int64_t fence = 0, touched = 0, changed = 1;
     std::vector<std::pair<std::string, std::string>> objects;
@@ -59,36 +59,36 @@ struct Row {
 
 /// Reads a session; returns nothing if it is missing or damaged. `hashed`: whether the file has the schema of version
 /// 2, with hashed tokens and digests.
-std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
+std::optional<SalvagedSession> readSession(Database& from, bool hashed, const std::string& id) {
     Statement session(from, hashed
                                 ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
                                   "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
                                 : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
     if (!session.text(id).row()) return std::nullopt;
-    Row row{session.bytesAt(0),
-            session.bytesAt(1),
-            session.bytesAt(2),
-            session.numberAt(3),
-            session.numberAt(4),
-            session.numberAt(5),
-            {}};
+    SalvagedSession salvaged{session.bytesAt(0),
+                             session.bytesAt(1),
+                             session.bytesAt(2),
+                             session.numberAt(3),
+                             session.numberAt(4),
+                             session.numberAt(5),
+                             {}};
     Statement polytopes(
         from, hashed ? "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?"
                      : "SELECT key, bytes, 1 FROM polytope WHERE session = ?");
     polytopes.text(id);
     while (polytopes.row()) {
         if (polytopes.numberAt(2) == 0) return std::nullopt;
-        row.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
+        salvaged.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
     }
-    return row;
+    return salvaged;
 }
 
-void insert(Database& to, const std::string& id, const Row& row) {
+void insert(Database& to, const std::string& id, const SalvagedSession& salvaged) {
     Statement session(
         to, "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
-    session.text(id).text(row.tokenHash).number(row.fence).number(row.touched).number(row.changed);
-    session.blob(row.whole).blob(row.head).row();
-    for (const auto& [key, bytes] : row.objects) {
+    session.text(id).text(salvaged.tokenHash).number(salvaged.fence).number(salvaged.touched).number(salvaged.changed);
+    session.blob(salvaged.whole).blob(salvaged.head).row();
+    for (const auto& [key, bytes] : salvaged.objects) {
         Statement polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
         polytope.text(id).text(key).blob(bytes).row();
     }
@@ -108,24 +108,24 @@ bool isHashed(Database& from) {
 SalvageResult salvage(Database& from, Database& to) {
     const IdScan ids(from);
     const bool hashed = isHashed(from);
-    SalvageResult salvaged{0, {}, ids.complete};
+    SalvageResult result{0, {}, ids.complete};
     for (const std::string& id : ids.found) {
-        std::optional<Row> row;
+        std::optional<SalvagedSession> session;
         try {
-            row = rowOf(from, hashed, id);
+            session = readSession(from, hashed, id);
         } catch (const StoreError&) {
-            row.reset();  // the session is on a damaged page
+            session.reset();  // the session is on a damaged page
         }
-        if (!row) {
-            salvaged.lost.insert(id);
+        if (!session) {
+            result.lost.insert(id);
             continue;
         }
         Transaction one(to);
-        insert(to, id, *row);
+        insert(to, id, *session);
         one.commit();
-        ++salvaged.saved;
+        ++result.saved;
     }
-    return salvaged;
+    return result;
 }
 
 }  // namespace oval4d::store

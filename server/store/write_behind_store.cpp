@@ -1,15 +1,13 @@
+// The functions of the store's thread and those of its callers are in one file, although it is long, because they share
+// one lock.
+
 #include "store/write_behind_store.hpp"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <tuple>
 #include <utility>
 
-#include "store/codec.hpp"
-#include "store/object_codec.hpp"
 #include "store/secret.hpp"
 
 namespace oval4d::store {
@@ -19,36 +17,15 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t kIdBytes = 10, kTokenBytes = 20, kKeyBytes = 10;
+constexpr std::size_t kIdBytes = 10, kTokenBytes = 20;
 constexpr std::size_t kBatch = 256;                         // maximum number of sessions in one write
 constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // once a write has this size, no session is added
 constexpr auto kPollInterval = 500ms;
-constexpr auto kMinRetryPause = 100ms, kMaxRetryPause = 5000ms;  // between attempts while the store is unavailable
 constexpr auto kMaxRefreshInterval = 60s;
 
 const Error kNotFound{ErrorCode::not_found, "there is no such session; it may have expired"};
 const Error kBadToken{ErrorCode::bad_token, "this token does not open the session"};
 const Error kNoAnswer{ErrorCode::internal, "this session cannot be opened right now; try again"};
-
-/// Returns an estimate of a session's memory in bytes, including objects that it shares with other sessions.
-std::size_t bytesOf(const Session& session) {
-    std::map<const void*, const slicing::Object*> objects;
-    std::size_t bytes = sizeof session;
-    const auto addObject = [&](const slicing::Object& object) {
-        objects.try_emplace(slicing::identityOf(object), &object);
-    };
-    const auto add = [&](const session::State& state) {
-        for (const slicing::Object* object : state.objects()) addObject(*object);
-        bytes += sizeof state +
-                 (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size()) * sizeof(std::uint32_t);
-    };
-    for (const slicing::Object* object : session.current.objects()) addObject(*object);
-    for (const session::State& state : session.undoSteps) add(state);
-    for (const session::State& state : session.redoSteps) add(state);
-    for (const auto& [name, object] : session.loaded) addObject(object);
-    for (const auto& [identity, object] : objects) bytes += slicing::memoryOf(*object);
-    return bytes;
-}
 
 }  // namespace
 
@@ -59,7 +36,6 @@ WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settin
       settings_(settings),
       listener_(std::move(listener)),
       now_(std::move(now)),
-      random_(std::random_device{}()),
       thread_([this] { run(); }) {}
 
 WriteBehindStore::~WriteBehindStore() { stop(0ms); }
@@ -73,11 +49,11 @@ void WriteBehindStore::stop(Milliseconds limit) {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
-    decltype(cached_) cached;
+    CachedSessions cached;
     decltype(tasks_) tasks;
     {
         const std::lock_guard lock(mutex_);
-        cached.swap(cached_);
+        std::swap(cached, cached_);
         tasks.swap(tasks_);
     }
 }
@@ -85,7 +61,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
 SessionCredentials WriteBehindStore::create() {
     SessionCredentials credentials{randomName(kIdBytes), randomName(kTokenBytes)};
     const std::lock_guard lock(mutex_);
-    cached_[credentials.id].credentials = credentials;
+    cached_.add(credentials);
     ++created_;
     return credentials;
 }
@@ -101,23 +77,19 @@ void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(
 
 void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     const std::lock_guard lock(mutex_);
-    tasks_.emplace_back([this, id, keys = std::move(keys)] {
-        ObjectKeys& stored = keys_[id];
-        stored.clear();
-        for (const auto& [serial, key] : keys) stored[serial] = {key, true};
-    });
+    tasks_.emplace_back([this, id, keys = std::move(keys)] { objects_.setStored(id, keys); });
 }
 
 void WriteBehindStore::save(const std::string& id, Session value, SaveScope scope, Written written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = cached_.find(id); found != cached_.end()) {
+        if (CachedSession* const cached = cached_.find(id)) {
             ours = true;
-            CachedSession& cached = found->second;
-            (scope == SaveScope::head ? cached.head : cached.whole) = std::make_shared<const Session>(std::move(value));
-            enqueue(id, cached);
-            if (lastError_.empty() && written) cached.waiting.push_back(std::exchange(written, nullptr));
+            auto& [head, whole, waiting] = cached->pending;
+            (scope == SaveScope::head ? head : whole) = std::make_shared<const Session>(std::move(value));
+            cached_.enqueue(id, *cached);
+            if (lastError_.empty() && written) waiting.push_back(std::exchange(written, nullptr));
         }
     }
     wake_.notify_one();
@@ -125,73 +97,44 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
 }
 
 void WriteBehindStore::close(const std::string& id, Session value) {
-    const std::size_t bytes = bytesOf(value);
-    std::vector<CachedSession> evicted;
+    const std::size_t bytes = estimateMemory(value);
+    std::vector<std::pair<std::string, CachedSession>> evicted;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = cached_.find(id);
-        if (found == cached_.end()) return;
-        CachedSession& cached = found->second;
-        cached.whole = std::make_shared<const Session>(std::move(value));
-        cached.closed = true;
-        cached.closedAt = now_();
-        cached.bytes = bytes;
-        enqueue(id, cached);
-        if (!lastError_.empty()) evicted = evictClosed();
+        CachedSession* const cached = cached_.find(id);
+        if (cached == nullptr) return;
+        cached->pending.whole = std::make_shared<const Session>(std::move(value));
+        cached->closed = true;
+        cached->closedAt = now_();
+        cached->bytes = bytes;
+        cached_.enqueue(id, *cached);
+        if (!lastError_.empty()) evicted = cached_.evictClosed(settings_.quota);
+        for (const auto& [other, session] : evicted) tasks_.emplace_back([this, other = other] { dropKeys(other); });
+        if (!evicted.empty()) created_ = cached_.neverSaved();
     }
     if (!evicted.empty())
         spdlog::warn("sessions evicted from memory while the store is unavailable count={}", evicted.size());
-    for (const CachedSession& cached : evicted) {
-        for (const Written& written : cached.waiting) written(false);
+    for (const auto& [other, session] : evicted) {
+        for (const Written& written : session.pending.waiting) written(false);
     }
     wake_.notify_one();
-}
-
-/// Removes closed sessions from memory until the remaining ones fit within the quota, and returns the removed ones.
-/// Removes sessions that were never changed first, then those that were closed first. Skips sessions that are being
-/// written.
-std::vector<WriteBehindStore::CachedSession> WriteBehindStore::evictClosed() {
-    std::size_t bytes = 0;
-    std::vector<decltype(cached_)::iterator> closed;
-    for (auto entry = cached_.begin(); entry != cached_.end(); ++entry) {
-        const CachedSession& cached = entry->second;
-        if (!cached.closed || cached.inFlight) continue;
-        bytes += cached.bytes;
-        closed.push_back(entry);
-    }
-    std::vector<CachedSession> evicted;
-    if (bytes <= settings_.quota) return evicted;
-    std::ranges::sort(closed, {}, [](const auto& entry) {
-        return std::tuple(entry->second.whole->revision > 0, entry->second.closedAt);
-    });
-    for (const auto& entry : closed) {
-        if (bytes <= settings_.quota) break;
-        bytes -= entry->second.bytes;
-        tasks_.emplace_back([this, id = entry->first] { dropKeys(id); });
-        evicted.push_back(std::move(entry->second));
-        cached_.erase(entry);
-    }
-    recount();
-    return evicted;
 }
 
 void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back([this, id] {
-            CachedSession cached;  // destroyed without holding the lock
+            std::optional<CachedSession> removed;  // destroyed without holding the lock
             {
                 const std::lock_guard inner(mutex_);
-                const auto found = cached_.find(id);
-                if (found != cached_.end() && !found->second.closed) return;
-                if (found != cached_.end()) {
-                    cached = std::move(found->second);
-                    cached_.erase(found);
-                }
-                keys_.erase(id);
+                const CachedSession* const cached = cached_.find(id);
+                if (cached != nullptr && !cached->closed) return;
+                removed = cached_.remove(id);
+                objects_.forget(id);
                 removals_.insert(id);
             }
-            for (const Written& written : cached.waiting) written(false);
+            if (!removed) return;
+            for (const Written& written : removed->pending.waiting) written(false);
         });
     }
     wake_.notify_one();
@@ -200,12 +143,12 @@ void WriteBehindStore::remove(const std::string& id) {
 /// Drops the object keys of a session unless `cached_` contains it again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
-    if (!cached_.contains(id)) keys_.erase(id);
+    if (!cached_.contains(id)) objects_.forget(id);
 }
 
 void WriteBehindStore::discardFetched(const std::string& id) {
     const std::lock_guard lock(mutex_);
-    cached_.erase(id);
+    cached_.remove(id);
 }
 
 std::size_t WriteBehindStore::count() const {
@@ -216,10 +159,7 @@ std::size_t WriteBehindStore::count() const {
 
 std::size_t WriteBehindStore::unsaved() const {
     const std::lock_guard lock(mutex_);
-    return static_cast<std::size_t>(std::ranges::count_if(cached_, [](const auto& entry) {
-        const CachedSession& cached = entry.second;
-        return cached.head || cached.whole || cached.inFlight;
-    }));
+    return cached_.unsaved();
 }
 
 std::string WriteBehindStore::lastError() const {
@@ -227,20 +167,10 @@ std::string WriteBehindStore::lastError() const {
     return lastError_;
 }
 
-void WriteBehindStore::enqueue(const std::string& id, CachedSession& cached) {
-    if (std::exchange(cached.queued, true)) return;
-    queue_.push_back(id);
-}
-
-bool WriteBehindStore::isReadyToWrite() const { return (!queue_.empty() || !removals_.empty()) && now_() >= retryAt_; }
-
-void WriteBehindStore::recount() {
-    created_ =
-        static_cast<std::size_t>(std::ranges::count_if(cached_, [](const auto& entry) { return !entry.second.saved; }));
-}
+bool WriteBehindStore::isReadyToWrite() const { return hasPendingChanges() && now_() >= retryAt_; }
 
 WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
-    const auto next = queue_.empty() && removals_.empty() ? pollAt_ : std::min(pollAt_, retryAt_);
+    const auto next = hasPendingChanges() ? std::min(pollAt_, retryAt_) : pollAt_;
     return stopping_ ? std::min(next, stopAt_) : next;
 }
 
@@ -252,8 +182,9 @@ void WriteBehindStore::run() {
             tasks_.pop_front();
             lock.unlock();
             task();
-        } else if (stopping_ && (queue_.empty() || now_() >= stopAt_)) {
-            if (!queue_.empty()) spdlog::error("sessions not written count={} store={}", queue_.size(), name_);
+        } else if (stopping_ && (cached_.queueLength() == 0 || now_() >= stopAt_)) {
+            if (const std::size_t left = cached_.queueLength(); left > 0)
+                spdlog::error("sessions not written count={} store={}", left, name_);
             return;
         } else if (isReadyToWrite()) {
             lock.unlock();
@@ -290,29 +221,21 @@ auto WriteBehindStore::timed(const char* name, Operation operation) {
 void WriteBehindStore::storeFailed(const std::exception& fault) {
     const std::string why = fault.what();
     const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
-    if (!readable) {
-        // The store may have lost its data: all objects must be written again.
-        for (auto& [id, keys] : keys_) {
-            for (auto& [serial, object] : keys) object.stored = false;
-        }
-    }
-    // Exponential backoff with jitter.
-    const Milliseconds longest =
-        std::min<Milliseconds>(kMinRetryPause * (1 << std::min(failures_++, 10)), kMaxRetryPause);
-    const Milliseconds pause = longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
+    if (!readable) objects_.markAllLost();  // the store may have lost its data
+    const Milliseconds pause = backoff_.next();
     const std::lock_guard lock(mutex_);
     retryAt_ = pollAt_ = now_() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
-    recount();
+    created_ = cached_.neverSaved();
     if (lastError_.empty())
         spdlog::error("store unavailable, changes stay in memory until it is available again fault=\"{}\"", why);
     lastError_ = why;
 }
 
 void WriteBehindStore::storeWorked() {
+    backoff_.reset();
     {
         const std::lock_guard lock(mutex_);
-        failures_ = 0;
         if (lastError_.empty()) return;
         lastError_.clear();
     }
@@ -329,22 +252,14 @@ void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate
     while (jobs.size() < kBatch && bytes < maxBytes) {
         {
             const std::lock_guard lock(mutex_);
-            if (queue_.empty()) break;
-            const std::string id = std::move(queue_.front());
-            queue_.pop_front();
-            const auto found = cached_.find(id);
-            if (found == cached_.end()) continue;
-            CachedSession& cached = found->second;
-            cached.queued = false;
-            cached.inFlight = true;
-            jobs.push_back({id,
-                            std::exchange(cached.head, nullptr),
-                            std::exchange(cached.whole, nullptr),
-                            std::exchange(cached.waiting, {}),
-                            {}});
+            const auto id = cached_.takeQueued();
+            if (!id) break;
+            CachedSession& cached = *cached_.find(*id);
+            jobs.push_back({*id, std::exchange(cached.pending, {}), {}});
             updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
-        encode(jobs.back(), updates.back());
+        Job& job = jobs.back();
+        job.added = objects_.encode(job.id, job.changes, settings_.maxUndo, updates.back());
         bytes += store::estimateStoredSize(updates.back());
     }
 }
@@ -417,58 +332,27 @@ void WriteBehindStore::writeRemovals() {
     pollAt_ = Clock::time_point();  // poll now, to update the number of stored sessions
 }
 
-/// Encodes a job as an update. An object is written only once. It is dropped from the store when the session no longer
-/// contains it.
-void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
-    ObjectKeys& keys = keys_[job.id];
-    std::set<std::uint64_t> used;
-    const ObjectKeyLookup keyOf = [&](const slicing::Object& object) {
-        const std::uint64_t serial = slicing::infoOf(object).serial;
-        auto& [key, stored] = keys[serial];
-        if (key.empty()) key = randomName(kKeyBytes);
-        if (used.insert(serial).second && !stored) {
-            update.objects.emplace_back(key, encodeObjectRecord(object));
-            job.added.push_back(serial);
-        }
-        return key;
-    };
-    if (job.whole) update.whole = encodeWhole(*job.whole, settings_.maxUndo, keyOf);
-    if (job.head && (!job.whole || job.head->revision > job.whole->revision))
-        update.head = encodeHead(*job.head, keyOf);
-    update.changed = (job.head && job.head->revision > 0) || (job.whole && job.whole->revision > 0);
-    if (!job.whole) return;
-    for (const auto& [serial, object] : keys) {
-        if (!used.contains(serial)) update.dropped.push_back(object.key);
-    }
-}
-
 void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
     if (result == SaveResult::saved) {
-        ObjectKeys& keys = keys_[job.id];
-        for (const std::uint64_t serial : job.added) keys[serial].stored = true;
-        std::erase_if(keys, [&](const auto& entry) {
-            return std::ranges::find(update.dropped, entry.second.key) != update.dropped.end();
-        });
+        objects_.saved(job.id, job.added, update);
         const std::lock_guard lock(mutex_);
-        const auto found = cached_.find(job.id);
-        if (found != cached_.end()) {
-            CachedSession& cached = found->second;
-            cached.inFlight = false;
-            if (!std::exchange(cached.saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
-            if (cached.closed && !cached.queued) {
-                cached_.erase(found);
-                keys_.erase(job.id);
+        if (CachedSession* const cached = cached_.find(job.id)) {
+            cached->inFlight = false;
+            if (!std::exchange(cached->saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
+            if (cached->closed && !cached->queued) {
+                cached_.remove(job.id);
+                objects_.forget(job.id);
             }
         }
     } else if (result == SaveResult::missing) {
-        for (auto& [serial, object] : keys_[job.id]) object.stored = false;
+        objects_.markLost(job.id);
         requeue(job);
         listener_.missing(job.id);
         return;
     } else {
         dropTaken(job.id);
     }
-    for (const Written& written : job.waiting) written(result == SaveResult::saved);
+    for (const Written& written : job.changes.waiting) written(result == SaveResult::saved);
 }
 
 /// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store is
@@ -477,16 +361,13 @@ void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = cached_.find(job.id);
-        if (found == cached_.end()) return;
-        CachedSession& cached = found->second;
-        cached.inFlight = false;
-        if (!cached.head) cached.head = std::move(job.head);
-        if (!cached.whole) cached.whole = std::move(job.whole);
-        std::ranges::move(job.waiting, std::back_inserter(cached.waiting));
+        CachedSession* const cached = cached_.find(job.id);
+        if (cached == nullptr) return;
+        cached->inFlight = false;
+        cached->pending.addOlder(std::move(job.changes));
         if (!lastError_.empty()) {
-            enqueue(job.id, cached);
-            released = std::exchange(cached.waiting, {});
+            cached_.enqueue(job.id, *cached);
+            released = std::exchange(cached->pending.waiting, {});
         }
     }
     for (const Written& written : released) written(true);
@@ -494,19 +375,15 @@ void WriteBehindStore::requeue(Job& job) {
 
 /// Drops a session that another server has claimed.
 void WriteBehindStore::dropTaken(const std::string& id) {
-    std::vector<Written> released;
-    bool open = false;
+    std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = cached_.find(id);
-        if (found == cached_.end()) return;
-        released = std::move(found->second.waiting);
-        open = !found->second.closed;
-        cached_.erase(found);
+        dropped = cached_.remove(id);
     }
-    keys_.erase(id);
-    for (const Written& written : released) written(false);
-    if (open) listener_.claimed(id);
+    if (!dropped) return;
+    objects_.forget(id);
+    for (const Written& written : dropped->pending.waiting) written(false);
+    if (!dropped->closed) listener_.claimed(id);
 }
 
 // --- Polling
@@ -527,8 +404,8 @@ void WriteBehindStore::poll() {
     {
         const std::lock_guard lock(mutex_);
         kept_ = store_->size();
-        recount();
-        waiting = !queue_.empty() || !removals_.empty();
+        created_ = cached_.neverSaved();
+        waiting = hasPendingChanges();
     }
     if (!waiting) storeWorked();  // otherwise the next write shows whether the store works: a full store can be polled
 }
@@ -541,14 +418,8 @@ void WriteBehindStore::refreshExpiry() {
     {
         const std::lock_guard lock(mutex_);
         pollAt_ = std::min(pollAt_, refreshAt_);
-        std::erase_if(cached_, [&](const auto& entry) {
-            const bool old = entry.second.closed && now_() - entry.second.closedAt > settings_.expiry;
-            if (old) keys_.erase(entry.first);
-            return old;
-        });
-        for (const auto& [id, session] : cached_) {
-            if (session.saved && !session.closed) open.push_back(id);
-        }
+        for (const std::string& id : cached_.removeClosedBefore(now_() - settings_.expiry)) objects_.forget(id);
+        open = cached_.openAndSaved();
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
         const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
@@ -572,12 +443,11 @@ void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std
 WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = cached_.find(credentials.id); found != cached_.end()) {
-            CachedSession& cached = found->second;
-            if (!equalInConstantTime(credentials.token, cached.credentials.token)) return kBadToken;
-            if (!cached.whole) return kNoAnswer;  // another client is opening it, or it is being written
-            cached.closed = false;
-            return Fetched{*cached.whole, {}};
+        if (CachedSession* const cached = cached_.find(credentials.id)) {
+            if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
+            if (!cached->pending.whole) return kNoAnswer;  // another client is opening it, or it is being written
+            cached->closed = false;
+            return Fetched{*cached->pending.whole, {}};
         }
         if (removals_.contains(credentials.id)) return kNotFound;
         if (now_() < readAt_) return kNoAnswer;
@@ -591,10 +461,7 @@ WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredent
     auto record = timed("claim", [&] { return store_->claim(credentials.id); });
     if (!record) return kNotFound;
     const std::lock_guard lock(mutex_);
-    CachedSession& cached = cached_[credentials.id];
-    cached.credentials = credentials;
-    cached.fence = record->fence;
-    cached.saved = true;
+    cached_.addStored(credentials, record->fence);
     return Fetched{{}, std::move(*record)};
 }
 

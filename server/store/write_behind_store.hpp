@@ -6,17 +6,18 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <random>
 #include <set>
 #include <span>
 #include <thread>
 
 #include "errors/error.hpp"
 #include "session/session.hpp"
+#include "store/backoff.hpp"
+#include "store/cached_sessions.hpp"
 #include "store/store.hpp"
+#include "store/stored_objects.hpp"
 
 namespace oval4d::store {
 
@@ -53,17 +54,13 @@ class WriteBehindStore {
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
     /// A fetched session. If the session was still in memory, `session` holds it. Otherwise `session` is empty, and
-    /// `record` is the stored record, which the caller must decode with codec.hpp.
+    /// `record` is the stored record, which the caller must decode with session_codec.hpp.
     struct Fetched {
         std::optional<session::Session> session;
         Record record;
     };
     using FetchResult = Result<Fetched>;
-    /// The keys under which a session's objects are stored, by ObjectInfo::serial.
-    using KeysBySerial = std::map<std::uint64_t, std::string>;
-    /// A callback for the end of a save: see save().
-    using Written = std::function<void(bool)>;
-    /// The part of a session to save: the result of encodeHead() or of encodeWhole() (codec.hpp).
+    /// The part of a session to save: the result of encodeHead() or of encodeWhole() (session_codec.hpp).
     enum class SaveScope : std::uint8_t { head, whole };
 
     using Clock = std::chrono::steady_clock;
@@ -117,31 +114,10 @@ class WriteBehindStore {
     void stop(Milliseconds limit);
 
   private:
-    using Value = std::shared_ptr<const session::Session>;
-    // A session in memory.
-    struct CachedSession {
-        SessionCredentials credentials;
-        Fence fence = 1;
-        Value head, whole;             // changes to be written; null if there are none
-        std::vector<Written> waiting;  // callbacks to call when these changes are written
-        bool saved = false;            // whether the session has ever been in the store
-        bool queued = false;           // whether the session's id is in queue_
-        bool inFlight = false;         // whether the session is being written
-        bool closed = false;           // whether no client has the session open; it is dropped once it is written
-        Clock::time_point closedAt;    // the time of close(), if `closed`
-        std::size_t bytes = 0;         // estimated memory of the session, if `closed`
-    };
-    // An object's key, and whether the store has the object.
-    struct ObjectKey {
-        std::string key;
-        bool stored = false;
-    };
-    using ObjectKeys = std::map<std::uint64_t, ObjectKey>;
     // One write of a session.
     struct Job {
         std::string id;
-        Value head, whole;
-        std::vector<Written> waiting;
+        PendingChanges changes;
         std::vector<std::uint64_t> added;  // ObjectInfo::serial of the objects that this write adds to the store
     };
 
@@ -149,7 +125,6 @@ class WriteBehindStore {
     void run();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
-    void encode(Job& job, RecordUpdate& update);
     std::vector<std::optional<SaveResult>> saveOrEvict(std::span<const RecordUpdate> updates);
     void writeRemovals();
     void dropKeys(const std::string& id);
@@ -166,9 +141,7 @@ class WriteBehindStore {
     void storeWorked();
 
     // The caller of these functions must hold mutex_.
-    void enqueue(const std::string& id, CachedSession& cached);
-    void recount();
-    std::vector<CachedSession> evictClosed();
+    bool hasPendingChanges() const { return cached_.queueLength() > 0 || !removals_.empty(); }
     bool isReadyToWrite() const;
     Clock::time_point nextWake() const;
 
@@ -182,8 +155,7 @@ class WriteBehindStore {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // Guarded by mutex_.
-    std::map<std::string, CachedSession, std::less<>> cached_;
-    std::deque<std::string> queue_;            // ids of sessions with pending changes
+    CachedSessions cached_;
     std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
     std::set<std::string> removals_;           // ids to remove from the store
     std::size_t kept_ = 0;                     // number of sessions in the store, as of the last poll
@@ -195,10 +167,9 @@ class WriteBehindStore {
     Clock::time_point stopAt_;  // when stopping: time to end even if changes are pending
 
     // Used only by the cache's thread.
-    std::map<std::string, ObjectKeys, std::less<>> keys_;  // keys of each session's objects, by session id
-    int failures_ = 0;                                     // number of failures since the store last worked
+    StoredObjects objects_;
+    Backoff backoff_;
     Clock::time_point refreshAt_;
-    std::minstd_rand random_;
 
     std::thread thread_;  // the last member, so that the others are initialized before the thread uses them
 };

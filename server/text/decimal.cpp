@@ -66,23 +66,26 @@ char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t e
 
 #if defined(__x86_64__)
 
-using Reals = double __attribute__((vector_size(32)));
-using Words = std::uint64_t __attribute__((vector_size(32)));
-using Halves = std::uint32_t __attribute__((vector_size(32)));
-using Floats = float __attribute__((vector_size(16)));
-using Bits = std::int32_t __attribute__((vector_size(16)));
+using Double4 = double __attribute__((vector_size(32)));
+using Uint64x4 = std::uint64_t __attribute__((vector_size(32)));
+using Uint32x8 = std::uint32_t __attribute__((vector_size(32)));
+using Float4 = float __attribute__((vector_size(16)));
+using Int32x4 = std::int32_t __attribute__((vector_size(16)));
 
 // A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
 // processes all groups of a block before the next step, which hides the latency of the instructions: the groups do not
 // depend on each other.
 constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
 
-// The text of each number of a block: `head` is the text up to the second decimal and has `headLength` bytes. `digits`
-// are the next eight decimals, including trailing zeros, as bytes from 0 to 9. `plain` marks a group in which a number
-// is too small or too large for this form, or is a multiple of 1/100; putPlain() writes all numbers of such a group.
+// The text of the numbers of a block.
 struct Block {
-    alignas(32) std::uint64_t head[kBlock], headLength[kBlock], digits[kBlock];
-    bool plain[kGroups];
+    alignas(32) std::uint64_t head[kBlock];        // per number: the text up to the second decimal
+    alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
+    // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9.
+    alignas(32) std::uint64_t digits[kBlock];
+    // Per group: set if a number of the group does not fit this form (too small, too large, or without a nonzero digit
+    // after the second decimal); putPlain() then writes the group.
+    bool needsFallback[kGroups];
 };
 
 // The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
@@ -104,66 +107,68 @@ constexpr std::array<float, 8> kUnits{1e10, 1e9, 1e8, 1e7, 1e6}, kUnit{1e0, 1e1,
 // Adding kRounder to a number from 0 to 2^51 rounds it to an integer, which is then in the low bits of the sum;
 // integerOf() extracts it.
 constexpr double kRounder = 0x1.8p52;
-[[gnu::target("avx2")]] inline Words integerOf(Reals sum) {
-    return Words(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
+[[gnu::target("avx2")]] inline Uint64x4 integerOf(Double4 sum) {
+    return Uint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
 }
 
-[[gnu::target("avx2")]] inline Reals widened(Floats numbers) { return Reals(_mm256_cvtps_pd(__m128(numbers))); }
+[[gnu::target("avx2")]] inline Double4 widened(Float4 numbers) { return Double4(_mm256_cvtps_pd(__m128(numbers))); }
 
 // Returns table[which[i]] for each i.
-[[gnu::target("avx2")]] inline Reals pick(const std::array<float, 8>& table, Bits which) {
+[[gnu::target("avx2")]] inline Double4 pick(const std::array<float, 8>& table, Int32x4 which) {
     const __m256i places = _mm256_castsi128_si256(__m128i(which));
     const __m256 picked = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table.data()), places);
-    return widened(Floats(_mm256_castps256_ps128(picked)));
+    return widened(Float4(_mm256_castps256_ps128(picked)));
 }
 
 // Operations on 16-bit numbers: plus() adds; highTimes() returns the upper half of the product.
-[[gnu::target("avx2")]] inline Words plus(Words a, Words b) { return Words(_mm256_add_epi16(__m256i(a), __m256i(b))); }
-[[gnu::target("avx2")]] inline Words highTimes(Words a, short b) {
-    return Words(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
+[[gnu::target("avx2")]] inline Uint64x4 plus(Uint64x4 a, Uint64x4 b) {
+    return Uint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
+}
+[[gnu::target("avx2")]] inline Uint64x4 highTimes(Uint64x4 a, short b) {
+    return Uint64x4(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
 }
 // Returns the product of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
-[[gnu::target("avx2")]] inline Words lowTimes(Words a, int b) {
-    return Words(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
+[[gnu::target("avx2")]] inline Uint64x4 lowTimes(Uint64x4 a, int b) {
+    return Uint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
-// Converts each 32-bit half of a word, which is a number below 10,000, to its four decimal digits, one per byte, the
-// most significant one in the lowest byte.
-[[gnu::target("avx2")]] inline Words fourDigits(Words numbers) {
-    const auto hundreds = Words(Halves(highTimes(numbers, 5243)) >> 3);
-    const Words pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
-    const Words tens = highTimes(pairs, 6554);
+// Converts each 32-bit half of each element, which is a number below 10,000, to its four decimal digits, one per byte,
+// the most significant one in the lowest byte.
+[[gnu::target("avx2")]] inline Uint64x4 fourDigits(Uint64x4 numbers) {
+    const auto hundreds = Uint64x4(Uint32x8(highTimes(numbers, 5243)) >> 3);
+    const Uint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
+    const Uint64x4 tens = highTimes(pairs, 6554);
     return tens | plus(pairs, lowTimes(tens, -10)) << 8;
 }
 
 [[gnu::target("avx2")]] void convert(const double* numbers, Block& out) {
-    Bits bits[kGroups], drop[kGroups], outOfRange[kGroups];
-    Reals units[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
-    Words digits[kGroups], first[kGroups];
+    Int32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
+    Double4 units[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
+    Uint64x4 digits[kGroups], first[kGroups];
     for (std::size_t g = 0; g < kGroups; ++g) {
-        Reals four;
+        Double4 four;
         std::memcpy(&four, numbers + 4 * g, sizeof four);
-        bits[g] = Bits(__builtin_convertvector(four, Floats));
-        const Bits place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
+        bits[g] = Int32x4(__builtin_convertvector(four, Float4));
+        const Int32x4 place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
         outOfRange[g] = place & ~(kExponents - 1);
         drop[g] = (place * 1233 + 270) >> 12;  // 10 + log10(2^(e − 23)), rounded down
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         units[g] = pick(kUnits, drop[g]);
-        exact[g] = widened(Floats(bits[g] & 0x7FFF'FFFF)) * units[g];
+        exact[g] = widened(Float4(bits[g] & 0x7FFF'FFFF)) * units[g];
     }
     for (std::size_t g = 0; g < kGroups; ++g) rounder[g] = ((exact[g] * 0.1 + kRounder) - kRounder) * 10;
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const auto half = Floats((bits[g] & kExponentMask) - kHalfSpacing);
-        const Reals reach = widened(half) * units[g] - kMargin;
-        const Reals off = Reals(Words(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
-        const Reals nearest = (exact[g] + kRounder) - kRounder;
+        const auto half = Float4((bits[g] & kExponentMask) - kHalfSpacing);
+        const Double4 reach = widened(half) * units[g] - kMargin;
+        const Double4 off = Double4(Uint64x4(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
+        const Double4 nearest = (exact[g] + kRounder) - kRounder;
         decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnit, drop[g]);
     }
     for (std::size_t g = 0; g < kGroups; ++g) upper[g] = (decimals[g] - 49'999'999.5) * 1e-8 + kRounder;
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const Reals eight = decimals[g] - (upper[g] - kRounder) * 1e8;
-        const Reals thousands = (eight - 4'999.5) * 1e-4 + kRounder;
+        const Double4 eight = decimals[g] - (upper[g] - kRounder) * 1e8;
+        const Double4 thousands = (eight - 4'999.5) * 1e-4 + kRounder;
         digits[g] = integerOf(thousands) | integerOf(eight - (thousands - kRounder) * 1e4 + kRounder) << 32;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -171,20 +176,20 @@ constexpr double kRounder = 0x1.8p52;
         first[g] = fourDigits(integerOf(upper[g]));  // tens, ones, tenths, hundredths
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const Words tens = first[g] & 0xFF;
-        const Words tensBits = tens != 0 ? Words{} + 8 : Words{};
-        const Words negative = Words(_mm256_cvtepi32_epi64(__m128i(bits[g] >> 31)));
-        const Words signBits = negative & 8;
-        Words head = (first[g] >> 8 & 0xFF) | (first[g] & 0xFFFF'0000) | 0x3030'2E30;
+        const Uint64x4 tens = first[g] & 0xFF;
+        const Uint64x4 tensBits = tens != 0 ? Uint64x4{} + 8 : Uint64x4{};
+        const Uint64x4 negative = Uint64x4(_mm256_cvtepi32_epi64(__m128i(bits[g] >> 31)));
+        const Uint64x4 signBits = negative & 8;
+        Uint64x4 head = (first[g] >> 8 & 0xFF) | (first[g] & 0xFFFF'0000) | 0x3030'2E30;
         head = head << tensBits | (tens != 0 ? tens | '0' : tens);
         head = head << signBits | (negative & '-');
-        const Words length = 4 + ((tensBits + signBits) >> 3);
+        const Uint64x4 length = 4 + ((tensBits + signBits) >> 3);
         std::memcpy(out.head + 4 * g, &head, sizeof head);
         std::memcpy(out.headLength + 4 * g, &length, sizeof length);
         std::memcpy(out.digits + 4 * g, &digits[g], sizeof digits[g]);
-        const Words zero = digits[g] == 0;
-        out.plain[g] = (outOfRange[g][0] | outOfRange[g][1] | outOfRange[g][2] | outOfRange[g][3]) != 0 ||
-                       (zero[0] | zero[1] | zero[2] | zero[3]) != 0;
+        const Uint64x4 zero = digits[g] == 0;
+        out.needsFallback[g] = (outOfRange[g][0] | outOfRange[g][1] | outOfRange[g][2] | outOfRange[g][3]) != 0 ||
+                               (zero[0] | zero[1] | zero[2] | zero[3]) != 0;
     }
 }
 
@@ -195,7 +200,7 @@ template <std::size_t Size>
     convert(numbers, block);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < count; ++i) {
-        if (block.plain[i / 4]) {
+        if (block.needsFallback[i / 4]) {
             at = putPlain<Size>(at, numbers, i, i + 1);
             continue;
         }

@@ -51,27 +51,26 @@ std::string normalizedName(std::string_view text) {
     return result;
 }
 
-std::string withPlainBlanks(std::string_view text) {
+std::size_t wideSpaceAt(std::string_view text) {
     using namespace std::string_view_literals;
-    // U+00A0, U+202F, U+205F, U+3000; U+2000 to U+200A differ in the last byte.
-    constexpr auto kBlanks = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv});
-    constexpr std::string_view kBegin = "\xE2\x80";
-    constexpr unsigned char kFirst = 0x80, kLast = 0x8A;
+    constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv});
+    for (const std::string_view space : kSpaces) {
+        if (text.starts_with(space)) return space.size();
+    }
+    // U+2000 to U+200A: en quad … thin space, hair space
+    constexpr std::string_view kQuads = "\xE2\x80";
+    if (!text.starts_with(kQuads) || text.size() == kQuads.size()) return 0;
+    const auto last = static_cast<unsigned char>(text[kQuads.size()]);
+    return last >= 0x80U && last <= 0x8AU ? kQuads.size() + 1 : 0;
+}
+
+std::string withPlainBlanks(std::string_view text) {
     std::string plain;
     plain.reserve(text.size());
-    for (std::size_t at = 0; at < text.size();) {
-        const std::string_view rest = text.substr(at);
-        const auto* const blank =
-            std::ranges::find_if(kBlanks, [&](std::string_view each) { return rest.starts_with(each); });
-        const auto third = static_cast<unsigned char>(rest.size() > 2 ? rest[2] : 0);
-        const bool isQuad = rest.starts_with(kBegin) && third >= kFirst && third <= kLast;
-        if (blank == kBlanks.end() && !isQuad) {
-            plain += rest[0];
-            ++at;
-        } else {
-            plain += ' ';
-            at += isQuad ? 3 : blank->size();
-        }
+    while (!text.empty()) {
+        const std::size_t space = wideSpaceAt(text);
+        plain += space > 0 ? ' ' : text[0];
+        text.remove_prefix(std::max<std::size_t>(space, 1));
     }
     return plain;
 }

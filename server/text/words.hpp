@@ -1,6 +1,7 @@
 #pragma once
 // Functions that split text into words, join words, and normalize names for comparison.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 /// Returns the text in lower case, without white space, hyphens and underscores. Two names denote the same thing if
 /// their normalized names are equal.
 std::string normalizedName(std::string_view text);
+
+/// Returns the number of bytes of the space at the beginning of a UTF-8 text, if it is one that is not ASCII, such as
+/// the no-break space U+00A0; otherwise 0.
+std::size_t wideSpaceAt(std::string_view text);
 
 /// Returns the text with a space in place of each kind of space that is not ASCII, such as the no-break space that
 /// texts have between a number and its unit.

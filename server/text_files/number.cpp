@@ -30,8 +30,8 @@ bool isNotFinite(std::string_view unsignedWord) {
 
 bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
 
-// Returns whether the absolute value of a number is less than 1. The number is in the form of ParsedNumber::text, and
-// may be out of the range of a double.
+// Returns whether the absolute value of a number is less than 1. The number is in the form of ParsedCoordinate::text,
+// and may be out of the range of a double.
 bool isBelowOne(std::string_view number) {
     const std::size_t end = std::min(number.find('e'), number.size());
     const std::size_t point = std::min(number.find('.'), end);
@@ -48,7 +48,7 @@ bool isBelowOne(std::string_view number) {
 
 // Says what is wrong with a word that is not a number with a decimal point.
 std::string faultOf(std::string_view word) {
-    NumberReader reader;
+    CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())
         return "ends with a comma; write blanks between numbers";
     if (!word.ends_with(',') && word.find(',') != std::string_view::npos &&
@@ -59,8 +59,8 @@ std::string faultOf(std::string_view word) {
 
 }  // namespace
 
-ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
-    const auto failed = [](std::string fault) { return ParsedNumber{0, {}, std::move(fault)}; };
+ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark) {
+    const auto failed = [](std::string fault) { return ParsedCoordinate{0, {}, std::move(fault)}; };
     bool negative = false;
     const std::string_view digits = withoutSign(word, negative);
     if (bool second = false; withoutSign(digits, second) != digits) return failed(kNoNumber);
@@ -84,7 +84,7 @@ ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
             text_ += digits[i];
         }
     }
-    ParsedNumber result;
+    ParsedCoordinate result;
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
     if (stop != end || error == std::errc::invalid_argument)
@@ -98,7 +98,7 @@ ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
 }
 
 bool isNumber(std::string_view word, DecimalMark mark) {
-    NumberReader reader;
+    CoordinateReader reader;
     return reader.read(word, mark).fault != kNoNumber;
 }
 

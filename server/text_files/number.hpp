@@ -13,7 +13,7 @@ inline constexpr double kMaxCoordinate = 1e14;
 enum class DecimalMark : char { point = '.', comma = ',' };
 
 /// A coordinate that was read from a text.
-struct ParsedNumber {
+struct ParsedCoordinate {
     double value = 0;
     /// The number in the form that std::from_chars() reads: a decimal point, the exponent e, no plus sign, and a hyphen
     /// as minus sign. Empty if the word is not a coordinate.
@@ -21,21 +21,22 @@ struct ParsedNumber {
     std::string fault;  ///< why the word is not a coordinate, such as "is not a number"; empty if it is one
 };
 
-/// Reads numbers. An object holds the text of the number that it read last.
-class NumberReader {
+/// Reads coordinates. Refuses values beyond ±kMaxCoordinate; isNumber() accepts more. An object holds the text of the
+/// coordinate that it read last.
+class CoordinateReader {
   public:
     /// Reads a word as a coordinate: a number within ±kMaxCoordinate. Accepts a true minus sign (U+2212), the exponents
     /// D of Fortran, and numbers that are too small for a double, which become 0. A decimal comma is accepted if `mark`
     /// says so; a decimal point always is, but not beside a comma. The result's `text` remains valid until the next
     /// call.
-    ParsedNumber read(std::string_view word, DecimalMark mark = DecimalMark::point);
+    ParsedCoordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
 
   private:
     std::string text_;
 };
 
-/// Returns whether a word is a number, even if NumberReader refuses it: "nan", "1e20" and "0,5" are numbers, "2theta"
-/// is none.
+/// Returns whether a word is a number, even if CoordinateReader refuses it: "nan", "1e20" and "0,5" are numbers,
+/// "2theta" is none.
 bool isNumber(std::string_view word, DecimalMark mark = DecimalMark::point);
 
 /// Returns whether a word begins as a number does, or is "nan" or "inf".

@@ -7,6 +7,7 @@
 
 #include <boost/locale/encoding_utf.hpp>
 
+#include "text/words.hpp"
 #include "text_files/file_error.hpp"
 
 namespace oval4d::text_files {
@@ -62,19 +63,13 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
     return boost::locale::conv::utf_to_utf<char>(units);
 }
 
-// Returns the number of bytes of the space at the beginning of a text: a vertical tab, a form feed, a byte order mark
-// or any space of Unicode other than U+0020; 0 if there is none.
+// Returns the number of bytes of the space at the beginning of a text: a vertical tab, a form feed, a byte order mark,
+// a zero-width space or any space of Unicode other than U+0020; 0 if there is none.
 std::size_t spaceAt(std::string_view text) {
-    constexpr auto kSpaces = std::to_array(
-        {"\v"sv, "\f"sv, "\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv, "\xEF\xBB\xBF"sv});
-    for (const std::string_view space : kSpaces) {
+    for (const std::string_view space : {"\v"sv, "\f"sv, "\xEF\xBB\xBF"sv, "\xE2\x80\x8B"sv}) {
         if (text.starts_with(space)) return space.size();
     }
-    // U+2000 to U+200B: en quad … thin space, hair space, zero-width space
-    constexpr std::string_view kQuads = "\xE2\x80";
-    if (!text.starts_with(kQuads) || text.size() == kQuads.size()) return 0;
-    const auto last = static_cast<unsigned char>(text[kQuads.size()]);
-    return last >= 0x80U && last <= 0x8BU ? kQuads.size() + 1 : 0;
+    return text::wideSpaceAt(text);
 }
 
 // Replaces the line ends CR LF and CR by LF, and each space by U+0020.

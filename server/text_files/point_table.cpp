@@ -243,13 +243,13 @@ class PointReader {
         point.line = line.number;
         for (std::size_t i = 0; i < kRadius; ++i) {
             const std::size_t at = layout_.columns[i].value_or(i);
-            const ParsedNumber& read = number(line, at, readers_[i]);
+            const ParsedCoordinate& read = coordinate(line, at, readers_[i]);
             point.point[static_cast<int>(i)] = read.value;
             point.numbers[i] = read.text;
         }
         const std::optional<std::size_t> radius = layout_.count > 0 ? layout_.columns[kRadius] : std::optional(kRadius);
         if (radius && *radius < row_.columns.size()) {
-            point.radius = number(line, *radius, readers_[kRadius]).value;
+            point.radius = coordinate(line, *radius, readers_[kRadius]).value;
             if (point.radius < 0) throwFileError(line.number, "a radius is negative", *radius + 1);
             if (layout_.count == 0 && !std::exchange(warnedOfRadius_, true))
                 warnings_.emplace_back("the fifth column was read as radius");
@@ -257,8 +257,8 @@ class PointReader {
         add_(point);
     }
 
-    ParsedNumber number(const TableLine& line, std::size_t column, NumberReader& reader) const {
-        ParsedNumber read = reader.read(row_.columns[column], format_.mark);
+    ParsedCoordinate coordinate(const TableLine& line, std::size_t column, CoordinateReader& reader) const {
+        ParsedCoordinate read = reader.read(row_.columns[column], format_.mark);
         if (!read.fault.empty())
             throwFileError(line.number, text::inQuotes(row_.columns[column]) + ' ' + read.fault, column + 1);
         return read;
@@ -270,7 +270,7 @@ class PointReader {
     const std::function<void(const PointRow&)>& add_;
     Layout layout_;
     TableRow row_;
-    std::array<NumberReader, kRadius + 1> readers_;
+    std::array<CoordinateReader, kRadius + 1> readers_;
     std::size_t rows_ = 0;
     std::size_t firstSize_ = 0;  // the number of columns of the first row; 0 before it
     bool warnedOfRadius_ = false;

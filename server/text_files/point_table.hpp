@@ -17,7 +17,7 @@ struct PointRow {
     std::size_t line = 0;  ///< counted from 1
     glm::dvec4 point{0};
     double radius = 0;                        ///< 0 if the row has none
-    std::array<std::string_view, 4> numbers;  ///< the coordinates as they are written; see ParsedNumber::text
+    std::array<std::string_view, 4> numbers;  ///< the coordinates as they are written; see ParsedCoordinate::text
 };
 
 /// What a table of points may contain.

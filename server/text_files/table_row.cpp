@@ -51,7 +51,7 @@ std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
 }
 
 // Returns whether a line is a row of a table, not a header or a title: it begins with a number, or has at least `least`
-// numbers and no more other words.
+// numbers, and not more other words than numbers.
 bool isRow(std::string_view line, std::size_t least) {
     constexpr std::string_view kBetween = ";,\t \"";
     std::size_t numbers = 0, others = 0;

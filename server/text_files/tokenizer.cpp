@@ -57,8 +57,8 @@ std::uint32_t parseCount(std::string_view word, std::size_t line, const std::str
 
 double parseCoordinate(std::string_view word, std::size_t line) {
     if (word.empty()) throwFileError(line, "the file ends where a coordinate is expected");
-    NumberReader reader;
-    const ParsedNumber read = reader.read(word);
+    CoordinateReader reader;
+    const ParsedCoordinate read = reader.read(word);
     if (!read.fault.empty()) throwFileError(line, text::inQuotes(word) + ' ' + read.fault);
     return read.value;
 }

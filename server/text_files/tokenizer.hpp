@@ -42,8 +42,8 @@ class Tokenizer {
 /// of the file). `what` describes the expected word in the error message, such as "a number of vertices".
 std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what);
 
-/// Parses and returns a coordinate. Throws a FileError with this line if the word is not one (see NumberReader), or is
-/// empty (at the end of the file).
+/// Parses and returns a coordinate. Throws a FileError with this line if the word is not one (see CoordinateReader), or
+/// is empty (at the end of the file).
 double parseCoordinate(std::string_view word, std::size_t line);
 
 }  // namespace oval4d::text_files

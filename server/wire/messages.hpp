@@ -1,6 +1,6 @@
 #pragma once
-// Writes the messages from the server to clients, except `slices`, as JSON text. `id` is the id of the request that the
-// message answers; it is absent if the message answers no request, or one without an id.
+// Writes the messages from the server to clients, except `slices` and `state`, as JSON text. `id` is the id of the
+// request that the message answers; it is absent if the message answers no request, or one without an id.
 
 #include <cstdint>
 #include <optional>
@@ -13,21 +13,8 @@
 #include "scene/pick.hpp"
 #include "session/session.hpp"
 #include "slicing/critical/critical_sections.hpp"
-#include "slicing/section_name.hpp"
-#include "slicing/surface_detail.hpp"
 
 namespace oval4d::wire {
-
-/// Returns the `state` message of a state. `section` has the names of its focus slice, and `quality` is the quality of
-/// the picture that follows. `viewer` is the scheme of this picture if the background is scene::Background::automatic;
-/// the message has the colors of kinds and of values. The PNG files of frames contain the same text.
-std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                         std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
-                         scene::Scheme viewer = scene::Scheme::dark);
-/// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
-void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
-                  scene::Scheme viewer = scene::Scheme::dark);
 
 /// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
 /// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, if there is a

@@ -99,7 +99,7 @@ struct Fill {
 
 // Adds the triangles of one slice, except hidden ones.
 void addFill(const Scene& scene, std::size_t slice, Fill& fill) {
-    const slicing::Fill& from = scene.fill;
+    const slicing::FilledFaces& from = scene.fill;
     const std::size_t begin = fill.points.size();
     for (std::uint32_t p = from.patchBegin[slice]; p < from.patchBegin[slice + 1]; ++p) {
         const slicing::Visibility visibility = scene.visibilities.face(from.patches[p].source);

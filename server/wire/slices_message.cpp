@@ -283,8 +283,10 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
 void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                                 std::string& out, slicing::Quality quality) {
     switch (encoding) {
-        case Encoding::json: return writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id, quality);
-        case Encoding::cbor: return writeMessage(CborWriter(out), cborStatic_, scene, revision, id, quality);
+        case Encoding::json:
+            return writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id, quality);
+        case Encoding::cbor:
+            return writeMessage(CborWriter(out), cborStatic_, scene, revision, id, quality);
     }
 }
 

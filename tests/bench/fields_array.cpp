@@ -109,7 +109,7 @@ void bounds(benchmark::State& state) {
 void readBricks(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     const fields::Samples samples(tiger(n));
-    for (auto _ : state) benchmark::DoNotOptimize(fields::ArrayFunction({n, n, n, n}, {}, samples).memory());
+    for (auto _ : state) benchmark::DoNotOptimize(fields::ArrayFunction({n, n, n, n}, {}, samples).memoryBytes());
 }
 
 void downsample(benchmark::State& state) {

@@ -26,7 +26,7 @@
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
 #include "session/settings.hpp"
-#include "wire/messages.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d::bench {
 namespace {

@@ -5,6 +5,7 @@ import signal
 
 import cluster
 import pytest
+import all_settings
 from wire import Client, hello_refusal
 
 
@@ -37,6 +38,22 @@ async def press_keys(server, times=1, **credentials):
         for _ in range(times):
             done = await client.request("key", key="k")
         return credentials_of(client), done["revision"]
+
+
+def test_redis_loses_no_setting(redis):
+    async def states_of(prepare):
+        with cluster.start_server(redis, 0) as server:
+            async with Client(server, stream="none") as client:
+                await prepare(client)
+                before = await client.request("get", what="state")
+        with cluster.start_server(redis, 0) as server:
+            async with Client(server, stream="none", **credentials_of(client)) as client:
+                return before, await client.request("get", what="state")
+
+    with redis:
+        for prepare in all_settings.SESSIONS:
+            before, after = asyncio.run(states_of(prepare))
+            assert {**after, "id": 0} == {**before, "id": 0}
 
 
 def test_another_server_takes_over_an_open_session(redis):

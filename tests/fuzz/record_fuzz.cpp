@@ -2,8 +2,8 @@
 // (little-endian). Decoding throws UnreadableRecord, or returns a valid session that can be sliced, sent and stored
 // again.
 
-#include "store/codec.hpp"
 #include "store/object_codec.hpp"
+#include "store/session_codec.hpp"
 #include "support.hpp"
 
 using namespace oval4d;

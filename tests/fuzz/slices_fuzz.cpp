@@ -196,7 +196,7 @@ OVAL4D_FUZZER(slices) {
     static wire::SlicesMessageWriter writer;
     static std::string text, cbor;
     const session::State& state = session.current;
-    slicer.slice(state.object, state.orientation, state.hyperplanes(), slices);
+    slicer.sliceWithoutSurfaces(state.object, state.orientation, state.hyperplanes(), slices);
     composer.limitFill(100'000);
     composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport, scene);
     using wire::Encoding;

@@ -23,6 +23,7 @@
 #include "slicing/slicer.hpp"
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
+#include "wire/state_message.hpp"
 
 /// Begins the definition of a fuzzer: a function of `data` and `size`, the input's bytes, that returns 0. libFuzzer
 /// calls it by its own name for it; corpus_tests.cpp by the name of the fuzzer's subject.
@@ -258,7 +259,7 @@ inline void requireSlices(const session::State& state) {
     static slicing::SliceSet slices;
     geometry::Hyperplanes planes = state.hyperplanes();
     planes.count = std::min(planes.count, 51);
-    slicer.slice(state.object, state.orientation, planes, slices);
+    slicer.sliceWithoutSurfaces(state.object, state.orientation, planes, slices);
     for (int i = 0; i < planes.count; ++i) {
         const auto vertices = slices.vertexBegin[i + 1] - slices.vertexBegin[i];
         for (auto e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e)

@@ -5,7 +5,7 @@ import statistics
 import time
 
 from harness import Server
-from test_files import LONG_FILE, requested_files
+from test_export_requests import LONG_FILE, requested_files
 from test_large_fields import open_server, sparse_npy
 from wire import Client
 

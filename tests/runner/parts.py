@@ -20,8 +20,8 @@ SANITIZED_UNITS = {
 SANITIZED_FILTERS = {("tsan", "polytopes"): "PolytopeCache*"}
 SANITIZED_SERVICE = {
     "asan-ubsan": ("",),
-    "tsan": ("conversation", "critical", "data_folder", "drafts", "drawing", "frames", "hanging", "large_fields", "limits", "pacing",
-             "sessions", "store", "uploads"),
+    "tsan": ("conversation", "critical", "data_folder", "drafts", "drawing", "frames", "growing_fields", "hanging", "large_fields",
+             "limits", "loaded_arrays", "pacing", "sessions", "store", "uploads"),
 }
 
 

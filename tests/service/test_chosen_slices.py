@@ -8,10 +8,9 @@ import re
 import meshes
 import numpy
 import pytest
+from exports import ROTATION
 from harness import run_oval4d
 from wire import Client, Refused
-
-ROTATION = "rotate=xw,yz:0.39,1.42"
 
 
 def fetch(server, format_, query, status=200):

@@ -3,9 +3,9 @@
 import os
 
 import pytest
+from array_clients import SIZE, load, state_of, unnumbered
 from array_files import hdf5, netcdf, nifti, npy, quadratic
 from harness import Server
-from test_uploads import SIZE, load, state_of, unnumbered
 from wire import Client, Refused
 
 SECRET = npy(quadratic((2, 3, 4, 5)))

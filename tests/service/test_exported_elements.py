@@ -2,16 +2,13 @@
 
 import json
 import re
-from pathlib import Path
 
 import meshes
 import pytest
+from exports import ROTATION, TABLE
 from harness import run_oval4d
 from wire import Client, Refused
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-TABLE = json.loads((ROOT / "protocol/export_formats.json").read_text(encoding="utf-8"))["formats"]
-ROTATION = "rotate=xw,yz:0.39,1.42"
 PHI = (1 + 5**0.5) / 2
 
 

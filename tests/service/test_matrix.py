@@ -5,7 +5,7 @@ import math
 
 import png
 import pytest
-from test_python_client import assert_approximately_equal
+from test_python_client_arrays import assert_approximately_equal
 from wire import Client, Refused
 
 PLANES = [[0, 1], [0, 2], [1, 2], [0, 3], [1, 3], [2, 3]]

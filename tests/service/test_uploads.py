@@ -1,134 +1,20 @@
-"""Arrays in messages and in uploads: axes, boxes and variables, growing fields, tokens, limits, broken requests."""
+"""Arrays in uploads: formats, names, tokens, limits, and broken requests."""
 
 import asyncio
-import base64
 import concurrent.futures
 import contextlib
-import http.client
-import json
 import re
 import socket
 import time
-from urllib.parse import quote, urlencode
 
 import numpy
 import pytest
-from array_files import WRITERS, hdf5, netcdf, npy, quadratic
+from array_clients import SIZE, load, put, state_of, unnumbered, upload
+from array_files import WRITERS, npy, quadratic
 from harness import DEADLINE, Server
 from surfaces import surface_volume
 from wire import Client, Refused
 
-SIZE = {"width": 480, "height": 270}
-
-
-def upload(server, session, token, name, body, method="PUT", moments=False, server_token=None, **query):
-    """Uploads a file; returns the http.client response, with the decoded message as `.message`."""
-    connection = http.client.HTTPConnection(server.host, server.port, timeout=DEADLINE)
-    path = f"/api/v1/sessions/{session}/fields/{quote(name, safe='')}" + ("/moments" if moments else "")
-    query = urlencode(query | ({"token": server_token} if server_token else {}), quote_via=quote)
-    with contextlib.closing(connection):
-        connection.request(method, path + ("?" + query if query else ""), body,
-                           {} if token is None else {"Session-Token": token})
-        answer = connection.getresponse()
-        answer.body = answer.read()
-        is_json = answer.getheader("Content-Type") == "application/json"
-        answer.message = json.loads(answer.body) if is_json else None
-        return answer
-
-
-async def put(client, name, body, **options):
-    welcome = client.welcome
-    return await asyncio.to_thread(upload, client.server, welcome["session"], welcome["token"], name, body, **options)
-
-
-async def load(client, name, body, format_="npy", **members):
-    return await client.request("load", name=name, format=format_, data=base64.b64encode(body).decode(), **members)
-
-
-async def state_of(client):
-    return await client.request("get", what="state")
-
-
-def unnumbered(message):
-    return {name: value for name, value in message.items() if name != "id"}
-
-
-async def domain_of(client):
-    """Returns the extents of the box along x, y, z and w, in units of the object: those of the focus slice and of w."""
-    await client.request("set", orientation=[[int(i == j) for j in range(4)] for i in range(4)],
-                         slices={"count": 1, "focus": 0, "offset": 0})
-    message = await client.request("get", what="slices", **SIZE)
-    extents = numpy.ptp(numpy.array(message["slices"][0]["vertices"]), axis=0)
-    radius = message["scene"]["circumradius"]
-    half = numpy.sqrt(radius**2 - numpy.sum((extents / 2) ** 2))
-    return [*extents, 2 * half]
-
-
-@pytest.mark.parametrize("axes, shape, expected", [
-    ("tzyx", (3, 4, 5, 9), (2, 1, 0.75, 2)),  # by default, the longest of x, y, z is 2 long, and w as long as it
-    ("wzyx", (3, 4, 5, 9), (2, 1, 0.75, 2)),
-    ("xyzt", (9, 5, 4, 3), (2, 1, 0.75, 2)),
-    ("zyx", (4, 5, 9), (2, 1, 0.75, 1)),  # without w, half as long as the longest
-    ("tx", (3, 5), (2, 1, 1, 2)),
-])
-async def test_axes_name_the_dimensions(server, axes, shape, expected):
-    values = numpy.random.default_rng(1).random(shape, dtype="f4")
-    async with Client(server) as client:
-        await load(client, "a", npy(values), axes=axes)
-        assert await domain_of(client) == pytest.approx(expected, rel=1e-5)
-
-
-async def test_a_box_places_an_array(server):
-    async with Client(server) as client:
-        await load(client, "a", npy(quadratic()), box=[[0, 4], [0, 2], [-1, 1], [0, 10]])
-        assert await domain_of(client) == pytest.approx((4, 2, 2, 4), rel=1e-5)  # w is scaled to the longest
-
-
-async def test_a_variable_is_chosen_by_its_name(server):
-    async with Client(server) as client:
-        await load(client, "a", hdf5(quadratic(), "run/p"), "hdf5", variable="run/p")
-        await load(client, "b", netcdf(quadratic(), "p"), "netcdf", variable="p")
-        for body, format_ in ((hdf5(quadratic()), "hdf5"), (netcdf(quadratic()), "netcdf")):
-            with pytest.raises(Refused, match="absent") as refused:
-                await load(client, "c", body, format_, variable="absent")
-            assert refused.value.code in ("bad_field", "not_found", "out_of_range")
-
-
-@pytest.mark.parametrize("members, code, text", [
-    ({"axes": "tzy"}, "out_of_range", "4 dimensions"),
-    ({"axes": "tzyy"}, "out_of_range", "different letters"),
-    ({"axes": "wtyx"}, "out_of_range", "different letters"),
-    ({"axes": "abcd"}, "out_of_range", "different letters"),
-    ({"axes": "TZYX"}, "out_of_range", "different letters"),
-    ({"axes": ""}, "bad_message", "axes"),
-    ({"axes": "tzyxx"}, "bad_message", "axes"),
-    ({"axes": 4}, "bad_message", "axes"),
-    ({"variable": 4}, "bad_message", "variable"),
-    ({"box": [[0, 1], [0, 1], [0, 1], [1, 1]]}, "out_of_range", "no extent along w"),
-    ({"box": [[1, 0], [0, 1], [0, 1], [0, 1]]}, "out_of_range", "no extent along x"),
-    ({"box": [[0, 1e31], [0, 1], [0, 1], [0, 1]]}, "bad_field", "1e30"),
-    ({"box": [[0, 1]] * 3}, "bad_message", "box"),
-    ({"append": 1}, "bad_message", "append"),
-])
-async def test_wrong_members_of_arrays_are_refused(server, members, code, text):
-    async with Client(server) as client:
-        before = unnumbered(await state_of(client))
-        with pytest.raises(Refused) as refused:
-            await load(client, "a", npy(quadratic()), **members)
-        assert refused.value.code == code and text in refused.value.text
-        assert unnumbered(await state_of(client)) == before
-
-
-@pytest.mark.parametrize("members", [{"axes": "x"}, {"variable": "v"}, {"append": True}])
-@pytest.mark.parametrize("format_, data", [("points", "0 0 0 0"), ("formula", "x")])
-async def test_only_arrays_take_these_members(server, format_, data, members):
-    async with Client(server) as client:
-        with pytest.raises(Refused, match="only arrays|no field called") as refused:
-            await client.request("load", name="a", format=format_, data=data, **members)
-        assert refused.value.code in ("bad_message", "not_found")
-
-
-# --- Uploads
 
 @pytest.mark.parametrize("format_", WRITERS)
 @pytest.mark.parametrize("named", [True, False])
@@ -370,92 +256,3 @@ async def test_wrong_tokens_are_counted():
             statuses = [upload(server, session, "wrong", "a", npy(quadratic())).status for _ in range(4)]
             assert statuses == [401, 401, 401, 429]
             assert upload(server, session, token, "a", npy(quadratic())).status == 429
-
-
-# --- Growing fields
-
-@pytest.mark.parametrize("by_http", [True, False])
-async def test_appended_moments_equal_the_whole_array(server, by_http):
-    values = quadratic((12, 9, 10, 11))
-    async with Client(server) as client, Client(server) as whole:
-        await load(client, "run", npy(values[:2]), box=[[-1, 1], [-1, 1], [-1, 1], [0, 1]])
-        await load(whole, "run", npy(values), box=[[-1, 1], [-1, 1], [-1, 1], [0, 11]])
-        settings = {"levels": [0.25], "inside": "above", "slices": {"count": 11, "spacing": 0.2}}
-        for each in (client, whole):
-            await each.request("set", **settings)
-            await each.request("rotate", planes=["xw"], angles=[0.3])
-        for moment in range(2, 12):
-            if by_http:
-                answer = await put(client, "run", npy(values[moment]), method="POST", moments=True)
-                assert answer.status == 200, answer.body
-            else:
-                await load(client, "run", npy(values[moment : moment + 1]), append=True)
-        grown, expected = [unnumbered(await state_of(each)) for each in (client, whole)]
-        assert grown["revision"] == 13 and expected["revision"] == 3
-        assert {**grown, "revision": 0} == {**expected, "revision": 0}
-        grown, expected = [(await each.request("get", what="slices", **SIZE))["slices"] for each in (client, whole)]
-        assert grown == expected and any("surface" in piece for piece in grown)
-        await client.request("undo")  # the rotation, not the moments
-        await whole.request("undo")
-        grown, expected = [(await each.request("get", what="slices", **SIZE))["slices"] for each in (client, whole)]
-        assert grown == expected
-
-
-async def test_a_field_grows_while_another_object_is_shown(server):
-    values = quadratic((4, 5, 6, 7))
-    async with Client(server) as client:
-        await load(client, "run", npy(values[:1]))
-        await client.request("set", polytope="24-cell")
-        done = await load(client, "run", npy(values[1:]), append=True)
-        assert done["revision"] == 2 and (await state_of(client))["polytope"]["name"] == "24-cell"
-        await client.request("set", polytope="run")
-        await client.request("set", levels=[0.5])
-        welcome = client.welcome
-        slices = (await client.request("get", what="slices", **SIZE))["slices"]
-    async with Client(server, welcome["session"], token=welcome["token"]) as again:  # from the store
-        assert (await again.request("get", what="slices", **SIZE))["slices"] == slices
-
-
-@pytest.mark.parametrize("name, values, code, text", [
-    ("run", quadratic((1, 5, 6, 8)), "bad_field", "8 × 6 × 5 samples along x, y and z, but the field has 7 × 6 × 5"),
-    ("nothing", quadratic((1, 5, 6, 7)), "not_found", "no field called 'nothing'"),
-    ("formula", quadratic((1, 5, 6, 7)), "bad_field", "only to an array"),
-])
-async def test_moments_that_do_not_fit_are_refused(server, name, values, code, text):
-    async with Client(server) as client:
-        await client.request("command", line="formula x")
-        await load(client, "run", npy(quadratic((4, 5, 6, 7))))
-        before = unnumbered(await state_of(client))
-        with pytest.raises(Refused) as refused:
-            await load(client, name, npy(values), append=True)
-        assert refused.value.code == code and text in refused.value.text
-        assert unnumbered(await state_of(client)) == before
-
-
-async def test_a_growing_field_is_bounded():
-    values = quadratic((4, 8, 8, 8))  # 2 KiB a moment
-    with Server("--max-field-bytes", "32k") as server:
-        async with Client(server) as client:
-            await load(client, "run", npy(values))
-            for _ in range(3):
-                await load(client, "run", npy(values), append=True)
-            with pytest.raises(Refused, match="more than 8192 samples") as refused:
-                await load(client, "run", npy(values[0]), append=True)
-            assert refused.value.code == "too_large"
-
-
-@pytest.mark.release_only
-async def test_a_growing_field_is_held_once(server):
-    """The history does not keep the shorter versions."""
-    values = quadratic((2, 32, 32, 32))
-    with Server("--max-client-bytes", "64M") as own:
-        async with Client(own) as client:
-            await load(client, "run", npy(values))
-            for moment in range(60):
-                await client.request("rotate", planes=["xw"], angles=[0.1])
-                await load(client, "run", npy(values[moment % 2]), append=True)
-            # 62 time steps of 128 KiB, and a margin. What a request reserves is freed shortly after its answer.
-            own.wait_for(lambda: own.metric("oval4d_client_bytes") < 20 << 20)
-            for _ in range(60):
-                await client.request("undo")
-            assert (await state_of(client))["polytope"]["name"] == "run"

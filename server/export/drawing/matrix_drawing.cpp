@@ -16,9 +16,9 @@ constexpr double kNumberCharacters = 4;  // the number of characters of kNumberS
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
 
-/// Returns the distance between the numbers at an axis from −reach to reach: 1, 2 or 5 times a power of ten, such that
-/// one or two numbers on each side of 0 have room.
-double numberStep(double reach) {
+/// Returns the tick spacing of an axis from −reach to reach: 1, 2 or 5 times a power of ten, so that there are one or
+/// two ticks on each side of 0.
+double tickSpacing(double reach) {
     constexpr double kMost = 2.6;
     const double power = std::pow(10, std::floor(std::log10(reach)));
     for (const double factor : {0.5, 1.0, 2.0}) {
@@ -42,7 +42,7 @@ class SectionDrawer {
         : scene_(scene),
           origin_(origin),
           reach_(scene::MatrixLayout::kReach * scene.circumradius),
-          step_(numberStep(reach_)),
+          step_(tickSpacing(reach_)),
           scale_(kPanel / 2 / reach_) {}
 
     ShapeGroup draw(std::size_t section, bool transposed) {

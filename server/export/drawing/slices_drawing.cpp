@@ -173,10 +173,10 @@ class SliceDrawer {
 
     /// Adds the convex pieces of faces that cross each other.
     void addPieces() {
-        const slicing::Fill& fill = scene_.fill;
+        const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
         for (std::uint32_t p = fill.patchBegin[slice_]; p < fill.patchBegin[slice_ + 1]; ++p) {
-            const slicing::Fill::Patch& patch = fill.patches[p];
+            const slicing::FilledFaces::Patch& patch = fill.patches[p];
             const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(patch.source));
             const scene::Color color = lit(scene_.cellColors[scene_.patchCells[p]], glm::dmat3(view_) * patch.normal);
             for (std::uint32_t k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
@@ -286,9 +286,9 @@ ShapeGroup drawAxes(const scene::Scene& scene, const Paper& paper) {
 /// Draws the focus point in the focus slice: a line along each axis through it.
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, const Paper& paper) {
     ShapeGroup point{"focus-point", {}};
-    const std::array<scene::ViewLine, 3> lines = scene::focusLines(scene, placement);
+    const std::array<scene::Segment, 3> lines = scene::focusLines(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const scene::ViewLine& ends = lines.at(axis);
+        const scene::Segment& ends = lines.at(axis);
         if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;
         point.shapes.emplace_back(Line{.from = paper(ends[0]),
                                        .to = paper(ends[1]),

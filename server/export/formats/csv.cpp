@@ -87,8 +87,8 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     return out;
 }
 
-// The w at which there are vertices, and the number of vertices at each.
-std::string criticalCsv(const SceneInput& source) {
+// The values of w at which there are vertices, and the number of vertices at each.
+std::string vertexLevelsCsv(const SceneInput& source) {
     std::string out = "w,vertices\n";
     std::vector<double> levels;
     for (const glm::dvec4& v : source.scene.slices->rotatedVertices) levels.push_back(v.w);
@@ -105,7 +105,7 @@ std::string criticalCsv(const SceneInput& source) {
 std::string measurementsCsv(const SceneInput& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
     if (source.contents == ExportContents::critical) {
-        if (field == nullptr) return criticalCsv(source);
+        if (field == nullptr) return vertexLevelsCsv(source);
         throw ExportRefused{{ExportError::Cause::no_body,
                              "the critical w of a field are searched for; get them with the message get critical"}};
     }

@@ -17,8 +17,9 @@
 
 namespace oval4d::exports {
 
-/// The input of the writers of formats with bodies. The bodies are already arranged.
-struct BodiesToWrite {
+/// The input of the writers of mesh formats (STL, PLY, …). The meshes already have their positions in the file,
+/// NamedMesh::at (see arrangement.hpp).
+struct MeshesToWrite {
     std::span<const NamedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
@@ -60,7 +61,7 @@ struct Format {
     Objects objects = Objects::all;
     std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
     bool takesSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
-    std::string (*writeBodies)(const BodiesToWrite&) = nullptr;
+    std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
 

@@ -28,7 +28,7 @@ namespace {
 /// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two are null.
 struct Writer {
     std::string_view name;
-    std::string (*ofBodies)(const BodiesToWrite&) = nullptr;
+    std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneInput&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
     bool takesSurfaces = false;

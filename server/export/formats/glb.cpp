@@ -71,7 +71,7 @@ glm::vec3 linearColor(scene::Color color) {
 }
 
 /// Adds a solid to the model. Triangles do not share vertices, so that each corner has its own normal and color.
-void addMesh(const NamedMesh& solid, const BodiesToWrite& bodies, tinygltf::Model& model) {
+void addMesh(const NamedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
     VertexAttribute colors;
@@ -81,7 +81,7 @@ void addMesh(const NamedMesh& solid, const BodiesToWrite& bodies, tinygltf::Mode
         const glm::dvec3 across = normalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
         if (!(length > 0)) continue;  // a degenerate triangle is invisible and has no normal
-        const glm::vec3 color = linearColor(bodies.colorOf(solid, t));
+        const glm::vec3 color = linearColor(meshes.colorOf(solid, t));
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t corner = solid.mesh.triangles[t][i];
             positions.add(glm::vec3(solid.mesh.points[corner] * kMetersPerMillimeter));
@@ -111,7 +111,7 @@ void addMesh(const NamedMesh& solid, const BodiesToWrite& bodies, tinygltf::Mode
 
 }  // namespace
 
-std::string glb(const BodiesToWrite& bodies) {
+std::string glb(const MeshesToWrite& meshes) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "oval4d";
@@ -122,7 +122,7 @@ std::string glb(const BodiesToWrite& bodies) {
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model.materials.push_back(std::move(material));
-    for (const NamedMesh& solid : bodies.solids) addMesh(solid, bodies, model);
+    for (const NamedMesh& solid : meshes.solids) addMesh(solid, meshes, model);
     std::ostringstream out;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
         throw std::runtime_error("tinygltf cannot write the file");

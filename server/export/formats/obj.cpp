@@ -16,10 +16,10 @@ std::string wordOf(std::string name) {
 
 }  // namespace
 
-std::string obj(const BodiesToWrite& bodies) {
+std::string obj(const MeshesToWrite& meshes) {
     std::string out = "# oval4d, millimeters\n";
     std::size_t first = 1;
-    for (const NamedMesh& solid : bodies.solids) {
+    for (const NamedMesh& solid : meshes.solids) {
         const Mesh& mesh = solid.mesh;
         out += "o " + wordOf(solid.name) + "\n";
         for (const glm::dvec3& point : mesh.points) {

@@ -46,7 +46,7 @@ class PageWriter {
     }
     void operator()(const FilledPolygon& polygon) {
         if (polygon.corners.empty()) return;
-        fillWith(polygon.color, polygon.opacity);
+        setFill(polygon.color, polygon.opacity);
         HPDF_Page_MoveTo(page_, x(polygon.corners[0]), y(polygon.corners[0]));
         for (std::size_t i = 1; i < polygon.corners.size(); ++i)
             HPDF_Page_LineTo(page_, x(polygon.corners[i]), y(polygon.corners[i]));
@@ -54,12 +54,12 @@ class PageWriter {
         HPDF_Page_Fill(page_);
     }
     void operator()(const Disk& disk) {
-        fillWith(disk.color, disk.opacity);
+        setFill(disk.color, disk.opacity);
         HPDF_Page_Circle(page_, x(disk.center), y(disk.center), static_cast<float>(disk.radius));
         HPDF_Page_Fill(page_);
     }
     void operator()(const TextLine& line) {
-        fillWith(line.color, 1);
+        setFill(line.color, 1);
         HPDF_Page_BeginText(page_);
         HPDF_Page_SetFontAndSize(page_, font_, static_cast<float>(line.size));
         const float width = HPDF_Page_TextWidth(page_, line.text.c_str());
@@ -100,7 +100,7 @@ class PageWriter {
     static float x(const glm::dvec2& at) { return static_cast<float>(at.x); }
     float y(const glm::dvec2& at) const { return static_cast<float>(height_ - at.y); }
 
-    void fillWith(scene::Color color, double opacity) {
+    void setFill(scene::Color color, double opacity) {
         setOpacity(opacity);
         HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
     }

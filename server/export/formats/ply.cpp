@@ -25,15 +25,15 @@ void putPoints(std::string& out, const NamedMesh& solid, bool colored) {
 
 }  // namespace
 
-std::string ply(const BodiesToWrite& bodies) {
-    const auto solids = bodies.solids;
+std::string ply(const MeshesToWrite& meshes) {
+    const auto solids = meshes.solids;
     std::size_t points = 0;
     std::size_t triangles = 0;
     for (const NamedMesh& solid : solids) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
-    const bool colored = bodies.havePointColors();  // otherwise triangles have colors
+    const bool colored = meshes.havePointColors();  // otherwise triangles have colors
     const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment oval4d, millimeters\nelement vertex " +
                       std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +
@@ -45,7 +45,7 @@ std::string ply(const BodiesToWrite& bodies) {
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
             put(out, std::uint8_t{3});
             for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);
-            if (!colored) putColor(out, bodies.colorOf(solid, t));
+            if (!colored) putColor(out, meshes.colorOf(solid, t));
         }
         first += static_cast<std::uint32_t>(solid.mesh.points.size());
     }

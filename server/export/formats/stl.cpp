@@ -13,8 +13,8 @@
 
 namespace oval4d::exports {
 
-std::string stl(const BodiesToWrite& bodies) {
-    const auto solids = bodies.solids;
+std::string stl(const MeshesToWrite& meshes) {
+    const auto solids = meshes.solids;
     constexpr std::size_t kHeader = 80;
     constexpr std::size_t kTriangle = 50;
     std::size_t count = 0;

@@ -7,6 +7,6 @@
 namespace oval4d::exports {
 
 /// Returns a binary STL file in millimeters, with all bodies in one mesh.
-std::string stl(const BodiesToWrite& bodies);
+std::string stl(const MeshesToWrite& meshes);
 
 }  // namespace oval4d::exports

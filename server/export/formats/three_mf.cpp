@@ -74,21 +74,21 @@ void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
 
 }  // namespace
 
-std::string threeMf(const BodiesToWrite& bodies) {
+std::string threeMf(const MeshesToWrite& meshes) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     // The library escapes names, but writes metadata as they are.
-    check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(bodies.title).c_str()), "cannot set the title");
+    check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
-    for (const NamedMesh& solid : bodies.solids) addMesh(model.get(), solid);
+    for (const NamedMesh& solid : meshes.solids) addMesh(model.get(), solid);
     const auto writer = owned<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
-    check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&bodies.budget)),
+    check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&meshes.budget)),
           "cannot set the progress callback");
     Sink sink;
     const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&Sink::write),
                                                       reinterpret_cast<void*>(&Sink::seek), &sink);
-    bodies.budget.checkTime();
+    meshes.budget.checkTime();
     check(result, "cannot write the file");
     return std::move(sink.bytes);
 }

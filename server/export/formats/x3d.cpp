@@ -15,7 +15,7 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
-void appendBody(std::string& out, const NamedMesh& solid, const BodiesToWrite& bodies) {
+void appendBody(std::string& out, const NamedMesh& solid, const MeshesToWrite& meshes) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
     const std::vector<scene::Color>& colors = solid.mesh.pointColors;
@@ -32,21 +32,21 @@ void appendBody(std::string& out, const NamedMesh& solid, const BodiesToWrite& b
     out += "\"/>\n<Color color=\"";
     for (const scene::Color color : colors) appendColor(out, color);
     for (std::size_t t = 0; t < solid.mesh.triangles.size() && colors.empty(); ++t)
-        appendColor(out, bodies.colorOf(solid, t));
+        appendColor(out, meshes.colorOf(solid, t));
     out += "\"/>\n</IndexedFaceSet>\n<MetadataString name=\"name\" value='\"" + xmlEscaped(solid.name) +
            "\"'/>\n</Shape></Transform>\n";
 }
 
 }  // namespace
 
-std::string x3d(const BodiesToWrite& bodies) {
+std::string x3d(const MeshesToWrite& meshes) {
     std::string out =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +
-        xmlEscaped(bodies.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
-    for (const NamedMesh& solid : bodies.solids) {
-        bodies.budget.checkTime();
-        appendBody(out, solid, bodies);
+        xmlEscaped(meshes.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
+    for (const NamedMesh& solid : meshes.solids) {
+        meshes.budget.checkTime();
+        appendBody(out, solid, meshes);
     }
     return out + "</Scene>\n</X3D>\n";
 }

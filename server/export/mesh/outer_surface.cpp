@@ -111,7 +111,8 @@ class OuterSurface {
                 const int first = field.floorIndex({hits[h].at, 0, 0}).x + 1;
                 const int last = field.floorIndex({hits[h + 1].at, 0, 0}).x;
                 for (int i = first; i <= last; ++i) field[{i, j, k}] = -1;
-                // Creates the blocks of the lowest corners of all cubes that contain these points.
+                // marchTetrahedra() visits a cube only if the block of its lowest corner exists. Creates that block for
+                // each cube that has one of these points as a corner.
                 for (int i = first - 1; i <= last; ++i) {
                     for (const int n : {j - 1, j}) {
                         field.ensureBlock({i, n, k});

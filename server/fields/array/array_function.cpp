@@ -61,8 +61,9 @@ Bounds ArrayFunction::boundsIn(const Box& region) const {
     }
     Bounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
-    // Each of the four interpolations that give a value adds an error of at most 4.3 · 2⁻²⁴ of the range, or
-    // underflows. If the difference of two samples overflows, there is no value.
+    // An interpolated value is the result of four linear interpolations, each with a rounding error of at most
+    // 4.3 · 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). 2⁻¹⁴⁶ covers underflow. If max − min
+    // overflows a float, the result may be NaN.
     const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
     if (extent > double{std::numeric_limits<float>::max()}) bounds.total = false;
     bounds.min -= rounding;
@@ -101,13 +102,13 @@ void ArrayFunction::releasePages() const {
     if (!isEager() && samples_.file()) samples_.file()->releasePages();
 }
 
-std::size_t ArrayFunction::memory() const {
-    std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memory();
+std::size_t ArrayFunction::memoryBytes() const {
+    std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!isEager()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
         coarser = bytes + bytes / 10;  // with its own bricks and coarser versions
     }
-    return samples_.memory() + bricks_.memory() + coarser;
+    return samples_.memoryBytes() + bricks_.memoryBytes() + coarser;
 }
 
 std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {

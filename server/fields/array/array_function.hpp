@@ -70,7 +70,7 @@ class ArrayFunction final : public ScalarFunction {
     /// Returns the sum of the memory of the bricks, of the coarser versions (at most about 1/15 of that of the
     /// samples), and of the samples unless they are in a mapped file. If the constructor has not read the array,
     /// returns the maximum that the bricks and the selection may take instead.
-    std::size_t memory() const override;
+    std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
     const Box& box() const { return lattice_.box; }

@@ -248,7 +248,7 @@ Bounds BrickBounds::boundsOf(const SampleRange& range) const {
     return bounds;
 }
 
-std::size_t BrickBounds::memory() const {
+std::size_t BrickBounds::memoryBytes() const {
     std::size_t bytes = 0;
     for (const auto& entries : eagerEntries_) bytes += entries.size() * sizeof(std::uint64_t);
     return bytes + slotCount_ * sizeof(Slot);

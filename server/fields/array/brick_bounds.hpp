@@ -56,7 +56,7 @@ class BrickBounds {
     const SampleStatistics& statistics() const { return statistics_; }
 
     /// Returns the memory used, in bytes; for bricks that are read on demand, its upper bound.
-    std::size_t memory() const;
+    std::size_t memoryBytes() const;
 
   private:
     using Index = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w

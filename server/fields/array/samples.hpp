@@ -25,7 +25,7 @@ class Samples {
     std::span<const float> values() const { return values_; }
     /// Returns the memory that the samples use, in bytes; 0 if they are in a mapped file, whose pages the system can
     /// drop.
-    std::size_t memory() const { return file_ ? 0 : values_.size_bytes(); }
+    std::size_t memoryBytes() const { return file_ ? 0 : values_.size_bytes(); }
     /// Returns the mapped file that contains the samples; null if they are in memory.
     const MappedFilePtr& file() const { return file_; }
     /// Returns the position of the first sample in the file, in bytes.

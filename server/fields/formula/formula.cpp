@@ -62,7 +62,7 @@ Result<Formula> Formula::with(std::span<const FormulaConstant> values) const {
     return changed;
 }
 
-std::size_t Formula::memory() const {
+std::size_t Formula::memoryBytes() const {
     const auto& [tree, constants] = *parsed_;
     return sizeof(*this) + text_.capacity() + sizeof(ParsedFormula) + constants.capacity() * sizeof(FormulaConstant) +
            tree.nodes.capacity() * sizeof(SyntaxNode) + tree.operands.capacity() * sizeof(std::uint32_t) +

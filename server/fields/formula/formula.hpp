@@ -35,7 +35,7 @@ class Formula {
     const Tape& tape() const { return *tape_; }
 
     /// Returns the memory used, in bytes, including what copies share.
-    std::size_t memory() const;
+    std::size_t memoryBytes() const;
 
   private:
     friend Result<Formula> parseFormula(std::string_view, FormulaMistake*, const FormulaLimits&, const Formula*);

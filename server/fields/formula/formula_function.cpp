@@ -160,6 +160,6 @@ EvaluationCost FormulaFunction::cost() const {
     return cost;
 }
 
-std::size_t FormulaFunction::memory() const { return sizeof(*this) - sizeof(formula_) + formula_.memory(); }
+std::size_t FormulaFunction::memoryBytes() const { return sizeof(*this) - sizeof(formula_) + formula_.memoryBytes(); }
 
 }  // namespace oval4d::fields

@@ -26,7 +26,7 @@ class FormulaFunction final : public ScalarFunction {
     /// region and at these points rounded to floats.
     Bounds boundsIn(const Box& region) const override;
     EvaluationCost cost() const override;
-    std::size_t memory() const override;
+    std::size_t memoryBytes() const override;
 
   private:
     Formula formula_;

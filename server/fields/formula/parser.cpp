@@ -93,10 +93,10 @@ class Parser {
         skipBlanks();
         if (at_ != text_.size()) failAfterOperand();
         resolveNames(formula);
-        const Index offset = append(formula);
+        const std::uint32_t nodeOffset = appendToExpressions(formula);
         expressions_.relation = formula.relation;
-        expressions_.left = formula.left + offset;
-        expressions_.right = formula.right + offset;
+        expressions_.left = formula.left + nodeOffset;
+        expressions_.right = formula.right + nodeOffset;
         return {std::move(expressions_), std::move(constants_)};
     }
 
@@ -161,7 +161,7 @@ class Parser {
         if (take("(")) {
             const Depth deeper(*this);
             const Index value = sum();
-            close();
+            expectClosingParenthesis();
             return value;
         }
         if (take(kPiLetter)) return add(Kind::pi, {});
@@ -205,7 +205,7 @@ class Parser {
         const Depth deeper(*this);
         std::vector<Index> arguments{sum()};
         while (take(",")) arguments.push_back(sum());
-        close();
+        expectClosingParenthesis();
         if (arguments.size() < entry.minArguments || arguments.size() > entry.maxArguments) {
             const bool isExact = entry.minArguments == entry.maxArguments;
             failAt(start, std::string(entry.name) + " needs " + (isExact ? "" : "at least ") +
@@ -217,7 +217,7 @@ class Parser {
         return addCall(function, arguments);
     }
     // Takes the ')' of a parenthesis or call.
-    void close() {
+    void expectClosingParenthesis() {
         if (take(")")) return;
         if (isAtComparison()) fail("a comparison is allowed only outside of parentheses");
         skipBlanks();
@@ -268,8 +268,8 @@ class Parser {
         } else {
             if (expressions_.expressions.size() - expressions_.sharedExpressions == limits_.expressions)
                 failAt(start, "a formula may have at most " + std::to_string(limits_.expressions) + " expressions");
-            const Index offset = append(tree_);
-            expressions_.expressions.push_back({std::move(name), tree_.left + offset});
+            const std::uint32_t nodeOffset = appendToExpressions(tree_);
+            expressions_.expressions.push_back({std::move(name), tree_.left + nodeOffset});
         }
     }
     // Defines a constant by the expression in tree_, which must consist of numbers.
@@ -281,16 +281,17 @@ class Parser {
         if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
         constants_.push_back({std::move(name), value});
     }
-    // Appends the nodes of a tree to those of expressions_, and returns the number that was added to their indices.
-    Index append(const SyntaxTree& tree) {
-        const auto offset = static_cast<Index>(expressions_.nodes.size());
+    // Appends the nodes of a tree to those of expressions_. Returns nodeOffset: node i of the tree becomes the node
+    // i + nodeOffset of expressions_.
+    std::uint32_t appendToExpressions(const SyntaxTree& tree) {
+        const auto nodeOffset = static_cast<std::uint32_t>(expressions_.nodes.size());
         const auto firstOperand = static_cast<Index>(expressions_.operands.size());
         for (SyntaxNode node : tree.nodes) {
             node.firstOperand += firstOperand;
             expressions_.nodes.push_back(node);
         }
-        for (const Index operand : tree.operands) expressions_.operands.push_back(operand + offset);
-        return offset;
+        for (const Index operand : tree.operands) expressions_.operands.push_back(operand + nodeOffset);
+        return nodeOffset;
     }
     struct Definition {
         Kind kind;  // constant or expression

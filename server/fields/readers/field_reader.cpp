@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/gzip.hpp"
 #include "fields/readers/hdf5.hpp"
 #include "fields/readers/netcdf.hpp"
@@ -58,7 +58,7 @@ bool comesBefore(const std::string& a, const std::string& b) {
     return restA.empty() != restB.empty() ? restA.empty() : a < b;
 }
 
-// Sets the box of a series. `times` are the w of its files.
+// Sets the box of a series. `times` are the values of w of its files.
 void place(ReadField& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();

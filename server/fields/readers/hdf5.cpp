@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/netcdf.hpp"
 #include "fields/readers/sample_buffer.hpp"
 #include "text/message_text.hpp"
@@ -150,24 +150,18 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
     return file.bytes.subspan(offset, size);
 }
 
-// The file that is read, and how.
-struct Source {
-    const FileContents& file;
-    const ReadOptions& options;
-};
-
 // Reads the dataset as floats by slabs.
-Result<Samples> readSlabs(const Source& source, hid_t dataset, hid_t stored, const ArrayLayout& layout,
-                          const NumberFormat& format) {
+Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, hid_t dataset, hid_t stored,
+                          const AxisMapping& mapping, const NumberFormat& format) {
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
-    auto buffer = SampleBuffer::of(layout.count(), source.options);
+    auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
     std::vector<std::byte> numbers;
-    for (const Slab& slab : layout.slabs(kSlabSize)) {
+    for (const Slab& slab : mapping.slabs(kSlabSize)) {
         std::array<hsize_t, 4> start{}, size{};
         std::copy(slab.start.begin(), slab.start.end(), start.begin());
-        std::copy(slab.block.size.begin(), slab.block.size.end(), size.begin());
+        std::copy(slab.layout.size.begin(), slab.layout.size.end(), size.begin());
         const std::size_t skipped = 4 - dimensions;
         const hsize_t count = size[0] * size[1] * size[2] * size[3];
         const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
@@ -178,16 +172,16 @@ Result<Samples> readSlabs(const Source& source, hid_t dataset, hid_t stored, con
             return badField(
                 "the dataset cannot be read: it is damaged, or it is compressed in a way that is not supported");
         }
-        convert(format, numbers.data(), slab.block, buffer->values().data() + slab.first);
-        source.file.releasePages();
+        convert(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
+        file.releasePages();
         buffer->releasePages();
     }
     return buffer->take();
 }
 
-// Returns the path of the dataset with the most dimensions, of those that contain numbers and have 1 to 4 dimensions; an
-// empty string if there is none. Adds a warning if there are several.
-std::string choose(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
+// Returns the path of the dataset with the most dimensions, of those that contain numbers and have 1 to 4 dimensions;
+// an empty string if there is none. Adds a warning if there are several.
+std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
     std::size_t dimensions = 0, candidates = 0;
     for (const std::string& name : datasets) {
@@ -210,7 +204,7 @@ Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vec
                               const ReadOptions& options) {
     ReadField field;
     std::string name = options.variable;
-    if (name.empty()) name = choose(id, datasets, field.warnings);
+    if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
     const bool known = std::any_of(datasets.begin(), datasets.end(),
                                    [&](const std::string& each) { return each == name || "/" + each == name; });
@@ -230,20 +224,20 @@ Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vec
     if (!axes) return axes.error();
     std::vector<Dimension> dimensions;
     for (std::size_t i = 0; i < size->size(); ++i) dimensions.push_back({(*size)[i], (*axes)[i]});
-    const auto layout = ArrayLayout::of(dimensions, options.maxSamples);
-    if (!layout) return layout.error();
-    field.shape = layout->shape();
+    const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
+    if (!mapping) return mapping.error();
+    field.shape = mapping->shape();
     field.boxIsKnown = options.box.has_value();
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     field.box = options.box.value_or(defaultBox(field.shape, time));
     field.quantity = text::printable(name.substr(name.rfind('/') + 1), 60);
-    if (const auto bytes = storedBytes(file, *dataset, layout->count() * sizeOf(format->type))) {
-        auto inPlace = layout->samples(file, *bytes, *format, options);
+    if (const auto bytes = storedBytes(file, *dataset, mapping->count() * sizeOf(format->type))) {
+        auto inPlace = mapping->samples(file, *bytes, *format, options);
         if (!inPlace) return inPlace.error();
         field.samples = std::move(*inPlace);
         return field;
     }
-    auto samples = readSlabs({file, options}, *dataset, *type, *layout, *format);
+    auto samples = readSlabs(file, options, *dataset, *type, *mapping, *format);
     if (!samples) return samples.error();
     field.samples = *samples;
     return field;

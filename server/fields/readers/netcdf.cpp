@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/cf_conventions.hpp"
 #include "fields/readers/sample_buffer.hpp"
 #include "text/message_text.hpp"
@@ -160,7 +160,7 @@ bool isCoordinate(const Variable& variable) {
            (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
 }
 
-Result<Variable> choose(int file, ReadField& field) {
+Result<Variable> defaultVariable(int file, ReadField& field) {
     int count = 0;
     if (nc_inq_nvars(file, &count) != NC_NOERR) return badField("the file's variables cannot be read");
     Variable chosen;
@@ -180,7 +180,7 @@ Result<Variable> choose(int file, ReadField& field) {
     return chosen;
 }
 
-Result<Variable> find(int file, const std::string& path) {
+Result<Variable> variableAtPath(int file, const std::string& path) {
     const std::size_t slash = path.rfind('/');
     int group = file;
     const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -243,23 +243,23 @@ Result<std::vector<Dimension>> place(const Variable& variable, const ReadOptions
 }
 
 Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
-                          const ArrayLayout& layout) {
+                          const AxisMapping& mapping) {
     const NumberFormat format = formatOf(variable, *rowOf(variable.type));
     const std::size_t skipped = 4 - variable.dimensions.size();
-    auto buffer = SampleBuffer::of(layout.count(), options);
+    auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
     // Slabs that have parts of the same chunks follow one another. Files without chunks refuse this.
     constexpr std::size_t kSlots = 4133;
     static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
     std::vector<std::byte> numbers;
-    for (const Slab& slab : layout.slabs(kSlabSize)) {
-        const auto& size = slab.block.size;
+    for (const Slab& slab : mapping.slabs(kSlabSize)) {
+        const auto& size = slab.layout.size;
         numbers.resize(size[0] * size[1] * size[2] * size[3] * sizeOf(format.type));
         const int status = nc_get_vara(variable.group, variable.id, slab.start.data() + skipped, size.data() + skipped,
                                        numbers.data());
         if (status != NC_NOERR)
             return badField("the variable cannot be read: " + text::printable(nc_strerror(status), kMaxNetcdfText));
-        convert(format, numbers.data(), slab.block, buffer->values().data() + slab.first);
+        convert(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
         file.releasePages();
         buffer->releasePages();
     }
@@ -279,17 +279,18 @@ Result<ReadField> readNetcdf(const FileContents& file, const ReadOptions& option
         return badField("the file is not a valid NetCDF file: " +
                         text::printable(nc_strerror(open.status()), kMaxNetcdfText));
     ReadField field;
-    const auto variable = options.variable.empty() ? choose(open.id(), field) : find(open.id(), options.variable);
+    const auto variable =
+        options.variable.empty() ? defaultVariable(open.id(), field) : variableAtPath(open.id(), options.variable);
     if (!variable) return variable.error();
     const auto dimensions = place(*variable, options, field);
     if (!dimensions) return dimensions.error();
-    const auto layout = ArrayLayout::of(*dimensions, options.maxSamples);
-    if (!layout) return layout.error();
-    field.shape = layout->shape();
+    const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
+    if (!mapping) return mapping.error();
+    field.shape = mapping->shape();
     if (!field.boxIsKnown) field.box = defaultBox(field.shape, true);
     if (options.box) field.box = *options.box;
     field.boxIsKnown = field.boxIsKnown || options.box;
-    auto samples = readSlabs(file, options, *variable, *layout);
+    auto samples = readSlabs(file, options, *variable, *mapping);
     if (!samples) return samples.error();
     field.samples = *samples;
     field.quantity = textOf(*variable, "long_name");

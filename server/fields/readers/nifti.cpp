@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/gzip.hpp"
 #include "text/message_text.hpp"
 
@@ -328,13 +328,13 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
     for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].size = static_cast<std::size_t>(header->size[i]);
     if (auto error = place(*header, options, dimensions, field)) return *error;
     std::reverse(dimensions.begin(), dimensions.end());
-    const auto layout = ArrayLayout::of(dimensions, options.maxSamples);
-    if (!layout) return layout.error();
+    const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
+    if (!mapping) return mapping.error();
     const auto data = dataOf(file, gzip ? &*gzip : nullptr, unzipped, static_cast<std::size_t>(header->dataAt),
-                             layout->count() * sizeOf(format->type), options);
+                             mapping->count() * sizeOf(format->type), options);
     if (!data) return data.error();
-    field.shape = layout->shape();
-    auto samples = layout->samples(*data, data->bytes, *format, options);
+    field.shape = mapping->shape();
+    auto samples = mapping->samples(*data, data->bytes, *format, options);
     if (!samples) return samples.error();
     field.samples = std::move(*samples);
     field.quantity = header->quantity;

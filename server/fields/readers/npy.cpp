@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::fields {
@@ -149,21 +149,21 @@ Result<ReadField> readNpy(const FileContents& file, const ReadOptions& options) 
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
     std::vector<Dimension> dimensions;
     for (std::size_t i = 0; i < shape.size(); ++i) dimensions.push_back({shape[i], (*axes)[i]});
-    const auto layout = ArrayLayout::of(dimensions, options.maxSamples);
-    if (!layout) return layout.error();
+    const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
+    if (!mapping) return mapping.error();
     const auto data = file.bytes.subspan(headerAt + length);
-    const std::size_t size = layout->count() * sizeOf(format->type);
+    const std::size_t size = mapping->count() * sizeOf(format->type);
     if (data.size() < size) {
         return badField("the array should take " + std::to_string(size) +
                         " bytes after the header, but the file has only " + std::to_string(data.size()));
     }
     ReadField field;
     if (data.size() > size) field.warnings.emplace_back("the file is longer than its array; the rest is ignored");
-    field.shape = layout->shape();
+    field.shape = mapping->shape();
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     field.boxIsKnown = options.box.has_value();
     field.box = options.box.value_or(defaultBox(field.shape, time));
-    auto samples = layout->samples(file, data, *format, options);
+    auto samples = mapping->samples(file, data, *format, options);
     if (!samples) return samples.error();
     field.samples = std::move(*samples);
     return field;

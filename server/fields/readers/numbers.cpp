@@ -61,25 +61,25 @@ float rescaled(const NumberFormat& format, double stored) {
 }
 
 template <typename Visit>
-void visitRows(const NumberBlock& block, float* to, const Visit& visit) {
-    const auto& size = block.size;
+void visitRows(const StridedLayout& layout, float* to, const Visit& visit) {
+    const auto& size = layout.size;
     for (std::size_t i = 0; i < size[0]; ++i) {
         for (std::size_t j = 0; j < size[1]; ++j) {
             for (std::size_t k = 0; k < size[2]; ++k) {
-                visit(to + static_cast<std::ptrdiff_t>(i) * block.stride[0] +
-                      static_cast<std::ptrdiff_t>(j) * block.stride[1] +
-                      static_cast<std::ptrdiff_t>(k) * block.stride[2]);
+                visit(to + static_cast<std::ptrdiff_t>(i) * layout.stride[0] +
+                      static_cast<std::ptrdiff_t>(j) * layout.stride[1] +
+                      static_cast<std::ptrdiff_t>(k) * layout.stride[2]);
             }
         }
     }
 }
 
 template <typename Number, bool kSwap>
-void convertNumbers(const NumberFormat& format, const std::byte* from, const NumberBlock& block, float* to) {
+void convertNumbers(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     const bool plain = format.isPlain();
-    visitRows(block, to, [&](float* row) {
-        const std::ptrdiff_t stride = block.stride[3];
-        const auto count = static_cast<std::ptrdiff_t>(block.size[3]);
+    visitRows(layout, to, [&](float* row) {
+        const std::ptrdiff_t stride = layout.stride[3];
+        const auto count = static_cast<std::ptrdiff_t>(layout.size[3]);
         if (plain) {
             for (std::ptrdiff_t i = 0; i < count; ++i, from += sizeof(Number))
                 row[i * stride] = rounded(load<Number, kSwap>(from));
@@ -91,11 +91,11 @@ void convertNumbers(const NumberFormat& format, const std::byte* from, const Num
 }
 
 template <typename Number>
-void convertEither(const NumberFormat& format, const std::byte* from, const NumberBlock& block, float* to) {
+void convertEither(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     if (format.bigEndian == (std::endian::native == std::endian::big) || sizeof(Number) == 1)
-        convertNumbers<Number, false>(format, from, block, to);
+        convertNumbers<Number, false>(format, from, layout, to);
     else
-        convertNumbers<Number, true>(format, from, block, to);
+        convertNumbers<Number, true>(format, from, layout, to);
 }
 
 }  // namespace
@@ -135,32 +135,32 @@ bool NumberFormat::isPlain() const {
     return scale == 1 && offset == 0 && missing.empty() && min == -kInfinity && max == kInfinity;
 }
 
-void convert(const NumberFormat& format, const std::byte* from, const NumberBlock& block, float* to) {
+void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:
-            return convertEither<Boolean>(format, from, block, to);
+            return convertEither<Boolean>(format, from, layout, to);
         case NumberType::i1:
-            return convertEither<std::int8_t>(format, from, block, to);
+            return convertEither<std::int8_t>(format, from, layout, to);
         case NumberType::u1:
-            return convertEither<std::uint8_t>(format, from, block, to);
+            return convertEither<std::uint8_t>(format, from, layout, to);
         case NumberType::i2:
-            return convertEither<std::int16_t>(format, from, block, to);
+            return convertEither<std::int16_t>(format, from, layout, to);
         case NumberType::u2:
-            return convertEither<std::uint16_t>(format, from, block, to);
+            return convertEither<std::uint16_t>(format, from, layout, to);
         case NumberType::i4:
-            return convertEither<std::int32_t>(format, from, block, to);
+            return convertEither<std::int32_t>(format, from, layout, to);
         case NumberType::u4:
-            return convertEither<std::uint32_t>(format, from, block, to);
+            return convertEither<std::uint32_t>(format, from, layout, to);
         case NumberType::i8:
-            return convertEither<std::int64_t>(format, from, block, to);
+            return convertEither<std::int64_t>(format, from, layout, to);
         case NumberType::u8:
-            return convertEither<std::uint64_t>(format, from, block, to);
+            return convertEither<std::uint64_t>(format, from, layout, to);
         case NumberType::f2:
-            return convertEither<Half>(format, from, block, to);
+            return convertEither<Half>(format, from, layout, to);
         case NumberType::f4:
-            return convertEither<float>(format, from, block, to);
+            return convertEither<float>(format, from, layout, to);
         case NumberType::f8:
-            return convertEither<double>(format, from, block, to);
+            return convertEither<double>(format, from, layout, to);
     }
 }
 

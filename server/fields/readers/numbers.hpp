@@ -36,10 +36,10 @@ struct NumberFormat {
 /// of the types.
 std::optional<NumberFormat> numberFormatOf(std::string_view descr);
 
-/// A block of stored numbers, and where they go: relative to the first number, the number with the indices i[0] … i[3]
-/// goes to the position i[0] · stride[0] + … + i[3] · stride[3]. The dimensions are those of the stored numbers; the
-/// last one varies fastest.
-struct NumberBlock {
+/// The sizes of a block of stored numbers, and where the numbers go: relative to the first number, the number with the
+/// indices i[0] … i[3] goes to the position i[0] · stride[0] + … + i[3] · stride[3]. The dimensions are those of the
+/// stored numbers; the last one varies fastest.
+struct StridedLayout {
     std::array<std::size_t, 4> size;
     std::array<std::ptrdiff_t, 4> stride;
 };
@@ -47,6 +47,6 @@ struct NumberBlock {
 /// Converts the numbers of a block to the nearest 32-bit floats. `from` points to the stored numbers, which need not be
 /// aligned; the first one goes to `to`. Numbers that stand for no value, and those beyond the largest float, become
 /// NaN.
-void convert(const NumberFormat& format, const std::byte* from, const NumberBlock& block, float* to);
+void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
 
 }  // namespace oval4d::fields

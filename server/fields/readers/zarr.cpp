@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/cf_conventions.hpp"
 #include "fields/readers/sample_buffer.hpp"
 #include "fields/readers/zarr_metadata.hpp"
@@ -188,8 +188,8 @@ Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolde
                                      ReadField& field) {
     auto axes = axesOf(options.axes, kept.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
-    const auto scale = zarr.scaleOf(array.path);
-    const bool isScaled = scale && scale->dimensions.size() == array.shape.size();
+    const auto ofImage = zarr.coordinatesOf(array.path);
+    const bool isImage = ofImage && ofImage->dimensions.size() == array.shape.size();
     const std::size_t slash = array.path.rfind('/');
     const std::string group = slash == std::string::npos ? "" : array.path.substr(0, slash + 1);
     struct Range {
@@ -206,16 +206,16 @@ Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolde
         CfDimension each;
         Range range{0, last, false};
         std::string unit;
-        if (isScaled) {
-            const auto& [name, scaleUnit, first, step] = scale->dimensions[i];
+        if (isImage) {
+            const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];
             each.name = name;
-            unit = text::printable(scaleUnit, kMaxZarrText);
-            range = {first, first + step * last, true};
+            unit = text::printable(statedUnit, kMaxZarrText);
+            range = {origin, origin + spacing * last, true};
         } else if (!array.dimensionNames.empty()) {
             each.name = array.dimensionNames[i];
         }
         named = named || !each.name.empty();
-        if (!isScaled && !each.name.empty() && !array.path.empty()) {
+        if (!isImage && !each.name.empty() && !array.path.empty()) {
             if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
                 const auto ends = endsOfCoordinates(*at, each.name, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
@@ -271,18 +271,18 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     squeeze(array, kept);
     const auto dimensions = place(folder, zarr, array, kept, options, field);
     if (!dimensions) return dimensions.error();
-    const auto layout = ArrayLayout::of(*dimensions, options.maxSamples);
-    if (!layout) return layout.error();
-    field.shape = layout->shape();
+    const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
+    if (!mapping) return mapping.error();
+    field.shape = mapping->shape();
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     if (!field.boxIsKnown) field.box = defaultBox(field.shape, time);
     if (options.box) field.box = *options.box;
     field.boxIsKnown = field.boxIsKnown || options.box;
-    auto buffer = SampleBuffer::of(layout->count(), options);
+    auto buffer = SampleBuffer::of(mapping->count(), options);
     if (!buffer) return buffer.error();
     std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for the dimensions that are left out
-    for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = layout->block().stride.at(4 - kept.size() + i);
-    const auto read = ChunkReader(folder, array).read(stride, layout->first(), buffer->values().data(), [&] {
+    for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = mapping->layout().stride.at(4 - kept.size() + i);
+    const auto read = ChunkReader(folder, array).read(stride, mapping->first(), buffer->values().data(), [&] {
         buffer->releasePages();
     });
     if (!read) return read.error();

@@ -171,7 +171,7 @@ Result<std::monostate> parseCodecs(const json& metadata, ZarrArray& array) {
         const json* const given = member(codec, "configuration");
         const json configuration = given == nullptr ? json::object() : *given;
         if (name == "transpose" && !hasBytes) {
-            // The order of a transposition, or of several, one after the other.
+            // Composes this transposition with the earlier ones: array.order becomes the order of all together.
             auto order = sizesIn(configuration, "order", 0);
             if (!order) return order.error();
             std::vector<std::size_t> sorted = *order, transposed;
@@ -362,7 +362,7 @@ json ZarrFolder::groupAttributes() const {
     return attributes && *attributes ? **attributes : nlohmann::json::object();
 }
 
-std::optional<ZarrScale> ZarrFolder::scaleOf(const std::string& path) const {
+std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path) const {
     const nlohmann::json attributes = groupAttributes();
     const nlohmann::json* const images = member(attributes, "multiscales");
     if (images == nullptr || !images->is_array() || images->empty()) return {};
@@ -371,25 +371,26 @@ std::optional<ZarrScale> ZarrFolder::scaleOf(const std::string& path) const {
     if (levels == nullptr || !levels->is_array() || axes == nullptr || !axes->is_array()) return {};
     const auto level = std::ranges::find_if(*levels, [&](const auto& each) { return textIn(each, "path") == path; });
     if (level == levels->end()) return {};
-    ZarrScale scale;
+    ZarrCoordinates coordinates;
     for (const auto& axis : *axes)
-        scale.dimensions.push_back(
+        coordinates.dimensions.push_back(
             {axis.is_string() ? axis.get<std::string>() : textIn(axis, "name"), textIn(axis, "unit")});
     const nlohmann::json* const transformations = member(*level, "coordinateTransformations");
-    if (transformations == nullptr || !transformations->is_array()) return scale;
+    if (transformations == nullptr || !transformations->is_array()) return coordinates;
     for (const auto& each : *transformations) {
         for (const std::string_view kind : {"scale", "translation"}) {
             const nlohmann::json* const numbers = member(each, kind);
-            if (numbers == nullptr || !numbers->is_array() || numbers->size() != scale.dimensions.size()) continue;
+            if (numbers == nullptr || !numbers->is_array() || numbers->size() != coordinates.dimensions.size())
+                continue;
             for (std::size_t i = 0; i < numbers->size(); ++i) {
                 const double number = numberIn((*numbers)[i]).value_or(kNone);
                 if (!std::isfinite(number)) continue;
-                if (kind == "translation") scale.dimensions[i].first = number;
-                if (kind == "scale" && number > 0) scale.dimensions[i].step = number;
+                if (kind == "translation") coordinates.dimensions[i].origin = number;
+                if (kind == "scale" && number > 0) coordinates.dimensions[i].spacing = number;
             }
         }
     }
-    return scale;
+    return coordinates;
 }
 
 Result<ZarrFolder::Choice> ZarrFolder::choose() const {

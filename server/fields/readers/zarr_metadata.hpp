@@ -40,12 +40,12 @@ struct ZarrArray {
     std::size_t chunkBytes() const;
 };
 
-/// The position of an array of a multiscale image: for each dimension its name, its unit, the coordinate of the first
-/// sample, and the distance between samples.
-struct ZarrScale {
+/// The coordinates of the samples of an array of a multiscale image: for each dimension its name, its unit, the
+/// coordinate of the first sample, and the distance between samples.
+struct ZarrCoordinates {
     struct Dimension {
         std::string name, unit;
-        double first = 0, step = 1;
+        double origin = 0, spacing = 1;
     };
     std::vector<Dimension> dimensions;
 };
@@ -68,8 +68,8 @@ class ZarrFolder {
     /// its arrays.
     Result<Choice> choose() const;
 
-    /// Returns the position of an array if the folder is a multiscale image and the array is one of its levels.
-    std::optional<ZarrScale> scaleOf(const std::string& path) const;
+    /// Returns the coordinates of an array if the folder is a multiscale image and the array is one of its levels.
+    std::optional<ZarrCoordinates> coordinatesOf(const std::string& path) const;
 
   private:
     Result<std::optional<nlohmann::json>> json(const std::string& path) const;

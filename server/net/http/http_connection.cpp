@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "net/coroutine_helpers.hpp"
+#include "net/http/access_check.hpp"
 #include "net/http/request_validation.hpp"
 #include "net/http/upload.hpp"
 #include "net/ws/min_read_rate.hpp"
@@ -67,9 +68,6 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<void> linger();
     void identifyClient(const HttpRequest& request);
     std::string resourcePolicy(const RequestTarget& target) const;
-    std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target,
-                                     std::string& cookie) const;
-    std::optional<Reply> checkHandshake(const HttpRequest& request, std::string& session) const;
     asio::awaitable<void> upgrade(HttpRequest request, std::string session);
     void end(ConnectionRegistry::EndReason reason);
 
@@ -85,77 +83,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     bool first_ = true, reading_ = false, stopping_ = false;
 };
 
-std::string_view headerField(const HttpRequest& request, http::field name) {
-    const auto found = request.find(name);
-    if (found == request.end()) return {};
-    return {found->value().data(), found->value().size()};
-}
-
-std::optional<RequestTarget> targetOf(const HttpRequest& request) {
-    return parseRequestTarget({request.target().data(), request.target().size()});
-}
-
-AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
-    const session::QueryParameters& query = target.query;
-    const auto token = std::ranges::find(query, "token", &session::QueryParameters::value_type::first);
-    const auto field = [&](std::string_view name) {
-        const auto found = request.find(name);
-        return found == request.end() ? std::string_view() : std::string_view(found->value());
-    };
-    // A target in absolute form overrides the Host field (RFC 9112, section 3.2.2).
-    return {target.authority.empty() ? headerField(request, http::field::host) : std::string_view(target.authority),
-            headerField(request, http::field::origin),
-            headerField(request, http::field::authorization),
-            headerField(request, http::field::cookie),
-            token == query.end() ? std::string_view() : std::string_view(token->second),
-            field("Sec-Fetch-Site"),
-            field("Sec-Fetch-Mode"),
-            field("Sec-Fetch-Dest")};
-}
-
-Reply plainReply(unsigned status, std::string text) {
-    return {status, "text/plain; charset=utf-8", SharedBytes(std::move(text)), {}};
-}
-
-Reply plainReply(const HttpError& refusal) {
-    Reply reply = plainReply(refusal.status, refusal.reason + "\n");
-    if (refusal.status == kUpgradeRequired) reply.headers = {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}};
-    return reply;
-}
-
-Reply tooMany(std::string text) {
-    Reply reply = plainReply(429, std::move(text));
-    reply.headers.emplace_back("Retry-After", "10");
-    return reply;
-}
-
-/// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", nothing for other paths.
-std::optional<std::string> sessionIn(const std::string& path) {
-    if (path == "/ws" || path == "/ws/") return "";
-    if (path.starts_with("/ws/")) return path.substr(4);
-    return {};
-}
-
-/// Returns whether the offered subprotocols include that of the server, or none is offered. Names are case-sensitive
-/// (RFC 6455, section 11.5).
-bool offersSubprotocol(const std::string& offered) {
-    const http::token_list names(offered);
-    return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
-}
-
-/// Returns whether pages of other sites must not request this target: the API and WebSockets, which cause work or
-/// reveal data.
-bool isRestricted(const RequestTarget& target) {
-    return target.path.starts_with("/api/") || target.path.starts_with("/ws");
-}
-
 /// Returns the reply to a request that could not be parsed; nothing if the client has disconnected.
 std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
-        return plainReply(431, "the header is too long; at most 16 KiB are allowed\n");
+        return refusalReply(431, "the header is too long; at most 16 KiB are allowed\n");
     if (fault == http::error::end_of_stream || fault == http::error::partial_message) return {};
     const bool malformed = fault.category() == http::make_error_code(http::error::bad_method).category();
-    return malformed ? std::optional(plainReply(400, "malformed HTTP/1.1 request: " + fault.message() + "\n"))
+    return malformed ? std::optional(refusalReply(400, "malformed HTTP/1.1 request: " + fault.message() + "\n"))
                      : std::nullopt;
 }
 
@@ -182,7 +116,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
     const auto uploadTarget = targetOf(request);
     const bool uploads = uploadTarget && isUpload(std::string_view(request.method_string()), uploadTarget->path);
     if (auto fault = validateHeader(request, uploads ? BodyRule::required : BodyRule::none)) {
-        co_await refuse(request, plainReply(*fault));
+        co_await refuse(request, refusalReply(*fault));
         co_return false;
     }
     identifyClient(request);
@@ -197,7 +131,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
         co_return co_await write(request, std::move(reply));
     }
     std::string session;
-    if (auto refusal = checkHandshake(request, session)) {
+    if (auto refusal = checkHandshake(request, context_.access, *client_, buffer_.size() > 0, session)) {
         co_await refuse(request, std::move(*refusal));
     } else {
         co_await upgrade(std::move(request), std::move(session));
@@ -233,67 +167,12 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     admission_ = context_.connections.admit(*client_, 1);
 }
 
-/// Checks the access rules. If the request is refused, returns the reply; otherwise returns nothing, and sets `cookie`
-/// if the reply is to set a cookie.
-std::optional<Reply> HttpConnection::checkAccess(const HttpRequest& request, const RequestTarget& target,
-                                                 std::string& cookie) const {
-    AccessCheckInput fields = accessFieldsOf(request, target);
-    // Everybody may load the page's own files. Behind a proxy that changes Host, their requests have a foreign Origin.
-    if (!isRestricted(target)) fields.origin = {};
-    const auto now = Client::Clock::now();
-    switch (context_.access.check(fields)) {
-        case AccessControl::Verdict::bad_host:
-            return plainReply(403, "this server does not accept the host name " + text::inQuotes(fields.host) +
-                                       "; allow it with --allow-host\n");
-        case AccessControl::Verdict::bad_origin:
-            return plainReply(403, "pages of " + text::inQuotes(fields.origin) +
-                                       " may not use this server, because the request's Host is " +
-                                       text::inQuotes(fields.host) +
-                                       "; a proxy must pass the header Host on, or allow the origin with "
-                                       "--allow-origin\n");
-        case AccessControl::Verdict::bad_token: {
-            if (!client_->mayTryToken(now)) return tooMany("too many wrong tokens; try again in a minute\n");
-            if (AccessControl::hasToken(fields)) client_->countWrongToken(now);
-            Reply refusal = errorReply({ErrorCode::bad_token,
-                                        "this server requires a token: open the address that it "
-                                        "printed at startup, or send Authorization: Bearer …"});
-            refusal.headers.emplace_back("WWW-Authenticate", "Bearer");
-            return refusal;
-        }
-        case AccessControl::Verdict::allowed:
-            break;
-    }
-    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
-    if (context_.access.requiresToken() && !client_->mayTryToken(now))
-        return tooMany("too many wrong tokens; try again in a minute\n");
-    if (isRestricted(target) && context_.access.isCrossSite(fields))
-        return plainReply(403, "pages of other sites may not request this (--allow-origin)\n");
-    cookie = context_.access.cookieFor(fields);
-    return {};
-}
-
-/// Checks a WebSocket handshake. If it is refused, returns the reply; otherwise returns nothing, and sets `session` to
-/// the session id in the path.
-std::optional<Reply> HttpConnection::checkHandshake(const HttpRequest& request, std::string& session) const {
-    const auto target = targetOf(request);
-    const auto wanted = target ? sessionIn(target->path) : std::nullopt;
-    if (!wanted) return errorReply({ErrorCode::not_found, "WebSockets are served at /ws and /ws/{session}"});
-    std::string cookie;
-    if (auto refusal = checkAccess(request, *target, cookie)) return refusal;
-    if (auto fault = validateHandshake(request)) return plainReply(*fault);
-    if (!offersSubprotocol(combinedFieldValue(request, "Sec-WebSocket-Protocol")))
-        return plainReply(400, "the only supported WebSocket subprotocol is " + std::string(kSubprotocol) + "\n");
-    if (buffer_.size() > 0) return plainReply(400, "a client must send nothing before the reply to its handshake\n");
-    session = *wanted;
-    return {};
-}
-
 /// Returns the reply to every request if this connection exceeds a limit; nothing if it is admitted.
 std::optional<Reply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
-        return plainReply(503, "the server has too many connections; try again later\n");
+        return refusalReply(503, "the server has too many connections; try again later\n");
     if (admission_ == ConnectionRegistry::AdmissionDecision::client_full)
-        return tooMany("this address has too many connections; close some or try again later\n");
+        return tooManyReply("this address has too many connections; close some or try again later\n");
     return {};
 }
 
@@ -311,12 +190,13 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     // Health probes may use any host name and need no token, because they reveal only whether the server works.
     const bool probe = target->path == "/healthz" || target->path == "/readyz";
     if (!probe) {
-        if (auto refusal = checkAccess(request, *target, cookie)) co_return std::move(*refusal);
+        if (auto refusal = checkAccess(request, *target, context_.access, *client_, cookie))
+            co_return std::move(*refusal);
     }
     resourcePolicy_ = resourcePolicy(*target);
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
     if (reads && sessionIn(target->path))
-        co_return plainReply({kUpgradeRequired, "this path serves WebSockets: request an upgrade"});
+        co_return refusalReply(HttpError{kUpgradeRequired, "this path serves WebSockets: request an upgrade"});
     Routes::ParsedRequest parsed{std::string(request.method_string()),
                                  std::move(*target),
                                  combinedFieldValue(request, "If-None-Match"),
@@ -382,7 +262,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
     std::string cookie;
-    if (auto refusal = checkAccess(request, *target, cookie)) return refusal;
+    if (auto refusal = checkAccess(request, *target, context_.access, *client_, cookie)) return refusal;
     auto parsed = parseUpload(std::string_view(request.method_string()), *target, context_.services.options.session);
     if (!parsed) return uploadErrorReply(parsed.error());
     const std::size_t most = parsed->load ? options().maxUpload : std::min(options().maxUpload, kMaxStateFile);
@@ -397,7 +277,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
             {ErrorCode::bad_token, "an upload needs the session's token in the header field Session-Token"});
     }
     if (!client_->mayTryToken(Client::Clock::now()))
-        return tooMany("this address has sent too many wrong tokens; try again in a minute\n");
+        return tooManyReply("this address has sent too many wrong tokens; try again in a minute\n");
     token = {given->value().data(), given->value().size()};
     upload = std::move(*parsed);
     return {};

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <fstream>
 
-#include "net/jobs/data_names.hpp"
 #include "net/http/etags_and_ranges.hpp"
+#include "net/jobs/data_names.hpp"
 #include "net/jobs/export_job.hpp"
 #include "net/jobs/loader_job.hpp"
 #include "net/jobs/run_on_pool.hpp"
@@ -18,6 +18,7 @@
 #include "text/message_text.hpp"
 #include "text/words.hpp"
 #include "wire/messages.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d::net {
 
@@ -25,38 +26,11 @@ namespace asio = boost::asio;
 
 namespace {
 
-constexpr const char* kJson = "application/json";
-
 const Error kMethodNotAllowed{ErrorCode::bad_message, "only the methods GET and HEAD are allowed"};
 const Error kMakingFailed{ErrorCode::internal, "the server failed to make this picture or file"};
 
 Error notFound(const std::string& path) {
     return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
-}
-
-Reply reply(std::string type, SharedBytes body, unsigned status = 200) {
-    return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
-}
-
-Reply textReply(std::string type, std::string body, unsigned status = 200) {
-    return reply(std::move(type), SharedBytes(std::move(body)), status);
-}
-
-unsigned statusFor(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::not_found:
-            return 404;
-        case ErrorCode::bad_token:
-            return 401;
-        case ErrorCode::too_large:
-            return 413;
-        case ErrorCode::too_many:
-            return 503;
-        case ErrorCode::internal:
-            return 500;
-        default:
-            return 400;
-    }
 }
 
 /// Parses a number of pixels. `name`: the name of the query parameter, for the error message.
@@ -167,12 +141,6 @@ Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
 
 }  // namespace
 
-Reply jsonReply(std::string message) { return textReply(kJson, std::move(message)); }
-
-Reply errorReply(const Error& error, unsigned status) {
-    return textReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
-}
-
 asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     if (request.method != "GET" && request.method != "HEAD") {
         Reply refused = errorReply(kMethodNotAllowed, 405);
@@ -234,7 +202,7 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr c
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
             pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
         if (!png) co_return countedError(kTooManyBytes);
-        co_return reply("image/png", std::move(*png));
+        co_return uncachedReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
         co_return countedError(kTooManyJobs);
     } catch (const std::exception& fault) {
@@ -254,7 +222,7 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
             pipeline::exportCost(*requested, *exported));
         if (!*made) co_return countedError(made->error());
         const FinishedFile& finished = **made;
-        Reply answer = reply(format.mediaType, finished.bytes);
+        Reply answer = uncachedReply(format.mediaType, finished.bytes);
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back("Content-Disposition",

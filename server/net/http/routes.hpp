@@ -5,34 +5,18 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "export/export_request.hpp"
 #include "net/clients.hpp"
+#include "net/http/reply.hpp"
 #include "net/http/request_target.hpp"
 #include "net/http/web_files.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/readiness.hpp"
 #include "net/services.hpp"
-#include "net/shared_bytes.hpp"
 
 namespace oval4d::net {
-
-/// An HTTP response, independent of the HTTP library.
-struct Reply {
-    unsigned status = 200;
-    std::string type;  ///< the Content-Type; if empty, the field is omitted
-    SharedBytes body;
-    std::vector<std::pair<std::string, std::string>> headers;
-};
-
-/// Returns a reply whose body is a message of the protocol.
-Reply jsonReply(std::string message);
-
-/// Returns a reply with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
-/// derived from the error code.
-Reply errorReply(const Error& error, unsigned status = 0);
 
 /// Answers HTTP requests. Every function may be called from any thread.
 class Routes {

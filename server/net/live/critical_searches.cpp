@@ -7,7 +7,7 @@ namespace oval4d::net {
 CriticalSearchRun::CriticalSearchRun(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop)
     : by_(std::move(by)),
       arguments_(session::criticalArguments(state)),
-      whenWorkersStop_(std::move(workersStop), Forwarder{stop_}) {}
+      whenWorkersStop_(std::move(workersStop), RequestStop{stop_}) {}
 
 std::shared_ptr<CriticalSearchRun> CriticalSearches::begin(const std::shared_ptr<Peer>& by, const session::State& state,
                                                            std::stop_token workersStop) {

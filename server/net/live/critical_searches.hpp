@@ -1,5 +1,5 @@
 #pragma once
-// The searches for critical w in a session.
+// The searches for critical values of w in a session.
 
 #include <memory>
 #include <stop_token>
@@ -11,7 +11,7 @@
 
 namespace oval4d::net {
 
-/// A queued or running search for critical w.
+/// A queued or running search for critical values of w.
 class CriticalSearchRun {
   public:
     /// `by`: the connection that requested it, or null. The search stops when the workers are to stop.
@@ -24,20 +24,20 @@ class CriticalSearchRun {
     void stop() { stop_.request_stop(); }
 
   private:
-    struct Forwarder {
+    struct RequestStop {
         std::stop_source stop;
         void operator()() noexcept { stop.request_stop(); }
     };
     const std::weak_ptr<Peer> by_;
     const session::CriticalArguments arguments_;
     std::stop_source stop_;
-    std::stop_callback<Forwarder> whenWorkersStop_;
+    std::stop_callback<RequestStop> whenWorkersStop_;
 };
 
 /// The searches of a session. Not thread-safe.
 class CriticalSearches {
   public:
-    /// Begins a search for the critical w of a state. It is registered here as long as the caller keeps it.
+    /// Begins a search for the critical values of w of a state. It is registered here as long as the caller keeps it.
     std::shared_ptr<CriticalSearchRun> begin(const std::shared_ptr<Peer>& by, const session::State& state,
                                              std::stop_token workersStop);
     /// Ends the searches that this connection has requested.

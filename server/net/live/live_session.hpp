@@ -6,26 +6,20 @@
 #include <boost/asio/strand.hpp>
 #include <cassert>
 #include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "net/live/critical_searches.hpp"
-#include "net/live/draft_timing.hpp"
-#include "net/live/made_pictures.hpp"
-#include "net/live/motion_timing.hpp"
-#include "net/live/pictures_in_progress.hpp"
+#include "net/live/held_session.hpp"
+#include "net/live/message.hpp"
+#include "net/live/peer.hpp"
+#include "net/live/picture_streams.hpp"
 #include "net/live/snapshot.hpp"
 #include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
-#include "net/shared_bytes.hpp"
-#include "net/live/message.hpp"
-#include "net/live/pacing.hpp"
-#include "net/live/peer.hpp"
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 #include "store/write_behind_store.hpp"
@@ -33,19 +27,20 @@
 
 namespace oval4d::net {
 
-/// A session in use: holds the session's value and its clients, applies commands, and sends states and pictures to the
-/// clients. Its data is used only on its strand. Every command is applied when it arrives. Pictures of the newest state
-/// follow as fast as workers make them and clients show them. To this end, a session has at most one picture job that
-/// is queued or being drawn. A newer state replaces the state of a queued job. While one picture is encoded, the next
-/// one may be drawn. The picture of a revision is made once and shared by all clients with the same stream, encoding
-/// and viewport. Public functions may be called from any thread.
+/// A session in use: holds the session's value, applies commands, answers requests, and saves the session. Every
+/// command is applied when it arrives; PictureStreams sends the clients what it has changed. Its data is used only on
+/// its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
-    using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+    using Strand = PictureStreams::Strand;
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// `client`: the client that opened the session; the session's memory counts against this client's byte account.
-    /// `value`: the session, new or read from the store.
+    /// Returns a session in use. `client`: the client that opened the session; the session's memory counts against this
+    /// client's byte account. `value`: the session, new or read from the store.
+    static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
+                                               store::SessionCredentials credentials, ClientPtr client,
+                                               session::Session value);
+    /// Only for create().
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 ClientPtr client, session::Session value);
 
@@ -74,7 +69,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// object never writes the session to the store again.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Ends the searches for critical w that a client of the session has requested. They fail with `canceled`.
+    /// Ends the searches for critical values of w that a client of the session has requested. They fail with
+    /// `canceled`.
     void stopSearches(std::shared_ptr<Peer> peer);
 
     /// Writes the whole session to the store. Releases its reference to `completion` once the session is written, or
@@ -86,41 +82,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void disconnectAll();
 
   private:
-    using Clock = Pacing::Clock;
-
-    // A client's lanes in the worker pools for its jobs in this session.
-    struct Lanes {
-        ClientPtr client;
-        parallel::WorkerPool::LanePtr pictures, exports;
-    };
-    // A connection to this session.
-    struct Subscriber {
-        std::weak_ptr<Peer> peer;
-        Lanes lanes;
-        StreamKey streamKey;
-        Pacing pacing;
-        slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
-        bool stateInFlight = false;  // without a stream: whether a `state` message is queued, but not yet written
-    };
-    // A job that makes pictures of one revision.
-    struct PictureJob {
-        std::uint64_t number = 0;  // identifies the job within the session; starts at 1
-        session::State state;
-        std::uint64_t revision = 0;
-        Clock::time_point changed;  // the time at which the session reached this revision
-        slicing::Quality quality = slicing::Quality::full;
-        SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
-        std::vector<StreamKey> wanted;  // the pictures to make
-    };
-    // The result of a PictureJob.
-    struct JobResult {
-        std::uint64_t job = 0;  // number of the job
-        std::uint64_t revision = 0;
-        slicing::Quality quality = slicing::Quality::full;
-        SnapshotPtr snapshot;
-        MadePictures::List pictures;
-        std::vector<StreamKey> failed;  // the pictures that could not be made
-    };
+    using Clock = PictureStreams::Clock;
 
     // The following functions run on the strand.
     void assertOnStrand() const {
@@ -133,7 +95,6 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Ping ping, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
-    Lanes lanesOf(const ClientPtr& own) const;
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     void answerWithAddress(Peer& peer, RequestId id);
@@ -152,60 +113,24 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                              std::shared_ptr<session::ObjectLoader> loader,
                                                              std::shared_ptr<CriticalSearchRun> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
-    void updateReservation(bool objectsChanged);
     void scheduleSave();
-    void saveNow(store::WriteBehindStore::Written written = {});
-    void sendError(Peer& peer, const Error& error, RequestId id);
+    void saveNow(store::Written written = {});
 
-    void update();
-    void advanceMotion();
-    slicing::Quality wantedQuality() const;
-    void scheduleRefinement();
-    void requestPictures(std::vector<StreamKey> wanted);
-    const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
-    void scheduleRetry();
-    void onJobDone(JobResult result);
-    void sendPicture(Subscriber& client, const Message& picture);
-    std::string stateText(RequestId id, scene::Scheme scheme) const;
-    void sendState(Subscriber& client);
-    void schedulePacing();
-    void expirePictures();
-    Clock::duration shownTimeout() const;
-    bool readyForNext(const Subscriber& client) const;
     std::uint64_t revision() const { return session_.revision; }
-
-    // The following functions run on a worker.
-    void logFailedPicture(const session::State& state, std::uint64_t ofRevision, const std::exception& why);
-    void runJob(pipeline::Pipeline& pipeline);
-    void onDrawn(const PictureJob& job, const StreamKey& key);
 
     // Constant after construction.
     const Services services_;  // declared first: other members are initialized from it
     store::WriteBehindStore& writeBehind_;
     const store::SessionCredentials credentials_;
-    const ClientPtr client_;
     Strand strand_;  // runs all code that uses the members of the next group
 
     // Used only on the strand.
-    session::Session session_;
-    std::size_t objectMemory_ = 0;  // session::ownObjectMemory() of session_
-    ByteBudget::Reservation held_;  // reserves objectMemory_ and the memory of the history
-    std::map<const Peer*, Subscriber> clients_;
-    DraftTiming draftTiming_;
-    MotionTiming motionTiming_;
-    PicturesInProgress inProgress_;
-    MadePictures pictures_;  // kept while a client waits for one, else empty
-    SharedBytes stateText_;        // the `state` message of stateRevision_, for clients without a stream or a scheme
-    std::optional<std::uint64_t> stateRevision_;
+    const std::shared_ptr<HeldSession> held_;
+    session::Session& session_;  // that of held_
+    const std::shared_ptr<PictureStreams> streams_;
     CriticalSearches searches_;
-    OneShotTimer motionTimer_, paceTimer_, saveTimer_, retryTimer_, refineTimer_;
+    OneShotTimer saveTimer_;
     bool detached_ = false;  // whether this object must no longer write the session to the store
-
-    // Shared by the strand and a worker.
-    std::mutex queuedJobMutex_;
-    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while no
-    // job is posted.
-    std::optional<PictureJob> queuedJob_;
 };
 
 }  // namespace oval4d::net

@@ -33,8 +33,8 @@ class Pacing {
     /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.
     void assumeShown(Clock::time_point now, Clock::duration timeout);
-    /// Returns the time from which assumeShown() marks the oldest unshown picture as shown. Returns nothing if there is no
-    /// such picture, or if that picture is not yet written.
+    /// Returns the time from which assumeShown() marks the oldest unshown picture as shown. Returns nothing if there is
+    /// no such picture, or if that picture is not yet written.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:

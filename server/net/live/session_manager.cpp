@@ -3,12 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include "net/jobs/file_reader.hpp"
-#include "store/codec.hpp"
 #include "store/object_codec.hpp"
 #include "store/secret.hpp"
+#include "store/session_codec.hpp"
 
 namespace oval4d::net {
 
+using store::KeysBySerial;
 using store::WriteBehindStore;
 
 namespace {
@@ -30,8 +31,8 @@ class RecordObjects {
         if (!object && bytes_.contains(key)) object = store::decodeObjectRecord(bytes_[key], open_);
         return object;
     }
-    WriteBehindStore::KeysBySerial keys() const {
-        WriteBehindStore::KeysBySerial keys;
+    KeysBySerial keys() const {
+        KeysBySerial keys;
         for (const auto& [key, object] : decoded_) {
             if (object) keys[slicing::infoOf(*object).serial] = key;
         }
@@ -201,8 +202,8 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     }
 }
 
-/// Passes the session, or the error, to the client that asked for the session first; then joins the other clients that
-/// waited for it.
+/// Gives the session, or the error, to the client that asked first, then lets the other waiting clients join the
+/// session.
 void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
@@ -221,8 +222,7 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
 std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials, const ClientPtr& client,
                                                       session::Session value) {
     const std::string id = credentials.id;
-    auto session =
-        std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), client, std::move(value));
+    auto session = LiveSession::create(services_, writeBehind_, std::move(credentials), client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
     byClient_.open(id, client->name());
     return session;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipeline/cost.hpp"
-#include "wire/messages.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d::net {
 
@@ -58,6 +58,11 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
     pipeline.writeSlices(state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
                          snapshot.quality);
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
+}
+
+std::string stateText(const session::Session& session, std::optional<double> id, scene::Scheme scheme) {
+    const auto section = pipeline::FocusSectionNamer().names(session.current);
+    return wire::stateMessage(session.current, section, session.revision, id, slicing::Quality::full, scheme);
 }
 
 Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality) {

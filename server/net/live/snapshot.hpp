@@ -6,10 +6,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "net/live/message.hpp"
 #include "net/options.hpp"
 #include "net/shared_bytes.hpp"
-#include "net/live/message.hpp"
 #include "pipeline/pipeline.hpp"
 #include "session/session.hpp"
 #include "slicing/slice_set.hpp"
@@ -56,6 +57,9 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 /// std::runtime_error if the picture cannot be drawn.
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn = {});
+
+/// Returns the `state` message of the current state of a session, with this request id.
+std::string stateText(const session::Session& session, std::optional<double> id, scene::Scheme scheme);
 
 /// Returns the estimated time to make a picture of the kind `key`.
 Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality);

@@ -7,7 +7,9 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "net/coroutine_helpers.hpp"
+#include "net/jobs/parse_job.hpp"
 #include "net/jobs/run_on_pool.hpp"
+#include "net/live/errors.hpp"
 #include "store/secret.hpp"
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
@@ -28,24 +30,6 @@ constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes 
 constexpr std::size_t kMinQueue = 64U << 10U;
 
 constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
-
-using Parsed = std::variant<wire::Request, wire::BadRequest>;
-
-Error tooLong(const Options& options) {
-    return {ErrorCode::too_large, "a message may have at most " + std::to_string(options.maxRequestBytes) +
-                                      " bytes; only a load message may be longer, up to " +
-                                      std::to_string(options.maxMessage)};
-}
-
-/// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
-/// message may be long. `text` must outlive the job.
-std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options) {
-    return [text, &options](std::size_t /*worker*/) -> Parsed {
-        const auto seen = wire::peekRequest(text);
-        if (!seen.type || *seen.type != "load") return wire::BadRequest{seen.id, tooLong(options)};
-        return wire::parseRequest(text, options.maxDepth);
-    };
-}
 
 }  // namespace
 
@@ -332,8 +316,7 @@ std::function<void(SessionManager::JoinHandler)> WebSocketConnection::sessionOpe
 }
 
 void WebSocketConnection::sendError(const Error& error, RequestId id) {
-    services_.metrics.countError(error.code);
-    send(textMessage(wire::errorMessage(error, id)));
+    net::sendError(*this, services_.metrics, error, id);
 }
 
 void WebSocketConnection::send(Message message, std::function<void()> written) {

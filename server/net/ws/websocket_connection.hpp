@@ -14,11 +14,11 @@
 #include <string>
 #include <variant>
 
+#include "net/live/peer.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/services.hpp"
 #include "net/ws/beast_close_code_fix.hpp"
 #include "net/ws/min_read_rate.hpp"
-#include "net/live/peer.hpp"
 #include "net/ws/rate_limit.hpp"
 #include "wire/parse.hpp"
 #include "wire/request.hpp"

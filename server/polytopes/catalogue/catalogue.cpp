@@ -52,23 +52,23 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
 }
 
 // The duoprisms and antiprism prisms in the catalogue, with Bowers' short names (empty if there is none).
-struct Duoprism {
+struct DuoprismRow {
     int p, q;
-    std::string_view bowers;
+    std::string_view bowersName;
 };
-constexpr auto kDuoprisms = std::to_array<Duoprism>({{3, 3, "triddip"},
-                                                     {3, 4, "tisdip"},
-                                                     {3, 5, "trapedip"},
-                                                     {3, 6, "thiddip"},
-                                                     {4, 5, "squipdip"},
-                                                     {4, 6, "shiddip"},
-                                                     {5, 5, "pedip"},
-                                                     {5, 6, "phiddip"},
-                                                     {5, 7, ""},
-                                                     {6, 6, "hiddip"},
-                                                     {8, 8, "odip"},
-                                                     {12, 12, ""},
-                                                     {3, 24, ""}});
+constexpr auto kDuoprisms = std::to_array<DuoprismRow>({{3, 3, "triddip"},
+                                                        {3, 4, "tisdip"},
+                                                        {3, 5, "trapedip"},
+                                                        {3, 6, "thiddip"},
+                                                        {4, 5, "squipdip"},
+                                                        {4, 6, "shiddip"},
+                                                        {5, 5, "pedip"},
+                                                        {5, 6, "phiddip"},
+                                                        {5, 7, ""},
+                                                        {6, 6, "hiddip"},
+                                                        {8, 8, "odip"},
+                                                        {12, 12, ""},
+                                                        {3, 24, ""}});
 constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>>(
     {{4, "squappip"}, {5, "pappip"}, {6, "happip"}, {8, "oappip"}, {10, "dappip"}});
 
@@ -83,12 +83,12 @@ std::vector<CatalogueEntry> allEntries() {
         entries.push_back(
             entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
     }
-    for (const auto& [sides, bowers] : kAntiprismPrisms) {
-        entries.push_back(entryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowers)}));
+    for (const auto& [sides, bowersName] : kAntiprismPrisms) {
+        entries.push_back(entryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowersName)}));
     }
-    for (const auto& [p, q, bowers] : kDuoprisms) {
+    for (const auto& [p, q, bowersName] : kDuoprisms) {
         const std::string names = adjectiveOf({p, 1}) + (p == q ? "" : "-" + adjectiveOf({q, 1})) + " duoprism";
-        entries.push_back(entryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowers), names}));
+        entries.push_back(entryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowersName), names}));
     }
     return entries;
 }

@@ -83,7 +83,7 @@ class Combination : public Recipe {
         const ElementCounts a = operands_[0].design.recipe->counts(), b = operands_[1].design.recipe->counts();
         return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.cells + b.cells};
     }
-    std::uint64_t symmetryOrder() const override { return 0; }
+    std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
     std::uint64_t hullPoints() const override {
         const auto [vertices, edges, faces, cells] = counts();
         return operands_[0].design.recipe->hullPoints() + operands_[1].design.recipe->hullPoints() +

@@ -10,7 +10,7 @@
 
 #include "polytopes/construction/coxeter.hpp"
 #include "polytopes/construction/diagram_text.hpp"
-#include "polytopes/construction/diminished.hpp"
+#include "polytopes/construction/prism_over.hpp"
 #include "polytopes/construction/snub.hpp"
 #include "polytopes/construction/uniform.hpp"
 #include "polytopes/polytope.hpp"

@@ -35,7 +35,7 @@ Design prismOf(const NamedPolyhedron& base);
 /// numbers are estimates.
 ElementCounts elementCounts(const Design& design);
 
-/// Returns the order of the full symmetry group, which includes reflections; 0 if the order is not known.
+/// Returns the order of the full symmetry group, which includes reflections; Recipe::kUnknownOrder if it is not known.
 std::uint64_t symmetryOrder(const Design& design);
 
 /// Returns the diagram in linear notation, or empty if there is none.

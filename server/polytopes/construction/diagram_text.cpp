@@ -192,7 +192,8 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
     do {
         reader.skipBlanks();
         const std::size_t brace = reader.rest.find('{');
-        const auto rings = brace == std::string_view::npos ? std::nullopt : parseRingPrefix(reader.rest.substr(0, brace));
+        const auto rings =
+            brace == std::string_view::npos ? std::nullopt : parseRingPrefix(reader.rest.substr(0, brace));
         if (!rings) {
             return NameError::impossible(
                 "a Schläfli symbol has a form such as {3,3,5}, t0,1{4,3,3}, {5}×{7} or t{4,3}×{}");

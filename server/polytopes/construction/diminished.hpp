@@ -1,11 +1,7 @@
 #pragma once
 // Uniform polychora (4-D polytopes) that Wythoff's construction does not produce.
 
-#include <string>
-
 #include "polytopes/construction/recipe.hpp"
-#include "polytopes/construction/snub.hpp"
-#include "polytopes/polytope.hpp"
 
 namespace oval4d::polytopes {
 
@@ -17,9 +13,5 @@ Design snub24Cell();
 /// planes cut off. Its cells are 20 pentagonal antiprisms in place of these vertices, and the 300 remaining tetrahedra
 /// (Conway and Guy, 1965).
 Design grandAntiprism();
-
-/// Builds the prism of height 2 over any polyhedron, with its two bases in the hyperplanes w = ±1. The two bases have
-/// one cell type; the other cells have one type for each orbit of faces of `base`.
-Polytope prismOver(std::string name, const SnubPolyhedron& base);
 
 }  // namespace oval4d::polytopes

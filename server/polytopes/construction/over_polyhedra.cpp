@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "polytopes/construction/design.hpp"
-#include "polytopes/construction/diminished.hpp"
+#include "polytopes/construction/prism_over.hpp"
 #include "polytopes/construction/solids.hpp"
 #include "text/words.hpp"
 
@@ -43,12 +43,13 @@ class OverPolyhedron : public Recipe {
         return {v + 2, e + 2 * v, f + 2 * e, 2 * f};
     }
 
-    std::uint64_t symmetryOrder() const override { return 0; }
+    std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
 
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
         if (over_ == Over::prism) {
-            // The symmetries of a dual map all of its faces to each other.
+            // The base is the dual of a uniform polyhedron here (uniformPrismOver() makes the other prisms). Its
+            // symmetry group is transitive on faces, so all faces are in one orbit.
             const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }

@@ -19,7 +19,9 @@ class Recipe {
     /// Returns the numbers of elements. If build() computes a convex hull, the numbers are estimates.
     virtual ElementCounts counts() const = 0;
 
-    /// Returns the order of the full symmetry group, which includes reflections; 0 if it is not known.
+    /// The result of symmetryOrder() if the order is not known.
+    static constexpr std::uint64_t kUnknownOrder = 0;
+    /// Returns the order of the full symmetry group, which includes reflections, or kUnknownOrder.
     virtual std::uint64_t symmetryOrder() const = 0;
 
     /// Returns the total number of points of all convex hulls that build() computes, or an estimate; 0 if it computes

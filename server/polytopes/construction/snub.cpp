@@ -15,14 +15,14 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Three mirrors that meet at the angles π/p, π/q and π/2, and the rotations a and b of order p and q: the products of
-// the reflections in the first two and in the last two mirrors.
-struct Group {
-    std::array<glm::dvec3, 3> mirrors;
-    glm::dmat3 a, b;
+// The unit normals of three mirrors that meet at the angles π/p, π/q and π/2, and the rotations of order p and q: the
+// products of the reflections in the first two and in the last two mirrors.
+struct TriangleGroupGenerators {
+    std::array<glm::dvec3, 3> mirrorNormals;
+    glm::dmat3 rotationP, rotationQ;
 };
 
-Group groupOf(Branch p, Branch q) {
+TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
     const auto cosine = [](Branch b) { return std::cos(std::numbers::pi * b.denominator / b.numerator); };
     const double sine = std::sqrt(1 - cosine(p) * cosine(p));
     const double y = -cosine(q) / sine;
@@ -31,17 +31,18 @@ Group groupOf(Branch p, Branch q) {
     return {m, mirror(m[0]) * mirror(m[1]), mirror(m[1]) * mirror(m[2])};
 }
 
-// Returns the point x between the mirrors that is moved by a distance of 2 by each of the rotations a, b and ab, so
-// that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for g = a, b and ab by Newton's method.
-glm::dvec3 equidistantPoint(const Group& group, Branch p) {
-    const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - group.a, glm::dmat3(1) - group.b,
-                                          glm::dmat3(1) - group.a * group.b};
+// Returns the point x between the mirrors that is moved by a distance of 2 by each of rotationP, rotationQ and their
+// product, so that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three g by Newton's
+// method.
+glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
+    const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
+                                          glm::dmat3(1) - generators.rotationP * generators.rotationQ};
     // The initial guess: midway between the first two mirrors, at the circumradius of a p-gon of edge length 2, and at
     // distance 1 from the third mirror.
     const double circle = 1 / std::sin(std::numbers::pi / p.numerator);
     const double angle = std::numbers::pi / 2 * (1 - 1.0 / p.numerator);
     glm::dvec3 x(circle * std::cos(angle), circle * std::sin(angle), 0);
-    x.z = (1 - group.mirrors[2].y * x.y) / group.mirrors[2].z;
+    x.z = (1 - generators.mirrorNormals[2].y * x.y) / generators.mirrorNormals[2].z;
     constexpr int kMostSteps = 100;
     for (int step = 0; step < kMostSteps; ++step) {
         glm::dvec3 excess;
@@ -62,10 +63,10 @@ glm::dvec3 equidistantPoint(const Group& group, Branch p) {
 }  // namespace
 
 SnubPolyhedron snubOf(Branch p, Branch q) {
-    const Group group = groupOf(p, q);
-    const glm::dvec3 seed = equidistantPoint(group, p);
+    const TriangleGroupGenerators generators = generatorsOf(p, q);
+    const glm::dvec3 seed = equidistantPoint(generators, p);
     // The vertices are g · seed for all rotations g of the group. If g is the rotation of vertex i, next[i] holds the
-    // vertices of the rotations g·a and g·b.
+    // vertices of the rotations g·rotationP and g·rotationQ.
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;
     std::vector<std::array<std::uint32_t, 2>> next;
@@ -74,7 +75,7 @@ SnubPolyhedron snubOf(Branch p, Branch q) {
     for (std::size_t i = 0; i < rotations.size(); ++i) {
         next.emplace_back();
         for (const std::size_t k : {0U, 1U}) {
-            const glm::dmat3 turned = rotations[i] * (k == 0 ? group.a : group.b);
+            const glm::dmat3 turned = rotations[i] * (k == 0 ? generators.rotationP : generators.rotationQ);
             const auto [number, fresh] = index.add(glm::dvec4(turned * seed, 0), points);
             if (fresh) rotations.push_back(turned);
             next.back().at(k) = number;

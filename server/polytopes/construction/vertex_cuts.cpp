@@ -28,7 +28,7 @@ class VertexCut : public Recipe {
         if (truncation_) return {2 * e, corners + e, corners + e + cells - 2 * e, cells};
         return {e, corners, corners + cells - e, cells};
     }
-    std::uint64_t symmetryOrder() const override { return 0; }
+    std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
     std::uint64_t hullPoints() const override { return base_.recipe->hullPoints() + counts().vertices; }
 
     Polytope build(const std::string& name) const override {

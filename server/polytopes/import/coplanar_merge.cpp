@@ -4,124 +4,23 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "geometry/index.hpp"
+#include "polytopes/import/flat.hpp"
+#include "polytopes/import/polygon_merge.hpp"
+#include "polytopes/import/triangle_edges.hpp"
 
 namespace oval4d::polytopes {
 
 namespace {
 
 using geometry::kNone;
-constexpr double kMaxAmplification =
-    16;  // limit of the factor by which a flat's noise is assumed to grow by extrapolation
-constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the expected noise are ambiguous
-constexpr int kMaxRefits = 4;
+constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the error bounds are ambiguous
 constexpr int kMaxCorrections = 32;
-
-// Greedily chooses points that span a large simplex: each is the farthest from the flat through the points chosen
-// before.
-template <std::size_t Count>
-std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
-    glm::dvec4 middle(0);
-    for (const std::uint32_t v : from) middle += points[v] / static_cast<double>(from.size());
-    std::array<std::uint32_t, Count> chosen{};
-    std::array<glm::dvec4, Count> axes{};
-    for (std::size_t i = 0; i < Count; ++i) {
-        double most = -1;
-        for (const std::uint32_t v : from) {
-            glm::dvec4 rest = points[v] - (i == 0 ? middle : points[chosen[0]]);
-            for (std::size_t k = 1; k < i; ++k) rest -= glm::dot(rest, axes.at(k)) * axes.at(k);
-            if (const double length = glm::dot(rest, rest); length > most) {
-                most = length;
-                chosen.at(i) = v;
-                axes.at(i) = length > 0 ? rest / std::sqrt(length) : glm::dvec4(0);
-            }
-        }
-    }
-    return chosen;
-}
-
-// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain due to the corners'
-// noise.
-template <std::size_t Dimension>
-class Flat {
-  public:
-    using Corners = std::array<std::uint32_t, Dimension + 1>;
-
-    Flat(const Corners& corners, std::span<const glm::dvec4> points) : corners_(corners), origin_(points[corners[0]]) {
-        for (std::size_t j = 0; j < Dimension; ++j) {
-            glm::dvec4 rest = points[corners.at(j + 1)] - origin_;
-            for (std::size_t i = 0; i < j; ++i) {
-                edges_.at(j).at(i) = glm::dot(rest, axes_.at(i));
-                rest -= edges_.at(j).at(i) * axes_.at(i);
-            }
-            const double length = glm::length(rest);
-            edges_.at(j).at(j) = length;
-            axes_.at(j) = length > 0 ? rest / length : glm::dvec4(0);
-            volume_ *= length;
-        }
-    }
-
-    const Corners& corners() const { return corners_; }
-    /// Returns the volume of the simplex times the factorial of its dimension.
-    double volume() const { return volume_; }
-    const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
-
-    /// Returns the coordinates, along the axes of the flat, of the point of the flat nearest to p.
-    std::array<double, Dimension> project(const glm::dvec4& p) const {
-        glm::dvec4 rest = p - origin_;
-        std::array<double, Dimension> along;
-        for (std::size_t i = 0; i < Dimension; ++i) {
-            along.at(i) = glm::dot(rest, axes_.at(i));
-            rest -= along.at(i) * axes_.at(i);
-        }
-        return along;
-    }
-
-    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of its
-    /// barycentric coordinates.
-    double errorAmplification(const glm::dvec4& p) const {
-        std::array<double, Dimension> weights = project(p);
-        double sum = 0, first = 1;
-        for (std::size_t j = Dimension; j-- > 0;) {
-            if (!(edges_.at(j).at(j) > 0)) return std::numeric_limits<double>::infinity();
-            weights.at(j) /= edges_.at(j).at(j);
-            for (std::size_t i = 0; i < j; ++i) weights.at(i) -= weights.at(j) * edges_.at(j).at(i);
-            sum += std::abs(weights.at(j));
-            first -= weights.at(j);
-        }
-        return sum + std::abs(first);
-    }
-
-    /// Returns whether p lies in the flat, within a tolerance: `factor` times the sum of the noise of p and that of the
-    /// flat at p.
-    bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
-        glm::dvec4 rest = p - origin_;
-        for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
-        const double distance = glm::length(rest);
-        if (!(distance > 0)) return true;
-        return distance <=
-               factor * frame.noise(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
-    }
-
-  private:
-    Corners corners_;
-    glm::dvec4 origin_;
-    std::array<glm::dvec4, Dimension> axes_{};
-    std::array<std::array<double, Dimension>, Dimension> edges_{};  // from the first corner, along axes_
-    double volume_ = 1;
-};
-
-using Plane = Flat<2>;
-using Hyperplane = Flat<3>;
-using Triangle = std::array<std::uint32_t, 3>;
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 // Returns the triangle opposite a vertex of the simplex.
 Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
@@ -137,25 +36,6 @@ Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
 std::uint32_t cornerBeside(const Edge& edge, const Triangle& triangle) {
     return *std::find_if(triangle.begin(), triangle.end(),
                          [&](std::uint32_t v) { return v != edge.first && v != edge.second; });
-}
-
-struct Side {
-    Edge edge;
-    std::uint32_t triangle;
-};
-
-// Returns the sides of all triangles, sorted by edge. `corners` maps an element of `triangles` to its corners.
-template <typename Triangles, typename Corners>
-std::vector<Side> sidesOf(const Triangles& triangles, Corners corners) {
-    std::vector<Side> sides;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Triangle& corner = corners(triangles[t]);
-        for (std::size_t i = 0; i < 3; ++i) sides.push_back({std::minmax(corner.at(i), corner.at((i + 1) % 3)), t});
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::pair(a.edge, a.triangle) < std::pair(b.edge, b.triangle);
-    });
-    return sides;
 }
 
 class Merger {
@@ -174,7 +54,7 @@ class Merger {
 
     MergedHull run() {
         mergeSimplices();
-        collectBorders();
+        collectSharedTriangles();
         unmerged_.assign(hyperplanes_.size(), false);
         MergedHull hull;
         do hull = mergeTriangles();
@@ -190,8 +70,8 @@ class Merger {
         std::uint32_t simplex;
         double sign;  // +1 if its normal, by the right-hand rule, points outward, else −1
     };
-    // A triangle between two cells, the one with the smaller index first.
-    struct Border {
+    // A triangle that two cells share, the one with the smaller index first.
+    struct SharedTriangle {
         std::array<std::uint32_t, 2> cells;
         Triangle corners;
     };
@@ -224,21 +104,13 @@ class Merger {
         for (const std::uint32_t seed : order) {
             if (cellOf_[seed] != kNone) continue;
             Hyperplane hyperplane(simplices_[seed].vertices, points_);
-            auto group = grow(seed, [&](std::uint32_t s, std::uint32_t fresh) {
-                return cellOf_[s] == kNone && hyperplane.contains(points_[fresh], frame_);
-            });
-            for (int i = 0; i < kMaxRefits && group.size() > 1; ++i) {
-                const Hyperplane wider(largeSimplex<4>(verticesOf(group), points_), points_);
-                const auto& own = simplices_[seed].vertices;
-                if (!(wider.volume() > 1.01 * hyperplane.volume()) ||
-                    !std::all_of(own.begin(), own.end(), [&](auto v) { return wider.contains(points_[v], frame_); })) {
-                    break;
-                }
-                hyperplane = wider;
-                group = grow(seed, [&](std::uint32_t s, std::uint32_t fresh) {
-                    return cellOf_[s] == kNone && hyperplane.contains(points_[fresh], frame_);
+            const auto growIn = [&](const Hyperplane& flat) {
+                return grow(seed, [&](std::uint32_t s, std::uint32_t fresh) {
+                    return cellOf_[s] == kNone && flat.contains(points_[fresh], frame_);
                 });
-            }
+            };
+            const auto vertices = [&](const auto& some) { return verticesOf(some); };
+            auto group = growAndRefit(hyperplane, simplices_[seed].vertices, growIn, vertices, points_, frame_);
             makeConvex(seed, hyperplane, group);
             const auto cell = static_cast<std::uint32_t>(hyperplanes_.size());
             for (const std::uint32_t s : group) cellOf_[s] = cell;
@@ -312,21 +184,22 @@ class Merger {
             glm::dot(at(own[1]) - at(own[0]), glm::cross(at(own[2]) - at(own[0]), at(own[3]) - at(own[0])));
         for (Facet& facet : facets) facet.sign *= turn * signs_[seed] < 0 ? -1 : 1;
 
-        const std::vector<Side> sides = sidesOf(facets, [](const Facet& f) -> const Triangle& { return f.corners; });
+        const std::vector<TriangleEdge> triangleEdges =
+            edgesOfTriangles(facets, [](const Facet& f) -> const Triangle& { return f.corners; });
         std::vector<std::uint32_t> faults;
         const auto blame = [&](std::uint32_t one, std::uint32_t other) {
             if (one == seed || (other != seed && volumes_[other] < volumes_[one])) std::swap(one, other);
             if (one != seed) faults.push_back(one);
         };
-        for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-            while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-            const Facet& one = facets[sides[i].triangle];
+        for (std::size_t i = 0, end = 0; i < triangleEdges.size(); i = end) {
+            while (end < triangleEdges.size() && triangleEdges[end].edge == triangleEdges[i].edge) ++end;
+            const Facet& one = facets[triangleEdges[i].triangle];
             if (end - i != 2) {
-                for (std::size_t k = i + 1; k < end; ++k) blame(one.simplex, facets[sides[k].triangle].simplex);
+                for (std::size_t k = i + 1; k < end; ++k) blame(one.simplex, facets[triangleEdges[k].triangle].simplex);
                 continue;
             }
-            const Facet& other = facets[sides[i + 1].triangle];
-            if (!isConvexEdge(one, other, sides[i].edge, hyperplane)) blame(one.simplex, other.simplex);
+            const Facet& other = facets[triangleEdges[i + 1].triangle];
+            if (!isConvexEdge(one, other, triangleEdges[i].edge, hyperplane)) blame(one.simplex, other.simplex);
         }
         if (faults.empty()) {
             std::vector<std::uint32_t> corners;
@@ -344,7 +217,7 @@ class Merger {
         return faults;
     }
 
-    // Returns whether two triangles of a boundary meet at a convex edge, within the noise of their corners.
+    // Returns whether two triangles of a boundary meet at a convex edge, within the error bounds of their corners.
     bool isConvexEdge(const Facet& one, const Facet& other, const Edge& edge, const Hyperplane& hyperplane) const {
         const auto place = [&](std::uint32_t v) {
             const auto along = hyperplane.project(points_[v]);
@@ -375,7 +248,7 @@ class Merger {
             const glm::dvec4 direction = height.normal.x * hyperplane.axis(0) + height.normal.y * hyperplane.axis(1) +
                                          height.normal.z * hyperplane.axis(2);
             height.uncertain =
-                frame_.noise(direction) * (1 + Plane(from.corners, points_).errorAmplification(points_[v]));
+                frame_.errorBound(direction) * (1 + Plane(from.corners, points_).errorAmplification(points_[v]));
             return height;
         };
         const RelativeHeight there = heightFrom(one, other), back = heightFrom(other, one);
@@ -386,30 +259,33 @@ class Merger {
         return !folded;
     }
 
-    void collectBorders() {
+    void collectSharedTriangles() {
         for (std::uint32_t s = 0; s < simplices_.size(); ++s) {
             for (std::size_t i = 0; i < 4; ++i) {
                 const std::uint32_t other = cellOf_[simplices_[s].neighbors.at(i)];
-                if (cellOf_[s] < other) borders_.push_back({{cellOf_[s], other}, oppositeTo(i, simplices_[s])});
+                if (cellOf_[s] < other) sharedTriangles_.push_back({{cellOf_[s], other}, oppositeTo(i, simplices_[s])});
             }
         }
-        std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
-            return std::pair(a.cells, a.corners) < std::pair(b.cells, b.corners);
-        });
+        std::sort(sharedTriangles_.begin(), sharedTriangles_.end(),
+                  [](const SharedTriangle& a, const SharedTriangle& b) {
+                      return std::pair(a.cells, a.corners) < std::pair(b.cells, b.corners);
+                  });
     }
 
     MergedHull mergeTriangles() const {
         MergedHull hull;
         std::vector<std::vector<std::uint32_t>> facesOf(hyperplanes_.size());
-        for (std::size_t i = 0, end = 0; i < borders_.size(); i = end) {
-            while (end < borders_.size() && borders_[end].cells == borders_[i].cells) ++end;
-            const auto [a, b] = borders_[i].cells;
+        for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
+            while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
+            const auto [a, b] = sharedTriangles_[i].cells;
             const std::size_t before = hull.faces.size();
-            const auto between = std::span(borders_).subspan(i, end - i);
+            const auto between = std::span(sharedTriangles_).subspan(i, end - i);
             if (between.size() == 1 || unmerged_[a] || unmerged_[b]) {
-                for (const Border& border : between) hull.faces.add(border.corners);
+                for (const SharedTriangle& shared : between) hull.faces.add(shared.corners);
             } else {
-                addPolygons(between, hull.faces);
+                std::vector<Triangle> triangles;
+                for (const SharedTriangle& shared : between) triangles.push_back(shared.corners);
+                addPolygons(triangles, points_, frame_, hull.faces);
             }
             for (std::size_t f = before; f < hull.faces.size(); ++f) {
                 facesOf[a].push_back(static_cast<std::uint32_t>(f));
@@ -418,138 +294,6 @@ class Merger {
         }
         for (const auto& faces : facesOf) hull.cells.add(faces);
         return hull;
-    }
-
-    // Merges the triangles between two cells into polygons.
-    void addPolygons(std::span<const Border> borders, geometry::JaggedArray& faces) const {
-        const std::vector<Side> sides = sidesOf(borders, [](const Border& b) -> const Triangle& { return b.corners; });
-        std::vector<std::array<std::uint32_t, 3>> beside(borders.size(), {kNone, kNone, kNone});
-        for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-            while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-            if (end - i != 2) continue;
-            const auto join = [&](std::uint32_t from, std::uint32_t to) {
-                *std::find(beside[from].begin(), beside[from].end(), kNone) = to;
-            };
-            join(sides[i].triangle, sides[i + 1].triangle);
-            join(sides[i + 1].triangle, sides[i].triangle);
-        }
-        std::vector<double> areas;
-        for (const Border& border : borders) areas.push_back(Plane(border.corners, points_).volume());
-        std::vector<std::uint32_t> order(borders.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::sort(order.begin(), order.end(), [&](auto a, auto b) { return areas[a] > areas[b]; });
-        std::vector<bool> done(borders.size(), false);
-        std::vector<bool> taken;
-        const auto collect = [&](std::uint32_t seed, const Plane& plane) {
-            taken.assign(borders.size(), false);
-            taken[seed] = true;
-            std::vector<std::uint32_t> group{seed};
-            for (std::size_t at = 0; at < group.size(); ++at) {
-                for (const std::uint32_t t : beside[group[at]]) {
-                    if (t == kNone || taken[t] || done[t]) continue;
-                    const Triangle& corners = borders[t].corners;
-                    if (!std::all_of(corners.begin(), corners.end(),
-                                     [&](std::uint32_t v) { return plane.contains(points_[v], frame_); })) {
-                        continue;
-                    }
-                    taken[t] = true;
-                    group.push_back(t);
-                }
-            }
-            return group;
-        };
-        for (const std::uint32_t seed : order) {
-            if (done[seed]) continue;
-            Plane plane(borders[seed].corners, points_);
-            auto group = collect(seed, plane);
-            for (int i = 0; i < kMaxRefits && group.size() > 1; ++i) {
-                std::vector<std::uint32_t> corners;
-                for (const std::uint32_t t : group)
-                    corners.insert(corners.end(), borders[t].corners.begin(), borders[t].corners.end());
-                const Plane wider(largeSimplex<3>(corners, points_), points_);
-                const Triangle& own = borders[seed].corners;
-                if (!(wider.volume() > 1.01 * plane.volume()) ||
-                    !std::all_of(own.begin(), own.end(), [&](auto v) { return wider.contains(points_[v], frame_); })) {
-                    break;
-                }
-                plane = wider;
-                group = collect(seed, plane);
-            }
-            std::vector<std::uint32_t> loop;
-            if (group.size() > 1) loop = boundaryOf(group, borders);
-            if (loop.empty() || !isConvex(loop, plane)) {
-                group = {seed};
-                loop.assign(borders[seed].corners.begin(), borders[seed].corners.end());
-            }
-            for (const std::uint32_t t : group) done[t] = true;
-            faces.add(loop);
-        }
-    }
-
-    // Returns the boundary loop of triangles that form a disk; empty if they do not form one.
-    static std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group,
-                                                 std::span<const Border> borders) {
-        std::vector<Triangle> triangles;
-        std::vector<std::uint32_t> corners;
-        for (const std::uint32_t t : group) {
-            triangles.push_back(borders[t].corners);
-            corners.insert(corners.end(), borders[t].corners.begin(), borders[t].corners.end());
-        }
-        std::sort(corners.begin(), corners.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        const std::vector<Side> sides = sidesOf(triangles, [](const Triangle& t) -> const Triangle& { return t; });
-        std::unordered_map<std::uint32_t, std::array<std::uint32_t, 2>> next;
-        std::size_t edges = 0;
-        for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-            while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-            ++edges;
-            if (end - i > 2) return {};
-            if (end - i == 2) continue;
-            const auto [a, b] = sides[i].edge;
-            for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-                auto& both = next.try_emplace(from, std::array{kNone, kNone}).first->second;
-                if (both[1] != kNone) return {};
-                both[both[0] == kNone ? 0 : 1] = to;
-            }
-        }
-        if (corners.size() + triangles.size() != edges + 1) return {};
-        std::vector<std::uint32_t> loop{next.begin()->first};
-        for (std::uint32_t before = kNone, at = loop[0];;) {
-            const auto& both = next.at(at);
-            const std::uint32_t to = both[0] == before ? both[1] : both[0];
-            if (to == kNone) return {};
-            before = at;
-            at = to;
-            if (at == loop[0]) break;
-            loop.push_back(at);
-            if (loop.size() > next.size()) return {};
-        }
-        if (loop.size() != next.size()) return {};
-        return loop;
-    }
-
-    // Returns whether a loop in a plane turns the same way at all corners, within their noise.
-    bool isConvex(std::span<const std::uint32_t> loop, const Plane& plane) const {
-        std::vector<glm::dvec2> places;
-        for (const std::uint32_t v : loop) {
-            const auto along = plane.project(points_[v]);
-            places.emplace_back(along[0], along[1]);
-        }
-        const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
-        double area = 0;
-        for (std::size_t i = 1; i + 1 < places.size(); ++i)
-            area += cross(places[i] - places[0], places[i + 1] - places[0]);
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const glm::dvec2 before = places[i];
-            const glm::dvec2 corner = places[(i + 1) % places.size()] - before;
-            const glm::dvec2 across = places[(i + 2) % places.size()] - before;
-            const double length = glm::length(across);
-            if (!(length > 0)) return false;
-            const double out = cross(corner, across) / length * (area < 0 ? -1 : 1);
-            const glm::dvec4 direction = (across.y * plane.axis(0) - across.x * plane.axis(1)) / length;
-            if (out < -2 * frame_.noise(direction)) return false;
-        }
-        return true;
     }
 
     // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles. Returns false
@@ -565,10 +309,10 @@ class Merger {
     }
 
     void countAmbiguousRidges(MergedHull& hull) const {
-        for (std::size_t i = 0, end = 0; i < borders_.size(); i = end) {
-            while (end < borders_.size() && borders_[end].cells == borders_[i].cells) ++end;
-            const Hyperplane& one = hyperplanes_[borders_[i].cells[0]];
-            const Hyperplane& other = hyperplanes_[borders_[i].cells[1]];
+        for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
+            while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
+            const Hyperplane& one = hyperplanes_[sharedTriangles_[i].cells[0]];
+            const Hyperplane& other = hyperplanes_[sharedTriangles_[i].cells[1]];
             const auto nearly = [&](const Hyperplane& a, const Hyperplane& b) {
                 return std::all_of(b.corners().begin(), b.corners().end(),
                                    [&](std::uint32_t v) { return a.contains(points_[v], frame_, kAmbiguityFactor); });
@@ -586,7 +330,7 @@ class Merger {
     std::uint32_t latestMark_ = 0;
     std::vector<std::int8_t> signs_;
     std::vector<Hyperplane> hyperplanes_;  // per cell
-    std::vector<Border> borders_;
+    std::vector<SharedTriangle> sharedTriangles_;
     std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
 };
 

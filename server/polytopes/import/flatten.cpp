@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include <glm/matrix.hpp>
 
 #include "geometry/index.hpp"
+#include "polytopes/import/simplex_division.hpp"
 
 namespace oval4d::polytopes {
 
@@ -38,9 +38,9 @@ constexpr std::size_t kMaxWork = 150'000'000;   // the sum over all steps of the
 // equations, and the next round solves them more exactly.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// Points that are moved into one hyperplane. The vertices of each cell are such a set. So are those of each 2-face whose
-// two cells lie in nearly parallel hyperplanes, because these do not determine its plane; the hyperplane of the 2-face
-// is perpendicular to that of its cell. The hyperplane that fits the points best contains their mean.
+// Points that are moved into one hyperplane. The vertices of each cell are such a set. So are those of each 2-face
+// whose two cells lie in nearly parallel hyperplanes, because these do not determine its plane; the hyperplane of the
+// 2-face is perpendicular to that of its cell. The hyperplane that fits the points best contains their mean.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, along which its own one extends
@@ -323,114 +323,7 @@ class Flattener {
     std::uint32_t farthest_ = kNone;  // the flat with the largest deviation
 };
 
-using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
-
-VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
-
-// Appends 2-faces and cells to lists, with their positions in the file if these are known.
-class SimplexDivider {
-  public:
-    explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}
-
-    void divideFaces(const std::vector<bool>& divided) {
-        becomes_.resize(soup_.faces.size());
-        for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
-            const auto loop = soup_.faces[f];
-            if (!divided[f] || loop.size() == 3) {
-                becomes_[f].push_back(addFace(loop, f));
-                continue;
-            }
-            const std::size_t n = loop.size();
-            const auto first = static_cast<std::size_t>(std::min_element(loop.begin(), loop.end()) - loop.begin());
-            for (std::size_t i = 1; i + 1 < n; ++i) {
-                const std::array<std::uint32_t, 3> triangle{loop[first], loop[(first + i) % n],
-                                                            loop[(first + i + 1) % n]};
-                becomes_[f].push_back(addFace(triangle, f));
-            }
-        }
-    }
-
-    void divideCells(const std::vector<bool>& divided) {
-        std::vector<std::uint32_t> pieces;
-        for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
-            pieces.clear();
-            for (const std::uint32_t f : soup_.cells[c])
-                pieces.insert(pieces.end(), becomes_[f].begin(), becomes_[f].end());
-            if (divided[c]) {
-                divideCell(c, pieces);
-            } else {
-                addCell(pieces, c);
-            }
-        }
-        soup_.faces = std::move(faces_);
-        soup_.cells = std::move(cells_);
-        soup_.faceSourcePositions = std::move(facePositions_);
-        soup_.cellSourcePositions = std::move(cellPositions_);
-    }
-
-  private:
-    std::uint32_t addFace(std::span<const std::uint32_t> loop, std::uint32_t from) {
-        faces_.add(loop);
-        if (hasPositions_) facePositions_.push_back(soup_.faceSourcePositions[from]);
-        return static_cast<std::uint32_t>(faces_.size() - 1);
-    }
-
-    void addCell(std::span<const std::uint32_t> faces, std::uint32_t from) {
-        cells_.add(faces);
-        if (hasPositions_) cellPositions_.push_back(soup_.cellSourcePositions[from]);
-    }
-
-    // Makes a tetrahedron of each of the triangles that does not contain the first vertex.
-    void divideCell(std::uint32_t cell, std::span<const std::uint32_t> triangles) {
-        std::uint32_t apex = kNone;
-        for (const std::uint32_t t : triangles) {
-            for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
-        }
-        // The triangles between the apex and an edge: first those of the cell's surface, then those inside.
-        std::map<VertexPair, std::uint32_t> upright;
-        std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
-        for (const std::uint32_t t : triangles) {
-            const auto loop = faces_[t];
-            const auto at = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), apex) - loop.begin());
-            if (at < 3) {
-                upright.emplace(pairOf(loop[(at + 1) % 3], loop[(at + 2) % 3]), t);
-            } else {
-                bases.push_back({{loop[0], loop[1], loop[2]}, t});
-            }
-        }
-        for (const auto& [corners, base] : bases) {
-            std::array<std::uint32_t, 4> tetrahedron{base, 0, 0, 0};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const VertexPair edge = pairOf(corners.at(i), corners.at((i + 1) % 3));
-                const auto [known, isNew] = upright.try_emplace(edge, kNone);
-                if (isNew) {
-                    const std::array<std::uint32_t, 3> triangle{apex, edge.first, edge.second};
-                    known->second = addFace(triangle, soup_.cells[cell][0]);
-                }
-                tetrahedron.at(i + 1) = known->second;
-            }
-            addCell(tetrahedron, cell);
-        }
-    }
-
-    PolygonSoup& soup_;
-    bool hasPositions_;
-    std::vector<std::vector<std::uint32_t>> becomes_;  // per 2-face: what it becomes
-    geometry::JaggedArray faces_, cells_;
-    std::vector<PolygonSoup::SourcePosition> facePositions_, cellPositions_;
-};
-
 }  // namespace
-
-void splitIntoSimplices(PolygonSoup& soup, std::vector<bool> faces, const std::vector<bool>& cells) {
-    for (std::size_t c = 0; c < soup.cells.size(); ++c) {
-        if (!cells[c]) continue;
-        for (const std::uint32_t f : soup.cells[c]) faces[f] = true;
-    }
-    SimplexDivider divider(soup);
-    divider.divideFaces(faces);
-    divider.divideCells(cells);
-}
 
 Flattening flatten(PolygonSoup& soup, double size, double maxDistance, double rounding) {
     Flattening result;

@@ -165,7 +165,7 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
 }
 
 // Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
-// than the noise. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
+// than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
 // perturbation have moved them outward and made them vertices of simplices.
 std::vector<bool> verticesOf(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
@@ -214,7 +214,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     // Points that are no farther apart than rounding may have moved them are merged.
     Points places;
     std::vector<std::uint32_t> numbers;  // per place: the index of its point
-    geometry::PointIndex index(4 * 2 * frame.largestNoise());
+    geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
         if (index.add(frame(points[i]), places).second) numbers.push_back(i);
     }

@@ -70,17 +70,17 @@ glm::dvec4 HullFrame::operator()(const glm::dvec4& point) const {
     return result;
 }
 
-double HullFrame::noise(const glm::dvec4& direction) const {
+double HullFrame::errorBound(const glm::dvec4& direction) const {
     return glm::dot(glm::abs(axes_ * (direction / extents_)), rounding_) +
            glm::dot(glm::abs(direction), arithmetic_ + perturbation_);
 }
 
-double HullFrame::largestNoise() const {
+double HullFrame::largestErrorBound() const {
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
         glm::dvec4 axis(0);
         axis[k] = 1;
-        sum += noise(axis) * noise(axis);
+        sum += errorBound(axis) * errorBound(axis);
     }
     return std::sqrt(sum);
 }

@@ -12,7 +12,7 @@ namespace oval4d::polytopes {
 /// convex hulls. Computed in these coordinates, a hull does not depend on the position, scale, rotation and flatness of
 /// the set of points.
 ///
-/// The frame also bounds the noise of the points: the distance by which the rounding of their coordinates,
+/// The frame also bounds the errors of the points: the distances by which the rounding of their coordinates,
 /// floating-point errors and a random perturbation may have moved them.
 class HullFrame {
   public:
@@ -24,14 +24,14 @@ class HullFrame {
     /// Converts a point to the coordinates of the frame.
     glm::dvec4 operator()(const glm::dvec4& point) const;
 
-    /// Returns the maximum distance by which the noise may have moved a point along `direction`, a unit vector. The
+    /// Returns the maximum distance by which errors may have moved a point along `direction`, a unit vector. The
     /// distance and the direction are in the coordinates of the frame.
-    double noise(const glm::dvec4& direction) const;
+    double errorBound(const glm::dvec4& direction) const;
 
-    /// Returns an upper bound of noise() for all directions.
-    double largestNoise() const;
+    /// Returns an upper bound of errorBound() for all directions.
+    double largestErrorBound() const;
 
-    /// Adds to the noise a random perturbation of each coordinate of the frame by at most `amplitude`. Replaces an
+    /// Adds to the errors a random perturbation of each coordinate of the frame by at most `amplitude`. Replaces an
     /// amplitude set before.
     void setPerturbation(double amplitude) { perturbation_ = amplitude; }
 

@@ -188,10 +188,10 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
                                   " 2-faces, the coordinates are too imprecise to tell whether the two cells lie in "
                                   "one hyperplane");
     }
-    // The noise of the hull is a multiple of the rounding, because the cells extend beyond the points that fix them.
-    constexpr double kAmplification = 32, kHullNoise = 1e-10;
+    // The error of the hull is a multiple of the rounding, because the cells extend beyond the points that fix them.
+    constexpr double kAmplification = 32, kHullError = 1e-10;
     PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
-    const double rounding = kAmplification * glm::length(hull.rounding) + kHullNoise * halfDiagonal(soup.vertices) +
+    const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +
                             doubleRounding(soup.vertices);
     const glm::dvec4 center = moveOrigin(soup.vertices, centering);
     makeFlat(soup, rounding, result.warnings);

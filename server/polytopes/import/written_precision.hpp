@@ -19,7 +19,7 @@ namespace oval4d::polytopes {
 /// probability of at most 2⁻¹⁰. Whole numbers are never taken so.
 class WrittenPrecision {
   public:
-    /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedNumber::text) and as a number.
+    /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedCoordinate::text) and as a number.
     void add(std::string_view word, int axis, double value);
 
     /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit; in single

@@ -161,7 +161,7 @@ void FogPainter::begin(const scene::Scene& scene, DepthRange range) {
         makeTexture(GL_TEXTURE_3D, GL_LINEAR, lattices_[i]);
         load(scene.slices->fogs[i]);
         makeTexture(GL_TEXTURE_3D, GL_NEAREST, blocks_[i]);
-        loadBlocks(scene.slices->fogs[i], scene.fog);
+        uploadBlockMask(scene.slices->fogs[i], scene.fog);
     }
     const glm::vec2 toDepth = range.toDepth();
     program_.use();
@@ -174,8 +174,8 @@ void FogPainter::deleteLattices() {
         glDeleteTextures(static_cast<GLsizei>(textures.size()), textures.data());
 }
 
-void FogPainter::copyDepths(scene::Viewport viewport, Solids solids) {
-    const bool isFrame = solids == Solids::frame;
+void FogPainter::copyDepths(scene::Viewport viewport, FogOccluders occluders) {
+    const bool isFrame = occluders == FogOccluders::frame;
     glActiveTexture(GL_TEXTURE0 + (isFrame ? kFrameUnit : kSurfaceUnit));
     glBindTexture(GL_TEXTURE_2D, isFrame ? frameDepths_ : surfaceDepths_);
     glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, 0, 0, viewport.width, viewport.height, 0);
@@ -195,7 +195,7 @@ void FogPainter::load(const slicing::SliceFog& fog) {
 }
 
 // Writes to the 3-D texture that is bound which blocks of a lattice have fog.
-void FogPainter::loadBlocks(const slicing::SliceFog& fog, const scene::FogTable& table) {
+void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table) {
     const glm::ivec3 size = scene::findFogBlocks(fog, table, blockTexels_);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());
 }

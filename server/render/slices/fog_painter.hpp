@@ -36,17 +36,17 @@ class FogPainter {
 
     /// The kinds of shapes that hide fog: `frame` are balls and bars, whose antialiased edges are translucent, and
     /// `surfaces` are surfaces.
-    enum class Solids : std::uint8_t { frame, surfaces };
-    /// Copies the depth buffer. All shapes of the kind `solids`, and none of the other kind, must have been drawn to
+    enum class FogOccluders : std::uint8_t { frame, surfaces };
+    /// Copies the depth buffer. All shapes of the kind `occluders`, and none of the other kind, must have been drawn to
     /// it.
-    void copyDepths(scene::Viewport viewport, Solids solids);
+    void copyDepths(scene::Viewport viewport, FogOccluders occluders);
 
     /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
     /// It must be drawn before balls and bars, so that it is visible through their edges. `before` is the rest: the fog
     /// in front of the nearest ball or bar, or all of it where there is none.
     enum class Part : std::uint8_t { behind, before };
     /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
-    /// of solids, and then draw the slices from far to near. Leaves the depth test enabled.
+    /// of occluders, and then draw the slices from far to near. Leaves the depth test enabled.
     void draw(const scene::Scene& scene, std::uint32_t slice, Part part);
 
     /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
@@ -60,7 +60,7 @@ class FogPainter {
         glm::vec3 place;  // in slice coordinates
     };
     void load(const slicing::SliceFog& fog);
-    void loadBlocks(const slicing::SliceFog& fog, const scene::FogTable& table);
+    void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table);
     void deleteLattices();
 
     ShaderProgram program_;

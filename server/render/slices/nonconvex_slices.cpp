@@ -67,7 +67,7 @@ void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) 
         // The depth of the far end, so that a bar is drawn after everything that is farther away than this end.
         add({-std::min(points[a].z, points[b].z), Kind::bar, number, e}, slice.edgeVisibility(e));
     }
-    const slicing::Fill& fill = scene.fill;
+    const slicing::FilledFaces& fill = scene.fill;
     if (fill.empty()) return;
     for (std::uint32_t p = fill.patchBegin[number]; p < fill.patchBegin[number + 1]; ++p) {
         const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[p]]]);
@@ -96,8 +96,8 @@ void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, 
 }
 
 void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
-    const slicing::Fill& fill = slice.scene.fill;
-    const slicing::Fill::Patch& patch = fill.patches[number];
+    const slicing::FilledFaces& fill = slice.scene.fill;
+    const slicing::FilledFaces::Patch& patch = fill.patches[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);
     const auto opacity =
         static_cast<float>(slice.scene.faceOpacity) * slice.opacity(slice.scene.visibilities.face(patch.source));

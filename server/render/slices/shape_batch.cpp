@@ -19,24 +19,24 @@ constexpr float kMinRadius = 0.6f;
 constexpr float kMinAlpha = 0.02f;      // shapes that are more transparent are not drawn
 constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
 
-/// How a shape of a given radius is drawn.
-struct DrawnRadius {
-    float scale;  ///< factor for the radius
-    float alpha;  ///< factor for the opacity
-    float half;   ///< half the radius in pixels
-    float reach;  ///< the u at which the antialiased silhouette ends
+/// How a shape is drawn whose radius is clamped to at least kMinRadius.
+struct ClampedRadius {
+    float scale;          ///< factor for the radius
+    float opacityFactor;  ///< factor for the opacity
+    float halfPixels;     ///< half the clamped radius in pixels
+    float edgeU;          ///< the u at which the antialiased silhouette ends
 };
 
 /// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
 /// for a bar and 2 for a ball.
-DrawnRadius drawnRadius(float pixels, int dimensions) {
-    DrawnRadius t{1, 1, 0.5f * pixels, 0};
+ClampedRadius clampedRadius(float pixels, int dimensions) {
+    ClampedRadius clamped{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {
         const float part = pixels / kMinRadius;
-        t = {1 / part, dimensions == 2 ? part * part : part, 0.5f * kMinRadius, 0};
+        clamped = {1 / part, dimensions == 2 ? part * part : part, 0.5f * kMinRadius, 0};
     }
-    t.reach = std::sqrt(1 + 0.5f / t.half);
-    return t;
+    clamped.edgeU = std::sqrt(1 + 0.5f / clamped.halfPixels);
+    return clamped;
 }
 
 }  // namespace
@@ -62,21 +62,22 @@ void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form fo
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
     const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
     if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
-    const DrawnRadius size = drawnRadius(radius * projection_.focalLength() / -center.z, 2);
-    if (size.alpha * opacity < kMinAlpha) return;
+    const ClampedRadius size = clampedRadius(radius * projection_.focalLength() / -center.z, 2);
+    if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 z = -center / std::sqrt(distance2);
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
 
     // The radius, at the depth of the center, of the cone with its apex at the eye that is tangent to the sphere.
-    const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.reach;
+    const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
     const glm::vec3 c = projection_.clip(center), dx = projection_.clip(x) * silhouette,
                     dy = projection_.clip(y) * silhouette;
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_));
     const glm::vec3 specular(glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_));
-    const std::uint32_t tint = rgba(color, size.alpha * opacity);
+    const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
     const auto corner = [&](float u, float v) {
-        return ShapeVertex{c + u * dx + v * dy, {u * size.reach, v * size.reach, size.half}, diffuse, specular, tint};
+        return ShapeVertex{
+            c + u * dx + v * dy, {u * size.edgeU, v * size.edgeU, size.halfPixels}, diffuse, specular, tint};
     };
     add({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, Patch::Form::disk);
 }
@@ -88,24 +89,24 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
-    const DrawnRadius size = drawnRadius(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
-    if (size.alpha * opacity < kMinAlpha) return;
+    const ClampedRadius size = clampedRadius(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
+    if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
     if (glm::dot(z, from) > 0) z = -z;
 
-    const glm::vec3 dx = projection_.clip(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.reach);
+    const glm::vec3 dx = projection_.clip(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.edgeU);
     const glm::vec3 a = projection_.clip(from), b = projection_.clip(to);
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_));
     const glm::vec3 specular(glm::dot(x, half_), 0, glm::dot(z, half_));
-    const std::uint32_t tint = rgba(color, size.alpha * opacity);
+    const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
     const auto corner = [&](const glm::vec3& at, float u, float v) {
-        return ShapeVertex{at + u * dx, {u * size.reach, v * size.reach, size.half}, diffuse, specular, tint};
+        return ShapeVertex{at + u * dx, {u * size.edgeU, v * size.edgeU, size.halfPixels}, diffuse, specular, tint};
     };
     add({corner(a, -1, 0), corner(a, 1, 0), corner(b, 1, 0), corner(b, -1, 0)}, Patch::Form::strip);
-    if (2 * size.half < kMinFootRadius) return;
+    if (2 * size.halfPixels < kMinFootRadius) return;
     // The foot covers the half of the circle at the far end that is turned to the eye and extends beyond the flat end.
-    const glm::vec3 foot = a + projection_.clip(z) * (radius * size.reach);
+    const glm::vec3 foot = a + projection_.clip(z) * (radius * size.edgeU);
     add({corner(foot, -1, 1), corner(foot, 1, 1), corner(a, 1, 0), corner(a, -1, 0)}, Patch::Form::disk);
 }
 

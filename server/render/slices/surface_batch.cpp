@@ -23,7 +23,7 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 }  // namespace
 
-void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Part part) {
+void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half) {
     vertices_.clear();
     opaque_.clear();
     fringes_.clear();
@@ -40,7 +40,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Part p
         return -(toView * glm::dvec4(scene.placements[slice].position, 1)).z;
     };
     std::ranges::sort(order_, std::greater<>(), [&](std::uint32_t slice) { return std::pair(depth(slice), slice); });
-    if (part != Part::whole) keepPart(scene, part);
+    if (half != DepthHalf::whole) keepHalf(scene, half);
     const auto add = [&](std::uint32_t slice, bool opaque) {
         const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
         if (!scene.placements[slice].drawn || surface.triangles.empty()) return;
@@ -71,8 +71,8 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Part p
     }
 }
 
-// Removes the slices of the other part from order_.
-void SurfaceBatch::keepPart(const scene::Scene& scene, Part part) {
+// Removes the slices of the other half from order_.
+void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
     const auto triangles = [&](std::uint32_t slice) {
         return scene.placements[slice].drawn ? scene.slices->surfaces[slice].triangles.size() : 0;
     };
@@ -80,7 +80,7 @@ void SurfaceBatch::keepPart(const scene::Scene& scene, Part part) {
     for (const std::uint32_t slice : order_) all += triangles(slice);
     auto middle = order_.begin();
     while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
-    if (part == Part::near) {
+    if (half == DepthHalf::near) {
         order_.erase(order_.begin(), middle);
     } else {
         order_.erase(middle, order_.end());

@@ -26,17 +26,17 @@ class SurfaceBatch {
   public:
     /// The slices whose surfaces are collected: all of them, or the nearer or farther ones, which have about half of
     /// the triangles.
-    enum class Part : std::uint8_t { whole, near, far };
+    enum class DepthHalf : std::uint8_t { whole, near, far };
 
-    /// Collects the surfaces of a scene, or of a part of its slices. opaque() then has the opaque surfaces, from the
-    /// nearest slice to the farthest. Of a surface that caps close, it omits the triangles that face away from the eye,
-    /// because the surface hides them. translucent() has the translucent surfaces, from the farthest slice to the
-    /// nearest; within a slice, from the innermost level to the outermost; and within a level, first the triangles that
-    /// face away from the eye. Extends `depths` to include the depths of the surfaces.
+    /// Collects the surfaces of a scene, or of its nearer or farther slices. opaque() then has the opaque surfaces,
+    /// from the nearest slice to the farthest. Of a surface that caps close, it omits the triangles that face away from
+    /// the eye, because the surface hides them. translucent() has the translucent surfaces, from the farthest slice to
+    /// the nearest; within a slice, from the innermost level to the outermost; and within a level, first the triangles
+    /// that face away from the eye. Extends `depths` to include the depths of the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
     /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
-    void collect(const scene::Scene& scene, DepthRange& depths, Part part = Part::whole);
+    void collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half = DepthHalf::whole);
 
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
     /// Returns the opaque triangles, as three indices of vertices each. From the index fringesBegin() on, these are the
@@ -44,8 +44,7 @@ class SurfaceBatch {
     const std::vector<std::uint32_t>& opaque() const { return opaque_; }
     std::size_t fringesBegin() const { return fringesBegin_; }
     const std::vector<std::uint32_t>& translucent() const { return translucent_; }
-    /// Returns the slices of the collected part, from the farthest to the nearest. Empty if the scene has neither
-    /// surfaces nor fog.
+    /// Returns the collected slices, from the farthest to the nearest. Empty if the scene has neither surfaces nor fog.
     const std::vector<std::uint32_t>& order() const { return order_; }
     /// Returns, for each slice of order(), the end of its triangles in translucent().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
@@ -57,7 +56,7 @@ class SurfaceBatch {
         std::uint32_t from, to, triangle;
     };
 
-    void keepPart(const scene::Scene& scene, Part part);
+    void keepHalf(const scene::Scene& scene, DepthHalf half);
     void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
     void addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
     void findSilhouette(const slicing::SliceSurface& surface);

@@ -20,8 +20,8 @@ namespace {
 using Blending = SurfaceRasterizer::Blending;
 using Point = SurfaceRasterizer::Point;
 
-// Triangles are cut off at this distance from the eye, in view coordinates.
-constexpr float kNearest = 1e-3F;
+// The depth of the near clipping plane, in view coordinates.
+constexpr float kNearPlane = 1e-3F;
 constexpr std::size_t kLanes = 8;
 // While eight triangles are drawn, the first corners of those that follow this many indices later are prefetched: they
 // may have been written by another core, and the other corners are often close to them.
@@ -68,7 +68,7 @@ OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in,
 
     const __m256 nearness = _mm256_div_ps(one, clipW);
     // All bits of `behind` are set where the vertex cannot be projected; as a number, this is NaN.
-    const __m256 behind = _mm256_cmp_ps(clipW, _mm256_set1_ps(kNearest), _CMP_NGE_UQ);
+    const __m256 behind = _mm256_cmp_ps(clipW, _mm256_set1_ps(kNearPlane), _CMP_NGE_UQ);
     const auto pixel = [&](const __m256& clip, float half) OVAL4D_AVX2 {
         const __m256 halves = _mm256_set1_ps(half);
         return _mm256_or_ps(_mm256_fmadd_ps(_mm256_mul_ps(clip, nearness), halves, halves), behind);
@@ -319,7 +319,8 @@ OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points,
 
 }  // namespace
 
-void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces) {
+void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::Style& style,
+                                        const SurfaceBatch& surfaces) {
     viewport_ = viewport;
     surfaces_ = &surfaces;
     const Lighting lighting{.halfWidth = 0.5F * static_cast<float>(viewport.width),
@@ -392,11 +393,11 @@ void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
         const glm::vec3 &a = surfaces_->vertices()[from].clip, &b = surfaces_->vertices()[to].clip;
-        const bool keepA = a.z >= kNearest, keepB = b.z >= kNearest;
+        const bool keepA = a.z >= kNearPlane, keepB = b.z >= kNearPlane;
         const Point &colorA = points_[from], &colorB = points_[to];
         if (keepA) add(a, colorA);
         if (keepA == keepB) continue;
-        const float t = (kNearest - a.z) / (b.z - a.z);
+        const float t = (kNearPlane - a.z) / (b.z - a.z);
         Point color = colorA;
         for (float Point::* channel : {&Point::r, &Point::g, &Point::b, &Point::a})
             color.*channel += t * (colorB.*channel - colorA.*channel);
@@ -413,7 +414,7 @@ void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint
     drawAll<Blending::alpha>(canvas, polygon.data(), triangles, unclipped);
 }
 
-double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> indices) const {
+double SurfaceRasterizer::estimateMeanScreenY(std::span<const std::uint32_t> indices) const {
     constexpr std::size_t kStep = 3 * 32;
     const auto height = static_cast<float>(viewport_.height);
     double sum = 0;
@@ -432,12 +433,12 @@ double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> indices) con
 #else
 
 void SurfaceRasterizer::projectAndLight(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
-                                const SurfaceBatch& /*surfaces*/) {}
+                                        const SurfaceBatch& /*surfaces*/) {}
 void SurfaceRasterizer::draw(const SurfaceCanvas& /*canvas*/, std::span<const std::uint32_t> /*indices*/,
                              Blending /*blending*/) const {}
 void SurfaceRasterizer::drawClipped(const SurfaceCanvas& /*canvas*/, const std::uint32_t* /*corners*/,
                                     Blending /*blending*/) const {}
-double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> /*indices*/) const { return 0.5; }
+double SurfaceRasterizer::estimateMeanScreenY(std::span<const std::uint32_t> /*indices*/) const { return 0.5; }
 
 #endif
 

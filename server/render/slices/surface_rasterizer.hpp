@@ -42,9 +42,9 @@ class SurfaceRasterizer {
     /// at the same time.
     void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
 
-    /// Returns the mean height of the first corners of the triangles, from 0 (the lower edge of the picture) to 1.
-    /// Estimates it from some of the corners in the picture; returns 0.5 if there are none.
-    double meanHeight(std::span<const std::uint32_t> indices) const;
+    /// Estimates the mean screen y of the triangles, as a fraction of the picture height from its lower edge. Samples
+    /// the first corners of some triangles; returns 0.5 if none of them is between the lower and the upper edge.
+    double estimateMeanScreenY(std::span<const std::uint32_t> indices) const;
 
     /// A projected and lit vertex. It fills one 256-bit register.
     struct alignas(32) Point {

@@ -99,7 +99,7 @@ SectionChange changeOf(const SectionTopology& before, const SectionTopology& aft
     return before.cavities != after.cavities ? SectionChange::cavity : SectionChange::handle;
 }
 
-/// Matches the parts of the surfaces in two sections whose w are close to each other.
+/// Matches the parts of the surfaces in two sections at close values of w.
 class Correspondence {
   public:
     /// A part has a partner if most of its points are within two lattice cubes of points of the other section.
@@ -180,7 +180,7 @@ struct Change {
     SectionTopology before, after;
 };
 
-/// One search for the critical w of a field.
+/// One search for the critical values of w of a field.
 class Search {
   public:
     Search(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings,

@@ -1,5 +1,5 @@
 #pragma once
-// The critical w of an object: the values of w at which the type of its section by the hyperplane w = const changes.
+// The critical values of w of an object: those at which the type of its section by the hyperplane w = const changes.
 
 #include <chrono>
 #include <cstddef>
@@ -52,7 +52,7 @@ struct CriticalSection {
     SectionTopology before = {}, after = {};  ///< for a field: the topology below and above w
 };
 
-/// The critical w of an object in one orientation.
+/// The critical values of w of an object in one orientation.
 struct CriticalSections {
     double least = 0, greatest = 0;  ///< the range of w in which the object, or the domain of a field, lies
     /// Each change was narrowed down to an interval of w of at most this length, before close changes were combined
@@ -76,13 +76,14 @@ struct CriticalOptions {
     std::stop_token stop = {};
 };
 
-/// Finds the critical w of the object rotated by `orientation`. For a polytope or point cloud, these are the w of its
-/// vertices. For a field, these are the w at which the body of one of `settings.levels`, within the domain, changes its
-/// topology. To find them, the field is cut at more than kCriticalSections values of w, and the intervals between
-/// sections of different topology are halved until their lengths are at most kCriticalTolerance of the range of w. The
-/// search misses changes that cancel each other between two successive sections. It ignores parts smaller than eight
-/// cubes of the lattice of a section, which has kCriticalCubes cubes along the longest side of the section. If there
-/// are about a thousand changes or more, it ends early, with a greater tolerance.
+/// Finds the critical values of w of the object rotated by `orientation`. For a polytope or point cloud, these are the
+/// w coordinates of its vertices. For a field, these are the values of w at which the body of one of `settings.levels`,
+/// within the domain, changes its topology. To find them, the field is cut at more than kCriticalSections values of w,
+/// and the intervals between sections of different topology are halved until their lengths are at most
+/// kCriticalTolerance of the range of w. The search misses changes that cancel each other between two successive
+/// sections. It ignores parts smaller than eight cubes of the lattice of a section, which has kCriticalCubes cubes
+/// along the longest side of the section. If there are about a thousand changes or more, it ends early, with a greater
+/// tolerance.
 ///
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
 /// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it

@@ -187,8 +187,8 @@ void ExactSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
 // `boundary` has a bit for each facet on the boundary of the domain.
 void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
-        const unsigned inside =
-            bitsOf(tetrahedron.edges, [&](const Edge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
+        const unsigned inside = bitsOf(
+            tetrahedron.edges, [&](const PentatopeEdge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
         if (inside == 0) continue;
         addLevelSet(cut, tetrahedron, inside);
         for (std::size_t face = 0; face < 4; ++face) {
@@ -242,8 +242,8 @@ void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetr
     std::array<std::uint32_t, 4> loop{};
     std::size_t size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Edge& from = tetrahedron.edges[corners[i]];
-        const Edge& to = tetrahedron.edges[corners[(i + 1) % 3]];
+        const PentatopeEdge& from = tetrahedron.edges[corners[i]];
+        const PentatopeEdge& to = tetrahedron.edges[corners[(i + 1) % 3]];
         const bool fromInside = cut.crossings[from[0]][from[1]].inside, toInside = cut.crossings[to[0]][to[1]].inside;
         if (fromInside) loop[size++] = pointOn(cut, from);
         if (fromInside != toInside)
@@ -253,7 +253,7 @@ void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetr
 }
 
 // Returns the point where the hyperplane crosses an edge.
-std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const Edge& edge) {
+std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
     const auto [number, isNew] = numbers_.number(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) out_->points.push_back(position(cut, edge));
     return number;
@@ -261,7 +261,8 @@ std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const Edge& edge) {
 
 // Returns the point of the level set between the crossings of two edges. The crossing of `inner` must be inside, and
 // that of `outer` outside.
-std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const Edge& inner, const Edge& outer) {
+std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
+                                        const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
     const auto [number, isNew] = numbers_.number(keyOf(cut, corners));
     if (isNew) {
@@ -272,7 +273,7 @@ std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const Edge& inn
     return number;
 }
 
-glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const Edge& edge) const {
+glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const PentatopeEdge& edge) const {
     const auto corner = [&](std::size_t i) {
         const unsigned bits = cut.shape->corners[i];
         return glm::dvec3(

@@ -90,7 +90,6 @@ class ExactSlicer {
         std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: that of the edge between corners i < j
         bool positive;                                         // as for sectionOf()
     };
-    using Edge = std::array<std::uint8_t, 2>;
 
     void visit(const CellRange& range);
     bool meetsHyperplane(const CellRange& range) const;
@@ -102,9 +101,9 @@ class ExactSlicer {
     void findCrossings(CutPentatope& cut, unsigned above) const;
     void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);
     void addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face, bool reversed);
-    std::uint32_t pointOn(const CutPentatope& cut, const Edge& edge);
-    std::uint32_t pointBetween(const CutPentatope& cut, const Edge& inner, const Edge& outer);
-    glm::dvec3 position(const CutPentatope& cut, const Edge& edge) const;
+    std::uint32_t pointOn(const CutPentatope& cut, const PentatopeEdge& edge);
+    std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);
+    glm::dvec3 position(const CutPentatope& cut, const PentatopeEdge& edge) const;
     std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
     double valueOf(float sample) const;
 

@@ -15,9 +15,9 @@
 
 namespace oval4d::slicing {
 
-/// A regular 4-D lattice that fills the domain of a field. The coordinates of its points are those after the rotation of
-/// the object. If the field is an array, its samples are the lattice points; along an axis with one sample, there are
-/// two lattice points with the same value.
+/// A regular 4-D lattice that fills the domain of a field. The coordinates of its points are those after the rotation
+/// of the object. If the field is an array, its samples are the lattice points; along an axis with one sample, there
+/// are two lattice points with the same value.
 class FieldLattice {
   public:
     /// For a formula, the lattice has `cells` cells along the longest side of the domain. Along the other sides, it has

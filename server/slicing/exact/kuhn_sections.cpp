@@ -12,7 +12,6 @@ namespace oval4d::slicing {
 
 namespace {
 
-using Edge = std::array<std::uint8_t, 2>;
 using Section = std::vector<SectionTetrahedron>;
 
 std::array<Pentatope, 24> makePentatopes() {
@@ -40,8 +39,10 @@ glm::dvec4 referenceCorner(std::size_t i) {
 
 // Returns whether the tetrahedron has a positive volume in the section of the reference pentatope.
 bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
-    const auto middle = [&](const Edge& edge) { return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1])); };
-    const Edge& edge = tetrahedron.edges[0];
+    const auto middle = [&](const PentatopeEdge& edge) {
+        return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
+    };
+    const PentatopeEdge& edge = tetrahedron.edges[0];
     const glm::dvec4 first = middle(edge);
     const double up = (above >> edge[1] & 1U) != 0 ? 1 : -1;
     return glm::determinant(glm::dmat4(middle(tetrahedron.edges[1]) - first, middle(tetrahedron.edges[2]) - first,
@@ -69,7 +70,7 @@ Section makeSection(unsigned above, bool positive) {
     if (few.size() > many.size()) std::swap(few, many);
     const auto edge = [&](std::size_t i, std::size_t j) {
         const auto [low, high] = std::minmax(few[i], many[j]);
-        return Edge{low, high};
+        return PentatopeEdge{low, high};
     };
     Section section;
     if (few.size() == 1) section.push_back({{edge(0, 0), edge(0, 1), edge(0, 2), edge(0, 3)}, {}});

@@ -30,13 +30,15 @@ struct Pentatope {
 /// Returns the 24 pentatopes of a cell.
 const std::array<Pentatope, 24>& kuhnPentatopes();
 
+/// An edge of a pentatope: the indices of its ends in Pentatope::corners, the smaller index first.
+using PentatopeEdge = std::array<std::uint8_t, 2>;
+
 /// A tetrahedron that is part of the section of a pentatope by a hyperplane.
 struct SectionTetrahedron {
     static constexpr std::uint8_t kInner = 0xff;
 
-    /// Corner k of the tetrahedron lies on the edge of the pentatope between its corners edges[k][0] and edges[k][1],
-    /// the smaller number first.
-    std::array<std::array<std::uint8_t, 2>, 4> edges{};
+    /// Corner k of the tetrahedron lies on the edge edges[k] of the pentatope.
+    std::array<PentatopeEdge, 4> edges{};
     /// Per corner k of the tetrahedron: the facet of the pentatope that contains the face opposite to corner k, as the
     /// number of the corner opposite to the facet; kInner if this face lies in the interior of the section.
     std::array<std::uint8_t, 4> facets{};

@@ -33,7 +33,7 @@ std::array<Face, 6> makeFaces() {
 // Returns the case of a cube. On the face `joined`, alternating inside corners are joined; on all others, separated.
 CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t joined) {
     const auto isInside = [&](std::uint8_t corner) { return (inside >> corner & 1U) != 0; };
-    // Each edge points to an edge of the same loop with a smaller number, or to itself.
+    // loop[e] is the least number of an edge that is in the same loop as edge e.
     std::array<std::uint8_t, 12> loop{};
     std::iota(loop.begin(), loop.end(), std::uint8_t{0});
     const auto link = [&](std::uint8_t a, std::uint8_t b) {

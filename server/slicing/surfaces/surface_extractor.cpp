@@ -1,3 +1,6 @@
+// One class in one file, although it is long: its stages work on the same lattice, and the compiler inlines the inner
+// loops of one stage into the next.
+
 #include "slicing/surfaces/surface_extractor.hpp"
 
 #include <algorithm>

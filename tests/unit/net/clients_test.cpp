@@ -88,8 +88,8 @@ TEST(Client, LimitsNewSessionsPerMinute) {
     EXPECT_EQ(opened, 60);
     EXPECT_FALSE(client.admitNewSession(at(0.5)));
     EXPECT_TRUE(client.admitNewSession(at(1.5)));
-    EXPECT_FALSE(client.idle(at(1.5)));
-    EXPECT_TRUE(client.idle(at(100)));
+    EXPECT_FALSE(client.hasFullRateLimits(at(1.5)));
+    EXPECT_TRUE(client.hasFullRateLimits(at(100)));
 }
 
 TEST(Client, LimitsWrongTokensPerMinute) {

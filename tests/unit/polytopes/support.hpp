@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by tests: polytopes by name, polytopes made by hand, rotations.
+// Helpers shared by tests: polytopes by name, polytopes made by hand, rotations, directions.
 
 #include <algorithm>
 #include <array>
@@ -59,6 +59,12 @@ inline geometry::Rotation randomRotation(std::mt19937& random) {
     const auto quaternion = [&] { return glm::dquat(normal(random), normal(random), normal(random), normal(random)); };
     const glm::dquat left = quaternion();
     return {left, quaternion()};
+}
+
+/// Returns a random point of the unit sphere.
+inline glm::dvec4 randomDirection(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec4(normal(random), normal(random), normal(random), normal(random)));
 }
 
 /// Returns a rotation that turns `direction` onto the +w axis.

@@ -42,7 +42,7 @@ TEST(DensityPlot, EachColumnAddsUpToTheNumberOfVertices) {
         for (int column = 0; column < DensityPlot::kColumns; ++column) {
             std::uint32_t sum = 0;
             for (int row = 0; row < DensityPlot::kRows; ++row) sum += weightAt(density, row, column);
-            ASSERT_EQ(sum, DensityPlot::kLine * count) << "column " << column;
+            ASSERT_EQ(sum, DensityPlot::kLineWeight * count) << "column " << column;
         }
     }
 }
@@ -60,7 +60,7 @@ TEST(DensityPlot, OneVertexIsALineFromAxisToAxis) {
     const DensityPlot density = densityOf({point});
     for (int k = 0; k < 4; ++k)
         EXPECT_EQ(weightAt(density, kMiddleRow - static_cast<int>(point[k] * kMiddleRow), k * DensityPlot::kGap),
-                  DensityPlot::kLine)
+                  DensityPlot::kLineWeight)
             << "axis " << k;
     // The mean row of every column lies on the line, to within half a row.
     for (int column = 0; column < DensityPlot::kColumns; ++column) {
@@ -69,7 +69,7 @@ TEST(DensityPlot, OneVertexIsALineFromAxisToAxis) {
         double mean = 0;
         for (int row = 0; row < DensityPlot::kRows; ++row) mean += row * double(weightAt(density, row, column));
         const double level = (1 - t) * point[gap] + t * point[gap + 1];
-        EXPECT_NEAR(mean / DensityPlot::kLine, kMiddleRow * (1 - level), 0.5 / DensityPlot::kLine + 1e-6);
+        EXPECT_NEAR(mean / DensityPlot::kLineWeight, kMiddleRow * (1 - level), 0.5 / DensityPlot::kLineWeight + 1e-6);
     }
 }
 

@@ -27,7 +27,7 @@ struct FieldPictures {
 
     const scene::Scene& composed(const scene::Look& look, const geometry::Rotation& orientation = {},
                                  scene::Viewport viewport = {}) {
-        slicing::Slicer().slice(object, orientation, {-10, 21, 0.1}, slices);
+        slicing::Slicer().sliceWithoutSurfaces(object, orientation, {-10, 21, 0.1}, slices);
         composer.compose(object, orientation, slices, 0, look, viewport, scene);
         return scene;
     }

@@ -28,8 +28,8 @@ struct Picture {
     Picture(const char* name, const Look& look, const geometry::Rotation& orientation, int count = 21)
         : object(support::shared(name)) {
         const double radius = slicing::infoOf(object).circumradius;
-        slicing::Slicer().slice(object, orientation, {-(count - 1) / 2, count, 2 * radius / std::max(count - 1, 1)},
-                                slices);
+        slicing::Slicer().sliceWithoutSurfaces(object, orientation,
+                                               {-(count - 1) / 2, count, 2 * radius / std::max(count - 1, 1)}, slices);
         composer.compose(object, orientation, slices, 0, look, {1280, 720}, scene);
     }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 #include <set>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "session/example_fields.hpp"
 #include "session/key_actions.hpp"
 #include "session/keymap.hpp"
+#include "session/setting_table.hpp"
 #include "unit/session/support.hpp"
 
 namespace oval4d::session {
@@ -78,7 +80,30 @@ TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
         EXPECT_EQ(names.contains(action), !row.value("client", false)) << action;
         unused.erase(action);
     }
+    // Actions that settings have without code of their own need no key.
+    forEachSetting([&](const auto& setting) { unused.erase(setting.name.text); });
     EXPECT_TRUE(unused.empty()) << "no key has the action " << *unused.begin();
+}
+
+TEST(Keys, ActionsOfEnumerationsShowEachValueInTurn) {
+    ObjectLoader loader({}, support::cache());
+    const auto valuesShownBy = [&](const std::string& name, auto valueOf) {
+        const auto action = std::ranges::find(keyActions(), name, &Action::name);
+        State state = initialState();
+        const LoadedObjects loaded;
+        const Limits limits;
+        ActionContext context{state, loaded, limits, loader, geometry::Plane::xy, false, false};
+        const auto first = valueOf(state);
+        std::size_t values = 0;
+        do {
+            EXPECT_TRUE(action->onState(context));
+            ++values;
+        } while (valueOf(state) != first && values < 100);
+        return values;
+    };
+    EXPECT_EQ(valuesShownBy("color", [](const State& state) { return state.look.coloring; }), 7U);
+    EXPECT_EQ(valuesShownBy("background", [](const State& state) { return state.look.background; }), 5U);
+    EXPECT_EQ(valuesShownBy("projection", [](const State& state) { return state.look.projection.kind; }), 3U);
 }
 
 TEST(Keys, TheTableHasEveryKeyOfTheMethod) {

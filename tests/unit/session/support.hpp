@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,18 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     EXPECT_EQ(protocolName(done.error().code), protocolName(code)) << done.error().message;
     EXPECT_NE(done.error().message.find(says), std::string::npos) << done.error().message;
     EXPECT_TRUE(session == before) << done.error().message;
+}
+
+/// Applies a command as a server does; returns how many times it must wait for an object that is loaded separately.
+inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
+    for (int orders = 0;; ++orders) {
+        const Session before = session;
+        done = apply(session, command, Limits{}, loader);
+        if (!loader.isPending()) return orders;
+        EXPECT_FALSE(done);
+        EXPECT_EQ(session, before);
+        loader.loadPendingObject();
+    }
 }
 
 }  // namespace oval4d::session

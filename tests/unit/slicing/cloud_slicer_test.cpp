@@ -42,7 +42,7 @@ TEST(CloudSlicer, showsEachPointInTheSliceNearestToIt) {
         const geometry::Rotation turn = support::randomRotation(random);
         const geometry::Hyperplanes planes{-6, 13, 0.3};  // beyond the cloud
         SliceSet slices;
-        Slicer().slice(Object(cloud), turn, planes, slices);
+        Slicer().sliceWithoutSurfaces(Object(cloud), turn, planes, slices);
         std::set<std::uint32_t> seen;
         for (int i = 0; i < planes.count; ++i) {
             for (auto v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
@@ -71,7 +71,7 @@ TEST(CloudSlicer, leavesOutWhatIsBeyondTheSlices) {
     const auto cloud = std::make_shared<const PointCloud>(
         makePointCloud("line", {{0, 0, 0, -3}, {0, 0, 0, 0.1}, {0, 0, 0, 3}}, {0, 0, 0}));
     SliceSet slices;
-    Slicer().slice(Object(cloud), {}, {-1, 3, 1}, slices);
+    Slicer().sliceWithoutSurfaces(Object(cloud), {}, {-1, 3, 1}, slices);
     EXPECT_EQ(slices.totalCounts().vertices, 1U);
     EXPECT_EQ(slices.vertexCount(1), 1U);
     EXPECT_EQ(slices.vertexSource[0], 1U);
@@ -81,8 +81,8 @@ TEST(CloudSlicer, leavesOutWhatIsBeyondTheSlices) {
 TEST(CloudSlicer, alternatesWithPolytopes) {
     Slicer slicer;
     SliceSet slices;
-    slicer.slice(Object(randomCloud(30, 2)), {}, {-2, 5, 0.5}, slices);
-    slicer.slice(Object(support::shared("24-cell")), {}, {-2, 5, 0.5}, slices);
+    slicer.sliceWithoutSurfaces(Object(randomCloud(30, 2)), {}, {-2, 5, 0.5}, slices);
+    slicer.sliceWithoutSurfaces(Object(support::shared("24-cell")), {}, {-2, 5, 0.5}, slices);
     EXPECT_TRUE(slices.ballScale.empty());
     EXPECT_TRUE(slices.ballOpacity.empty());
     EXPECT_GT(slices.totalCounts().faces, 0U);

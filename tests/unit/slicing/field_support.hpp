@@ -61,7 +61,7 @@ class TestFunction : public fields::ScalarFunction {
         return {middle - reach, middle + reach, true};
     }
     fields::EvaluationCost cost() const override { return {}; }
-    std::size_t memory() const override { return sizeof *this; }
+    std::size_t memoryBytes() const override { return sizeof *this; }
 
   private:
     static glm::dvec4 point(const fields::PointBatch& points, std::size_t i) {

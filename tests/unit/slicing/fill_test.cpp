@@ -65,13 +65,13 @@ SliceSet flat(const std::vector<std::vector<glm::dvec2>>& loops, const glm::dvec
     return s;
 }
 
-Fill filled(const SliceSet& slices, double circumradius) {
-    Fill fill;
-    Filler().fill(slices, circumradius, fill);
+FilledFaces filled(const SliceSet& slices, double circumradius) {
+    FilledFaces fill;
+    FaceFiller().fill(slices, circumradius, fill);
     return fill;
 }
 
-double areaOf(const Fill& fill, std::size_t piece) {
+double areaOf(const FilledFaces& fill, std::size_t piece) {
     glm::dvec3 sum(0);
     const auto begin = fill.cornerBegin[piece];
     for (auto i = begin + 2; i < fill.cornerBegin[piece + 1]; ++i)
@@ -79,7 +79,7 @@ double areaOf(const Fill& fill, std::size_t piece) {
     return glm::length(sum) / 2;
 }
 
-double areaOf(const Fill& fill) {
+double areaOf(const FilledFaces& fill) {
     double sum = 0;
     for (std::size_t k = 0; k + 1 < fill.cornerBegin.size(); ++k) sum += areaOf(fill, k);
     return sum;
@@ -106,8 +106,8 @@ std::vector<glm::dvec2> starPolygon(int points, int step) {
     return loop;
 }
 
-TEST(Fill, OfAPentagramIncludesItsCore) {
-    const Fill fill = filled(flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 0.6, 0.8}), 1);
+TEST(FaceFiller, IncludesTheCoreOfAPentagram) {
+    const FilledFaces fill = filled(flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 0.6, 0.8}), 1);
     // The outline has ten corners, at radii 1 and 1 / φ² alternately, which divide it into ten triangles with an angle
     // of π / 5 at the center.
     const double inner = 1 / (std::numbers::phi * std::numbers::phi);
@@ -116,24 +116,24 @@ TEST(Fill, OfAPentagramIncludesItsCore) {
     EXPECT_EQ(fill.patches[0].winding, 2);
 }
 
-TEST(Fill, IsRoughIfThereAreTooFewSteps) {
+TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
     const SliceSet slices = flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0});
     for (const std::size_t steps : {0, 48, 49, 100}) {
-        Fill fill;
-        Filler().fill(slices, 1, fill, steps);
+        FilledFaces fill;
+        FaceFiller().fill(slices, 1, fill, steps);
         ASSERT_EQ(fill.patches.size(), 1U);
         EXPECT_EQ(fill.patches[0].winding, 0);
         EXPECT_EQ(fill.cornerBegin.size() - 1, 7U);
         // A star polygon is star-shaped about its center, so the triangles overlap only in the core.
         EXPECT_NEAR(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7), 1e-9);
     }
-    Fill fill;
-    Filler().fill(slices, 1, fill, 10'000);
+    FilledFaces fill;
+    FaceFiller().fill(slices, 1, fill, 10'000);
     EXPECT_EQ(fill.patches[0].winding, 3);
     EXPECT_LT(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7));
 }
 
-TEST(Fill, LeavesAHoleBetweenOppositeLoops) {
+TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     std::vector<glm::dvec2> inner{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
     const std::vector<glm::dvec2> outer{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
     EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 12, 1e-8);
@@ -141,7 +141,7 @@ TEST(Fill, LeavesAHoleBetweenOppositeLoops) {
     EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 16, 1e-8);
 }
 
-TEST(Fill, CoversExactlyThePointsWithNonzeroWindingNumber) {
+TEST(FaceFiller, CoversExactlyThePointsWithNonzeroWindingNumber) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1, 1);
     for (int trial = 0; trial < 60; ++trial) {
@@ -157,7 +157,7 @@ TEST(Fill, CoversExactlyThePointsWithNonzeroWindingNumber) {
         const glm::dvec3 u = glm::normalize(glm::dvec3(place(random), place(random), 1));
         const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3(0.3, 1, place(random))));
         const SliceSet slices = flat(loops, u, v);
-        const Fill fill = filled(slices, 1.5);
+        const FilledFaces fill = filled(slices, 1.5);
         const auto onPlane = [&](const glm::dvec3& x) {
             const glm::dvec3 from = x - glm::dvec3(0.3, -0.2, 0.1);
             return glm::dvec2(glm::dot(from, u), glm::dot(from, v));
@@ -189,14 +189,14 @@ TEST(Fill, CoversExactlyThePointsWithNonzeroWindingNumber) {
     }
 }
 
-TEST(Fill, PiecesLieInTheirPlaneAndFaceOutward) {
+TEST(FaceFiller, PiecesLieInTheirPlaneAndFaceOutward) {
     std::mt19937 random(7);
     for (const polytopes::Polytope& polytope : starPolychora()) {
         SliceSet slices;
         PolytopeSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
-        const Fill fill = filled(slices, polytope.circumradius);
+        const FilledFaces fill = filled(slices, polytope.circumradius);
         for (std::size_t p = 0; p < fill.patches.size(); ++p) {
-            const Fill::Patch& patch = fill.patches[p];
+            const FilledFaces::Patch& patch = fill.patches[p];
             for (auto k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
                 const auto begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
                 glm::dvec3 area(0);
@@ -213,18 +213,18 @@ TEST(Fill, PiecesLieInTheirPlaneAndFaceOutward) {
 
 // The winding numbers of the faces that a ray from the center of a star polychoron passes through add up to its density
 // (Coxeter, Regular Polytopes, table I (iii)).
-TEST(Fill, WindingNumbersAlongARayAddUpToTheDensity) {
+TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
     const std::array densities{4, 4, 6, 20, 20, 66, 76, 76, 191, 191};
     std::mt19937 random(9);
     std::normal_distribution<double> normal;
     std::size_t number = 0;
     for (const polytopes::Polytope& polytope : starPolychora()) {
         const SliceSet slices = cutAt(polytope, randomRotation(random), 0);
-        const Fill fill = filled(slices, polytope.circumradius);
+        const FilledFaces fill = filled(slices, polytope.circumradius);
         for (int trial = 0; trial < 5; ++trial) {
             const auto ray = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
             int winding = 0;
-            for (const Fill::Patch& patch : fill.patches) {
+            for (const FilledFaces::Patch& patch : fill.patches) {
                 const double along = glm::dot(patch.normal, ray);
                 if (patch.offset / along < 0) continue;
                 const glm::dvec3 hit = ray * (patch.offset / along);
@@ -248,12 +248,12 @@ TEST(Fill, WindingNumbersAlongARayAddUpToTheDensity) {
     }
 }
 
-TEST(Fill, OfConvexSlicesHasOnePiecePerFace) {
+TEST(FaceFiller, MakesOnePiecePerFaceOfConvexSlices) {
     std::mt19937 random(8);
     for (const polytopes::Polytope& polytope : {regular(k5, k3, k3), regular(k3, k4, k3)}) {
         SliceSet slices;
         PolytopeSlicer().slice(polytope, randomRotation(random), {-10, 21, polytope.circumradius / 10}, slices);
-        const Fill fill = filled(slices, polytope.circumradius);
+        const FilledFaces fill = filled(slices, polytope.circumradius);
         EXPECT_EQ(fill.patches.size(), slices.faceSource.size());
         EXPECT_EQ(fill.cornerBegin.size(), slices.faceSource.size() + 1) << "one piece each";
     }

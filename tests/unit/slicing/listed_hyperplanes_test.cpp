@@ -50,13 +50,13 @@ void expectListedSlices(const Object& object, const geometry::Rotation& orientat
     const geometry::Hyperplanes planes{0, 5, 0.2 * r, 0, listed};
     SliceSet all, one;
     Slicer slicer;
-    slicer.slice(object, orientation, {-3, 7, 0.1}, all);  // what was in the set does not matter
-    slicer.slice(object, orientation, planes, all);
+    slicer.sliceWithoutSurfaces(object, orientation, {-3, 7, 0.1}, all);  // what was in the set does not matter
+    slicer.sliceWithoutSurfaces(object, orientation, planes, all);
     ASSERT_EQ(all.planes, planes);
     for (int i = 0; i < planes.count; ++i) {
         SCOPED_TRACE(i);
         EXPECT_EQ(planes.w(i), listed[static_cast<std::size_t>(i)]);
-        slicer.slice(object, orientation, {0, 1, planes.spacing, planes.w(i)}, one);
+        slicer.sliceWithoutSurfaces(object, orientation, {0, 1, planes.spacing, planes.w(i)}, one);
         expectSlice(all, i, one);
         EXPECT_EQ(all.rotatedVertices, one.rotatedVertices);
     }

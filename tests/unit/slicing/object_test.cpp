@@ -83,7 +83,7 @@ TEST(Object, IsCutAsItsPolytopeIs) {
         const auto polytope = shared(name);
         const geometry::Rotation turn = support::randomRotation(random);
         const geometry::Hyperplanes planes{-3, 7, polytope->circumradius / 4};
-        slicer.slice(polytope, turn, planes, slices);
+        slicer.sliceWithoutSurfaces(polytope, turn, planes, slices);
         PolytopeSlicer().slice(*polytope, turn, planes, expected);
         EXPECT_EQ(slices.vertices, expected.vertices) << name;
         EXPECT_EQ(slices.edges, expected.edges) << name;
@@ -186,7 +186,7 @@ TEST(ObjectBytes, DamagedPartsAreRefusedOrMakeAnObjectThatCanBeCut) {
         try {
             const Object object = read(bytes, 1000);
             ++accepted;
-            slicer.slice(object, {}, {-2, 5, infoOf(object).circumradius / 3}, slices);
+            slicer.sliceWithoutSurfaces(object, {}, {-2, 5, infoOf(object).circumradius / 3}, slices);
         } catch (const std::runtime_error& error) {
             ++refused;
             EXPECT_FALSE(std::string(error.what()).empty());

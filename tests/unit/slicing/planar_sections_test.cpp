@@ -28,7 +28,7 @@ PlanarSections sectionsOf(const Object& object, const Rotation& orientation, con
                           double spacing = 1) {
     Slicer slicer;
     SliceSet slices;
-    slicer.slice(object, orientation, {0, 1, spacing, point.w}, slices);
+    slicer.sliceWithoutSurfaces(object, orientation, {0, 1, spacing, point.w}, slices);
     PlanarSections sections;
     PlanarSlicer planar;
     planar.slice(object, orientation, slices, 0, point, sections);

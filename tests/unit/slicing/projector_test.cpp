@@ -88,7 +88,7 @@ struct Projected {
 Projected projected(const Object& object, const geometry::Rotation& turn, const Projector::Options& options,
                     geometry::Hyperplanes planes) {
     Projected out;
-    Slicer().slice(object, turn, planes, out.slices);
+    Slicer().sliceWithoutSurfaces(object, turn, planes, out.slices);
     Projector().project(object, turn, out.slices, options, out.parts, out.faceCells);
     return out;
 }

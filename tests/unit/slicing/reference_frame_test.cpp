@@ -91,7 +91,7 @@ TEST(ReferenceFrames, VerticesOfSlicesLieOnTheImagesOfTheirEdges) {
             const geometry::Rotation orientation = randomRotation(random);
             const Object image = imageOf(support::objectOf(p), frame);
             SliceSet slices;
-            Slicer().slice(image, orientation, {-3, 7, infoOf(image).circumradius / 7}, slices);
+            Slicer().sliceWithoutSurfaces(image, orientation, {-3, 7, infoOf(image).circumradius / 7}, slices);
             const glm::dmat4 inverse = frame.inverse() * orientation.inverse().matrix();
             EXPECT_FALSE(slices.vertices.empty()) << name;
             for (int i = 0; i < 7; ++i) {
@@ -138,7 +138,7 @@ TEST(ReferenceFrames, SectionsAreNamedByWhatTheyAre) {
         const Object image = imageOf(support::objectOf(support::named("8-cell")), frame);
         EXPECT_TRUE(SectionNamer::mayHaveName(image, {}, 0));
         SliceSet slices;
-        Slicer().slice(image, {}, {0, 1, 1}, slices);
+        Slicer().sliceWithoutSurfaces(image, {}, {0, 1, 1}, slices);
         return std::string(SectionNamer().nameOfSlice(slices, 0));
     };
     EXPECT_EQ(nameIn({}), "cube");
@@ -253,7 +253,7 @@ TEST(ReferenceFrames, TheMemoryOfAFunctionIsCountedOnce) {
     ASSERT_TRUE(field);
     const Object object = std::make_shared<const fields::Field>(*field);
     const Object image = imageOf(object, {2, {}, {}});
-    EXPECT_EQ(memoryOf(object) - memoryOf(image), field->function->memory());
+    EXPECT_EQ(memoryOf(object) - memoryOf(image), field->function->memoryBytes());
     EXPECT_EQ(fieldIn(image)->function, field->function) << "nothing is sampled again";
     const Object polytope = support::objectOf(support::named("24-cell"));
     EXPECT_EQ(memoryOf(imageOf(polytope, {2, {}, {}})), memoryOf(polytope));

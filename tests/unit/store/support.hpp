@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "store/codec.hpp"
 #include "store/object_codec.hpp"
+#include "store/session_codec.hpp"
 #include "unit/session/support.hpp"
 
 namespace oval4d::store {

@@ -15,6 +15,7 @@
 #include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d::wire {
 namespace {

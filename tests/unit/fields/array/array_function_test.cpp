@@ -68,7 +68,7 @@ TEST(Samples, GrowInTheirOwnMemoryUntilItIsFullAndBranchIntoCopies) {
         EXPECT_EQ(branch.values().back(), -1);
     }
     EXPECT_LT(moves, 20U);  // the logarithm of the growth to the base 1.5
-    EXPECT_EQ(samples.memory(), expected.size() * sizeof(float));
+    EXPECT_EQ(samples.memoryBytes(), expected.size() * sizeof(float));
 }
 
 TEST(ArrayFunction, HasTheValueOfEachSampleAtItsPoint) {
@@ -267,7 +267,7 @@ TEST(ArrayFunction, SharesSamplesWithTheirOwner) {
     const auto owner = std::make_shared<std::vector<float>>(std::vector<float>{1, 3});
     const ArrayFunction array({2, 1, 1, 1}, {}, Samples(owner, *owner));
     EXPECT_EQ(array.samples().data(), owner->data());
-    EXPECT_EQ(array.storage().memory(), 2 * sizeof(float));
+    EXPECT_EQ(array.storage().memoryBytes(), 2 * sizeof(float));
     EXPECT_EQ(valueAt(array, glm::dvec4(0)), 2);
 }
 

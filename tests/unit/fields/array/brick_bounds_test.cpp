@@ -114,15 +114,15 @@ TEST(BrickBounds, ReadLittleOfALargeArray) {
     EXPECT_FALSE(array.rangeIsExact());
     EXPECT_LT(array.statistics().min, -0.99F);  // of a selection
     EXPECT_GT(array.statistics().max, 0.99F);
-    const std::size_t before = array.memory();
+    const std::size_t before = array.memoryBytes();
     const Bounds all = array.boundsIn({});
     EXPECT_FALSE(all.total);
     EXPECT_EQ(all.min, -std::numeric_limits<double>::infinity());
-    EXPECT_EQ(array.memory(), before);
+    EXPECT_EQ(array.memoryBytes(), before);
     const Bounds part = array.boundsIn({glm::dvec4(-0.1), glm::dvec4(0.1)});
     EXPECT_TRUE(part.total);
     EXPECT_NEAR(part.min, -1, 0.01);
-    EXPECT_LE(array.memory(), before + BrickBounds::kMaxEntries * 4096);
+    EXPECT_LE(array.memoryBytes(), before + BrickBounds::kMaxEntries * 4096);
 }
 
 }  // namespace

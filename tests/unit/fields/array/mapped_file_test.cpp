@@ -100,7 +100,7 @@ TEST(MappedFile, WritesAndReadsTheSameFile) {
     EXPECT_THROW(Samples(readable, kSize, 1), std::invalid_argument);
     EXPECT_THROW(Samples(readable, 0, kSize), std::invalid_argument);
     const Samples samples(readable, kSize - 4, 1);
-    EXPECT_EQ(samples.memory(), 0U);
+    EXPECT_EQ(samples.memoryBytes(), 0U);
     EXPECT_EQ(samples.offset(), kSize - 4);
 }
 

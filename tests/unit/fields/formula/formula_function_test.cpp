@@ -348,7 +348,7 @@ TEST(FormulaFunction, KernelsAgreeWithoutFunctionsOfTheCLibrary) {
 }
 
 TEST(FormulaFunction, KnowsItsMemory) {
-    EXPECT_GT(FormulaFunction(parsed("sin(x)+cos(y)")).memory(), FormulaFunction(parsed("x")).memory());
+    EXPECT_GT(FormulaFunction(parsed("sin(x)+cos(y)")).memoryBytes(), FormulaFunction(parsed("x")).memoryBytes());
 }
 
 }  // namespace

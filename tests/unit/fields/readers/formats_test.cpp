@@ -251,8 +251,8 @@ TEST(Hdf5, UsesFloatsInPlace) {
     const auto file = FileContents::map(folder / "a.h5");
     const auto field = readHdf5(*file, {});
     ASSERT_TRUE(field);
-    EXPECT_EQ(field->samples.memory(), 0);
-    EXPECT_GT(readHdf5(*file, {.axes = "xyzt"})->samples.memory(), 0);
+    EXPECT_EQ(field->samples.memoryBytes(), 0);
+    EXPECT_GT(readHdf5(*file, {.axes = "xyzt"})->samples.memoryBytes(), 0);
 }
 
 TEST(Hdf5, RefusesFilesThatReferToOthers) {

@@ -202,10 +202,10 @@ TEST(Npy, UsesFloatsInPlace) {
     ASSERT_TRUE(file);
     const auto inPlace = readNpy(*file, {});
     EXPECT_EQ(static_cast<const void*>(inPlace->samples.values().data()), file->bytes.data() + 128);
-    EXPECT_EQ(inPlace->samples.memory(), 0);
+    EXPECT_EQ(inPlace->samples.memoryBytes(), 0);
     const auto transposed = readNpy(*file, {.axes = "xy"});
     EXPECT_EQ(samplesOf(transposed), (std::vector<float>{1, 4, 2, 5, 3, 6}));
-    EXPECT_EQ(transposed->samples.memory(), 24);
+    EXPECT_EQ(transposed->samples.memoryBytes(), 24);
     std::filesystem::remove(folder / "a.npy");  // the mapping remains
     EXPECT_EQ(samplesOf(inPlace), (std::vector<float>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(FileContents::map(folder / "a.npy").error().code, ErrorCode::not_found);
@@ -268,7 +268,7 @@ TEST(Npy, ReadsLittleOfAFileLargerThanTheMemory) {
     EXPECT_GE(corner.max, 7);
     EXPECT_TRUE(corner.total);
     EXPECT_FALSE(f.boundsIn(f.box()).total);
-    EXPECT_LT(f.memory(), 50'000'000) << "bounds and a selection, of 16 GB";
+    EXPECT_LT(f.memoryBytes(), 50'000'000) << "bounds and a selection, of 16 GB";
 }
 
 }  // namespace

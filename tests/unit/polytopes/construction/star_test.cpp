@@ -61,11 +61,6 @@ int densityAt(const Polytope& p, const glm::dvec4& direction) {
     return sum;
 }
 
-glm::dvec4 randomDirection(std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(glm::dvec4(normal(random), normal(random), normal(random), normal(random)));
-}
-
 class Stars : public testing::TestWithParam<Star> {
   protected:
     const Star& star = GetParam();

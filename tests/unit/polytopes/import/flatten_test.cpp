@@ -1,4 +1,5 @@
 #include "polytopes/import/flatten.hpp"
+#include "polytopes/import/simplex_division.hpp"
 
 #include <algorithm>
 #include <cmath>

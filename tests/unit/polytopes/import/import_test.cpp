@@ -1,10 +1,16 @@
+// The import of 4OFF files and of lists of points. The repairs of 4OFF files are in repair_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -18,8 +24,10 @@ namespace {
 
 using support::asPoints;
 using support::countsOf;
+using support::importOff4;
 using support::importPoints;
 using support::kPentachoron;
+using support::Lines;
 using support::named;
 using support::reasonOf;
 using support::Result;
@@ -41,10 +49,6 @@ std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits 
         }
     }
     return out.str();
-}
-
-Result importOff4(std::string_view text, std::size_t maxVertices = 100'000) {
-    return importPolytope(FileFormat::off4, text, "p", {.maxVertices = maxVertices});
 }
 
 TEST(Import, KeepsCoordinatesUnchanged) {
@@ -262,140 +266,6 @@ TEST(Points, ThatDoNotSpanFourDimensionsAreRefused) {
     EXPECT_NE(refusal("0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n1 1 1 1\n2 1 1 1\n").find("lie in one hyperplane"),
               std::string::npos);
     EXPECT_EQ(std::get<FileError>(importPoints("1 2 3 4\n\n1 2 3\n")).line, 3U);
-}
-
-// Repairs.
-
-/// Vertices, 2-faces and cells as lists, for writing unsound files.
-struct Lines {
-    std::vector<glm::dvec4> vertices;
-    std::vector<std::vector<std::uint32_t>> faces, cells;
-
-    explicit Lines(const Polytope& p) : vertices(p.vertices) {
-        for (std::size_t f = 0; f < p.faces.size(); ++f) faces.emplace_back(p.faces[f].begin(), p.faces[f].end());
-        for (std::size_t c = 0; c < p.cells.size(); ++c) cells.emplace_back(p.cells[c].begin(), p.cells[c].end());
-    }
-
-    /// Adds another polytope, translated by `by`.
-    void add(const Lines& other, const glm::dvec4& by = {}) {
-        const auto v0 = static_cast<std::uint32_t>(vertices.size());
-        const auto f0 = static_cast<std::uint32_t>(faces.size());
-        for (const auto& v : other.vertices) vertices.push_back(v + by);
-        for (auto face : other.faces) {
-            for (auto& v : face) v += v0;
-            faces.push_back(face);
-        }
-        for (auto cell : other.cells) {
-            for (auto& f : cell) f += f0;
-            cells.push_back(cell);
-        }
-    }
-
-    std::string text(int edges = 0) const {
-        std::ostringstream out;
-        out << "4OFF\n" << vertices.size() << ' ' << faces.size() << ' ' << edges << ' ' << cells.size() << '\n';
-        out << asPoints(vertices);
-        for (const auto* lists : {&faces, &cells}) {
-            for (const auto& list : *lists) {
-                out << list.size();
-                for (const auto item : list) out << ' ' << item;
-                out << '\n';
-            }
-        }
-        return out.str();
-    }
-};
-
-TEST(Repair, WarnsOfAWrongNumberOfEdges) {
-    const Imported imported = sound(importOff4(Lines(named("8-cell")).text(33)));
-    EXPECT_EQ(warningsOf(imported), "the file states 33 edges, but its 2-faces have 32");
-    EXPECT_EQ(warningsOf(sound(importOff4(Lines(named("8-cell")).text(32)))), "");
-}
-
-TEST(Repair, RemovesUnusedElements) {
-    Lines lines(named("5-cell"));
-    lines.vertices.insert(lines.vertices.begin(), {{9, 9, 9, 9}, {8, 9, 9, 9}});
-    for (auto& face : lines.faces) {
-        for (auto& v : face) v += 2;
-    }
-    lines.faces.push_back({0, 1, 2});
-    const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(imported.polytope.vertices, named("5-cell").vertices);
-    EXPECT_EQ(imported.polytope.faces, named("5-cell").faces);
-    EXPECT_EQ(warningsOf(imported),
-              "1 2-face lies in no cell and was left out; 2 vertices lie on no 2-face and were left out");
-}
-
-// Some programs write separate vertices and 2-faces for every cell.
-TEST(Repair, MergesElementsGivenOncePerCell) {
-    for (const char* name : {"8-cell", "24-cell", "600-cell"}) {
-        const auto& original = named(name);
-        Lines lines(original);
-        lines.vertices.clear();
-        lines.faces.clear();
-        for (std::size_t c = 0; c < original.cellCount(); ++c) {
-            for (auto& f : lines.cells[c]) {
-                const auto loop = original.faces[f];
-                f = static_cast<std::uint32_t>(lines.faces.size());
-                auto& face = lines.faces.emplace_back();
-                for (const auto v : loop) {
-                    face.push_back(static_cast<std::uint32_t>(lines.vertices.size()));
-                    lines.vertices.push_back(original.vertices[v]);
-                }
-            }
-        }
-        const std::size_t doubled = lines.vertices.size() - original.vertices.size();
-        const Imported imported = sound(importOff4(lines.text()));
-        EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
-        EXPECT_EQ(warningsOf(imported),
-                  std::to_string(doubled) + " vertices coincide with others and were merged with them; " +
-                      std::to_string(original.faces.size()) +
-                      " 2-faces are given once for each of the two cells, and the copies were merged");
-    }
-}
-
-TEST(Repair, RemovesRepeatedCornersFromFaces) {
-    Lines lines(named("8-cell"));
-    lines.faces[0].insert(lines.faces[0].begin() + 1, lines.faces[0][0]);
-    lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // traversed twice
-    const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
-}
-
-// The compound of three tesseracts inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2). Each of the 24
-// vertices belongs to two tesseracts and is given twice in the file.
-TEST(Repair, MergesTheVerticesOfACompound) {
-    const auto& cube = named("8-cell");
-    Lines lines(cube);
-    // An isoclinic rotation by 60 degrees maps the 24-cell to itself and each of its tesseracts to the next.
-    for (const double turns : {1.0, 2.0}) {
-        const double angle = turns * std::numbers::pi / 3;
-        const glm::dquat left(std::cos(angle), std::sin(angle) * glm::normalize(glm::dvec3(1, 1, 1)));
-        const geometry::Rotation rotation(left, glm::dquat(1, 0, 0, 0));
-        Lines other(cube);
-        for (auto& v : other.vertices) v = rotation(v);
-        lines.add(other);
-    }
-    const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{24, 96, 72, 24}));
-    EXPECT_EQ(warningsOf(imported), "24 vertices coincide with others and were merged with them");
-    // Each tesseract of edge 2 has hypervolume 16, and they overlap.
-    std::mt19937 random(14);
-    EXPECT_NEAR(support::hypervolumeBySlices(imported.polytope, support::randomRotation(random)), 48, 1e-6);
-}
-
-TEST(Repair, SplitsCellsOfSeveralPieces) {
-    const auto& cube = named("8-cell");
-    Lines lines(cube);
-    const glm::dvec4 center = support::centerOfCell(cube, 0);
-    const glm::dvec4 along = std::abs(center.x) > 0.5 ? glm::dvec4(0, 5, 0, 0) : glm::dvec4(5, 0, 0, 0);
-    lines.add(Lines(cube), along);
-    // Join cell 0 of both polytopes, which lie in one hyperplane.
-    lines.cells[0].insert(lines.cells[0].end(), lines.cells[8].begin(), lines.cells[8].end());
-    lines.cells.erase(lines.cells.begin() + 8);
-    const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{32, 64, 48, 16}));
-    EXPECT_EQ(warningsOf(imported), "1 cell consists of several pieces and was split into one cell for each piece");
 }
 
 TEST(Import, ReadsTheLargestUniformPolychoronBack) {

@@ -6,12 +6,12 @@
 #include <random>
 #include <vector>
 
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 
 namespace oval4d::fields::test {
 namespace {
 
-TEST(ArrayLayout, SlabsCoverTheArrayInItsOrder) {
+TEST(AxisMapping, SlabsCoverTheArrayInItsOrder) {
     std::mt19937 random(5);
     const auto below = [&](std::size_t most) { return random() % most; };
     for (int round = 0; round < 300; ++round) {
@@ -19,20 +19,20 @@ TEST(ArrayLayout, SlabsCoverTheArrayInItsOrder) {
         std::shuffle(axes.begin(), axes.end(), random);
         std::vector<Dimension> dimensions(1 + below(4));
         for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i] = {1 + below(7), axes[i], below(2) == 1};
-        const auto layout = ArrayLayout::of(dimensions, kMaxSamples);
-        ASSERT_TRUE(layout);
+        const auto mapping = AxisMapping::of(dimensions, kMaxSamples);
+        ASSERT_TRUE(mapping);
         // The numbers 0, 1, 2 … converted at once and in slabs.
-        std::vector<float> numbers(layout->count()), whole(numbers.size()), parts(numbers.size());
+        std::vector<float> numbers(mapping->count()), whole(numbers.size()), parts(numbers.size());
         for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(i);
         const auto* from = reinterpret_cast<const std::byte*>(numbers.data());
-        convert({}, from, layout->block(), whole.data() + layout->first());
+        convert({}, from, mapping->layout(), whole.data() + mapping->first());
         const std::size_t most = 1 + below(2 * numbers.size());
-        const auto slabs = layout->slabs(most);
+        const auto slabs = mapping->slabs(most);
         for (const Slab& slab : slabs) {
-            const auto& size = slab.block.size;
+            const auto& size = slab.layout.size;
             const std::size_t count = size[0] * size[1] * size[2] * size[3];
-            EXPECT_LE(count, std::max(most, layout->block().size[3]));
-            convert({}, from, slab.block, parts.data() + slab.first);
+            EXPECT_LE(count, std::max(most, mapping->layout().size[3]));
+            convert({}, from, slab.layout, parts.data() + slab.first);
             from += count * sizeof(float);
         }
         EXPECT_EQ(from, reinterpret_cast<const std::byte*>(numbers.data() + numbers.size()));

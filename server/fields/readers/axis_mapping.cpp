@@ -1,4 +1,4 @@
-#include "fields/readers/array_layout.hpp"
+#include "fields/readers/axis_mapping.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -34,8 +34,8 @@ Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimen
     return found;
 }
 
-Result<ArrayLayout> ArrayLayout::of(std::span<const Dimension> dimensions, std::size_t maxSamples) {
-    ArrayLayout layout;
+Result<AxisMapping> AxisMapping::of(std::span<const Dimension> dimensions, std::size_t maxSamples) {
+    AxisMapping mapping;
     std::size_t count = 1;
     for (const Dimension& each : dimensions) {
         if (each.size == 0) return Error{ErrorCode::bad_field, "the array is empty"};
@@ -44,57 +44,57 @@ Result<ArrayLayout> ArrayLayout::of(std::span<const Dimension> dimensions, std::
                                                    " are allowed, and 2^24 along an axis"};
         }
         count *= each.size;
-        layout.shape_[each.axis] = each.size;
+        mapping.shape_[each.axis] = each.size;
     }
     std::array<std::size_t, 4> stride{1};
-    for (std::size_t i = 1; i < 4; ++i) stride[i] = stride[i - 1] * layout.shape_[i - 1];
+    for (std::size_t i = 1; i < 4; ++i) stride[i] = stride[i - 1] * mapping.shape_[i - 1];
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
         const Dimension& each = dimensions[i];
         const std::size_t at = 4 - dimensions.size() + i;
         const auto step = static_cast<std::ptrdiff_t>(stride[each.axis]);
-        layout.block_.size[at] = each.size;
-        layout.block_.stride[at] = each.reversed ? -step : step;
-        if (each.reversed) layout.first_ += stride[each.axis] * (each.size - 1);
+        mapping.layout_.size[at] = each.size;
+        mapping.layout_.stride[at] = each.reversed ? -step : step;
+        if (each.reversed) mapping.first_ += stride[each.axis] * (each.size - 1);
     }
-    return layout;
+    return mapping;
 }
 
-bool ArrayLayout::isInOrder() const {
+bool AxisMapping::isInOrder() const {
     std::ptrdiff_t expected = 1;
     for (std::size_t i = 4; i-- > 0;) {
-        if (block_.size[i] == 1) continue;
-        if (block_.stride[i] != expected) return false;
-        expected *= static_cast<std::ptrdiff_t>(block_.size[i]);
+        if (layout_.size[i] == 1) continue;
+        if (layout_.stride[i] != expected) return false;
+        expected *= static_cast<std::ptrdiff_t>(layout_.size[i]);
     }
     return true;
 }
 
-std::vector<Slab> ArrayLayout::slabs(std::size_t maxCount) const {
+std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
     // The slabs have one index of the first `divided` dimensions, and up to `group` indices of the one after them.
-    std::size_t divided = 0, inner = count() / block_.size[0];
-    for (; divided < 3 && inner > maxCount; inner /= block_.size[divided]) ++divided;
-    const std::size_t group = std::clamp<std::size_t>(maxCount / inner, 1, block_.size[divided]);
+    std::size_t divided = 0, inner = count() / layout_.size[0];
+    for (; divided < 3 && inner > maxCount; inner /= layout_.size[divided]) ++divided;
+    const std::size_t group = std::clamp<std::size_t>(maxCount / inner, 1, layout_.size[divided]);
     std::vector<Slab> slabs;
-    Slab slab{{}, block_, 0};
-    for (std::size_t i = 0; i < divided; ++i) slab.block.size[i] = 1;
+    Slab slab{{}, layout_, 0};
+    for (std::size_t i = 0; i < divided; ++i) slab.layout.size[i] = 1;
     while (true) {
-        slab.block.size[divided] = std::min(group, block_.size[divided] - slab.start[divided]);
+        slab.layout.size[divided] = std::min(group, layout_.size[divided] - slab.start[divided]);
         slab.first = first_;
         for (std::size_t i = 0; i <= divided; ++i) {
-            const auto step = static_cast<std::ptrdiff_t>(slab.start[i]) * block_.stride[i];
+            const auto step = static_cast<std::ptrdiff_t>(slab.start[i]) * layout_.stride[i];
             slab.first = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(slab.first) + step);
         }
         slabs.push_back(slab);
-        slab.start[divided] += slab.block.size[divided];
+        slab.start[divided] += slab.layout.size[divided];
         std::size_t i = divided;
-        for (; slab.start[i] == block_.size[i]; ++slab.start[--i]) {
+        for (; slab.start[i] == layout_.size[i]; ++slab.start[--i]) {
             slab.start[i] = 0;
             if (i == 0) return slabs;
         }
     }
 }
 
-Result<Samples> ArrayLayout::samples(const FileContents& file, std::span<const std::byte> bytes,
+Result<Samples> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
                                      const NumberFormat& format, const ReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
     // The remainder of an address shows its alignment.
@@ -108,8 +108,8 @@ Result<Samples> ArrayLayout::samples(const FileContents& file, std::span<const s
     if (!buffer) return buffer.error();
     const std::byte* from = bytes.data();
     for (const Slab& slab : slabs(kSlabSize)) {
-        convert(format, from, slab.block, buffer->values().data() + slab.first);
-        const auto& size = slab.block.size;
+        convert(format, from, slab.layout, buffer->values().data() + slab.first);
+        const auto& size = slab.layout.size;
         from += size[0] * size[1] * size[2] * size[3] * sizeOf(format.type);
         file.releasePages();
         buffer->releasePages();

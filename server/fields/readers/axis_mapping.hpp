@@ -37,28 +37,30 @@ Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimen
 
 /// A part of an array that is read at once.
 struct Slab {
-    std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of NumberBlock::size
-    NumberBlock block;
+    std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of StridedLayout::size
+    StridedLayout layout;
     std::size_t first;  ///< the index of its first number among the samples of the field
 };
 
-/// Where the numbers of an array in a file go among the samples of a field.
-class ArrayLayout {
+/// Maps the dimensions of an array in a file to the axes of the samples of a field, and thus says where the numbers go.
+class AxisMapping {
   public:
     /// `dimensions` are the dimensions of the array from the slowest to the fastest; their axes must differ. Errors:
     /// `bad_field` if a dimension has the size 0; `too_large` if an axis has more than kMaxSamplesPerAxis samples, or
     /// if there are more than `maxSamples` in all.
-    static Result<ArrayLayout> of(std::span<const Dimension> dimensions, std::size_t maxSamples);
+    static Result<AxisMapping> of(std::span<const Dimension> dimensions, std::size_t maxSamples);
 
     const Shape& shape() const { return shape_; }
     std::size_t count() const { return sampleCount(shape_); }
 
-    /// Returns the block of all numbers. If the array has fewer than 4 dimensions, dimensions of size 1 precede them.
-    const NumberBlock& block() const { return block_; }
+    /// Returns the sizes and target strides of the whole array. An array with fewer than 4 dimensions gets leading
+    /// dimensions of size 1.
+    const StridedLayout& layout() const { return layout_; }
     /// Returns the index of the first number among the samples.
     std::size_t first() const { return first_; }
 
-    /// Returns whether the file stores the numbers in the order of Lattice.
+    /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
+    /// Lattice).
     bool isInOrder() const;
 
     /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. Each has as many numbers
@@ -73,7 +75,7 @@ class ArrayLayout {
 
   private:
     Shape shape_{1, 1, 1, 1};
-    NumberBlock block_{{1, 1, 1, 1}, {0, 0, 0, 0}};
+    StridedLayout layout_{{1, 1, 1, 1}, {0, 0, 0, 0}};
     std::size_t first_ = 0;
 };
 

@@ -1,0 +1,60 @@
+#include "net/http/reply.hpp"
+
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+namespace {
+
+constexpr const char* kJson = "application/json";
+
+unsigned statusFor(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::not_found:
+            return 404;
+        case ErrorCode::bad_token:
+            return 401;
+        case ErrorCode::too_large:
+            return 413;
+        case ErrorCode::too_many:
+            return 503;
+        case ErrorCode::internal:
+            return 500;
+        default:
+            return 400;
+    }
+}
+
+}  // namespace
+
+Reply uncachedReply(std::string type, SharedBytes body, unsigned status) {
+    return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
+}
+
+Reply textReply(std::string type, std::string body, unsigned status) {
+    return uncachedReply(std::move(type), SharedBytes(std::move(body)), status);
+}
+
+Reply jsonReply(std::string message) { return textReply(kJson, std::move(message)); }
+
+Reply errorReply(const Error& error, unsigned status) {
+    return textReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
+}
+
+Reply refusalReply(unsigned status, std::string text) {
+    return {status, "text/plain; charset=utf-8", SharedBytes(std::move(text)), {}};
+}
+
+Reply refusalReply(const HttpError& fault) {
+    Reply reply = refusalReply(fault.status, fault.reason + "\n");
+    if (fault.status == kUpgradeRequired) reply.headers = {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}};
+    return reply;
+}
+
+Reply tooManyReply(std::string text) {
+    Reply reply = refusalReply(429, std::move(text));
+    reply.headers.emplace_back("Retry-After", "10");
+    return reply;
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,25 @@
+#pragma once
+// Parses long messages on workers.
+
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <variant>
+
+#include "errors/error.hpp"
+#include "net/options.hpp"
+#include "wire/parse.hpp"
+
+namespace oval4d::net {
+
+/// The result of parsing a message.
+using Parsed = std::variant<wire::Request, wire::BadRequest>;
+
+/// Returns the error for a message that is longer than messages of its type may be.
+Error tooLong(const Options& options);
+
+/// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
+/// message may be long. `text` and `options` must outlive the job.
+std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options);
+
+}  // namespace oval4d::net

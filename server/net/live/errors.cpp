@@ -1,0 +1,28 @@
+#include "net/live/errors.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "fields/field.hpp"
+#include "slicing/object.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id) {
+    metrics.countError(error.code);
+    peer.send(textMessage(wire::errorMessage(error, id)));
+}
+
+Error pictureError(const session::State& state, const std::string& sessionId, std::uint64_t revision,
+                   const std::exception& why, const Error& otherwise) {
+    const fields::Field* const field = slicing::fieldIn(state.object);
+    if (field != nullptr && field->isLost()) {
+        spdlog::warn("picture not made session={} revision={} reason=\"{}\"", sessionId, revision, why.what());
+        return {ErrorCode::bad_field,
+                "the file of this field has been changed or shortened, or cannot be read any more; load it again"};
+    }
+    spdlog::error("picture failed session={} revision={} fault=\"{}\"", sessionId, revision, why.what());
+    return otherwise;
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,25 @@
+#include "net/live/held_session.hpp"
+
+#include <utility>
+
+#include "session/history.hpp"
+
+namespace oval4d::net {
+
+HeldSession::HeldSession(ClientPtr client, session::Session opened)
+    : value(std::move(opened)),
+      client_(std::move(client)),
+      objectMemory_(session::ownObjectMemory(value)),
+      reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemory(value))) {}
+
+void HeldSession::updateReservation(bool objectsChanged) {
+    if (objectsChanged) objectMemory_ = session::ownObjectMemory(value);
+    const std::size_t bytes = objectMemory_ + session::historyMemory(value);
+    if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {
+        session::forgetOlderHalf(value);
+        objectMemory_ = session::ownObjectMemory(value);
+    }
+    reservation_.resize(objectMemory_ + session::historyMemory(value));
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,32 @@
+#pragma once
+// A session in memory, and the bytes that are reserved for it.
+
+#include <cstddef>
+#include <memory>
+
+#include "net/byte_budget.hpp"
+#include "net/clients.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::net {
+
+/// A session whose memory counts against the byte account of the client that opened it. Not thread-safe.
+class HeldSession {
+  public:
+    HeldSession(ClientPtr client, session::Session opened);
+
+    const ClientPtr& client() const { return client_; }
+
+    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed the limit, forgets
+    /// the older half of the undo steps. `objectsChanged`: whether the session may have other objects than before.
+    void updateReservation(bool objectsChanged);
+
+    session::Session value;
+
+  private:
+    const ClientPtr client_;
+    std::size_t objectMemory_;             // session::ownObjectMemory() of the session
+    ByteBudget::Reservation reservation_;  // of objectMemory_ and the memory of the history
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,321 @@
+#include "net/live/picture_streams.hpp"
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <tuple>
+#include <utility>
+
+#include "net/live/errors.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using wire::Stream;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// Time until the next attempt after the job queue was full.
+constexpr auto kRetryInterval = 100ms;
+
+const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
+
+}  // namespace
+
+PictureStreams::PictureStreams(Services services, Strand strand, std::string sessionId,
+                               std::shared_ptr<HeldSession> held)
+    : services_(services),
+      strand_(std::move(strand)),
+      sessionId_(std::move(sessionId)),
+      held_(std::move(held)),
+      session_(held_->value),
+      draftTiming_(Clock::now()),
+      motionTimer_(strand_),
+      paceTimer_(strand_),
+      retryTimer_(strand_),
+      refineTimer_(strand_) {}
+
+void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
+    assertOnStrand();
+    Lanes lanes = lanesOf(peer->client());
+    clients_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
+}
+
+const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
+    assertOnStrand();
+    const auto client = clients_.find(&peer);
+    return client == clients_.end() ? nullptr : &client->second.streamKey;
+}
+
+PictureStreams::Lanes PictureStreams::lanesOf(const ClientPtr& own) const {
+    for (const auto& [key, client] : clients_) {
+        if (client.lanes.client == own) return client.lanes;
+    }
+    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureFlow()),
+            std::make_shared<parallel::WorkerPool::Lane>(own->exportFlow())};
+}
+
+void PictureStreams::closeAll(std::uint16_t code, const std::string& reason) {
+    assertOnStrand();
+    for (const auto& [key, client] : clients_) {
+        if (const auto peer = client.peer.lock()) peer->close(code, reason);
+    }
+}
+
+void PictureStreams::shown(const Peer& peer, std::uint64_t ofRevision) {
+    assertOnStrand();
+    const auto client = clients_.find(&peer);
+    if (client == clients_.end()) return;
+    client->second.pacing.shown(ofRevision);
+    update();
+}
+
+void PictureStreams::update() {
+    assertOnStrand();
+    advanceMotion();
+    std::vector<StreamKey> missing;
+    bool allServed = true;
+    const slicing::Quality wanted = wantedQuality();
+    for (auto& [key, client] : clients_) {
+        if (client.pacing.newest() == revision() && client.quality >= wanted) continue;
+        if (client.streamKey.stream == Stream::none) {
+            if (!client.stateInFlight) sendState(client);
+            continue;
+        }
+        allServed = false;
+        if (!client.pacing.hasRoom()) continue;
+        if (const Message* picture = pictures_.find(client.streamKey, revision(), wanted)) {
+            sendPicture(client, *picture);
+        } else if (!inProgress_.isEncoding(client.streamKey, revision(), wanted) &&
+                   client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey)) &&
+                   std::ranges::find(missing, client.streamKey) == missing.end()) {
+            missing.push_back(client.streamKey);
+        }
+    }
+    if (!missing.empty()) requestPictures(std::move(missing));
+    if (allServed) pictures_.clear();
+    if (wanted == slicing::Quality::draft) scheduleRefinement();
+}
+
+/// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
+slicing::Quality PictureStreams::wantedQuality() const {
+    if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
+    return session_.current.moves() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
+}
+
+/// Schedules pictures of full quality for the time when the session has rested. Until the timer runs, the quality stays
+/// the same, so that a busy server does not skip the draft right after a change.
+void PictureStreams::scheduleRefinement() {
+    if (session_.current.moves()) return;
+    refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
+        streams.draftTiming_.rest(Clock::now());
+        streams.update();
+    });
+}
+
+/// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
+/// the current revision can receive the next one.
+void PictureStreams::advanceMotion() {
+    assertOnStrand();
+    if (!session_.current.moves()) {
+        motionTiming_.stop();
+        return;
+    }
+    if (inProgress_.isDrawing() ||
+        std::ranges::none_of(clients_, [this](const auto& entry) { return readyForNext(entry.second); }))
+        return;
+    const auto now = Clock::now();
+    const auto passed = motionTiming_.step(now);
+    if (!passed) {
+        motionTimer_.start(weak_from_this(), motionTiming_.due(), &PictureStreams::update);
+        return;
+    }
+    const std::uint64_t before = revision();
+    session::advance(session_, Seconds(*passed).count());
+    if (revision() == before) return;  // it turns by the angle 0: there is nothing to send until the next command
+    draftTiming_.change(now);
+    moved_();
+}
+
+bool PictureStreams::readyForNext(const Subscriber& client) const {
+    const bool hasNewest = client.pacing.newest() == revision();
+    if (!hasNewest && !inProgress_.isEncoding(client.streamKey, revision(), slicing::Quality::draft)) return false;
+    return client.streamKey.stream == Stream::none ? !client.stateInFlight
+                                                   : client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey));
+}
+
+/// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
+/// are being drawn, because update() is called again afterward.
+void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
+    assertOnStrand();
+    const slicing::Quality quality = wantedQuality();
+    const bool isNew = !inProgress_.isDrawing();
+    const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
+    Seconds cost{0};
+    for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
+    PictureJob next{inProgress_.job(),      session_.current, revision(),
+                    draftTiming_.changed(), quality,          pictures_.find(revision(), quality),
+                    std::move(wanted)};
+    {
+        const std::lock_guard lock(queuedJobMutex_);
+        if (!isNew && !queuedJob_) return;
+        queuedJob_ = std::move(next);
+    }
+    if (!isNew) return;
+    const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
+    if (services_.pictureWorkers.post(job, lane, cost)) {
+        inProgress_.queued();
+    } else {
+        queuedJob_.reset();
+        scheduleRetry();
+    }
+}
+
+/// Returns the client to whose lane a job is charged. The clients that receive the pictures of a job take turns.
+const PictureStreams::Subscriber& PictureStreams::clientToCharge(const std::vector<StreamKey>& wanted) const {
+    std::vector<const Subscriber*> payers;
+    for (const auto& [peer, client] : clients_) {
+        if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);
+    }
+    return *payers[inProgress_.job() % payers.size()];
+}
+
+/// Schedules another attempt after the pool has rejected a job because its queue is full.
+void PictureStreams::scheduleRetry() {
+    retryTimer_.start(weak_from_this(), Clock::now() + kRetryInterval, &PictureStreams::update);
+}
+
+void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
+    PictureJob job;
+    {
+        const std::lock_guard lock(queuedJobMutex_);
+        job = std::move(*queuedJob_);
+        queuedJob_.reset();
+    }
+    JobResult result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
+    for (const StreamKey& key : job.wanted) {
+        try {
+            if (!suffices(result.snapshot, key))
+                result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
+            std::function<void()> whenDrawn;
+            if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onDrawn(job, key); };
+            result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
+            services_.metrics.observe(pipeline.times());
+        } catch (const std::exception& fault) {
+            result.failed.emplace_back(key, pictureError(job.state, sessionId_, job.revision, fault, kNoPicture));
+        }
+    }
+    asio::post(strand_, [self = shared_from_this(), result = std::move(result)]() mutable {
+        self->onJobDone(std::move(result));
+    });
+}
+
+/// Called on a worker when the last picture of a job is drawn, but not yet encoded. From then on, the next job may be
+/// queued.
+void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
+    asio::post(strand_, [self = shared_from_this(),
+                         drawn = PicturesInProgress::Encoding{job.number, job.revision, job.quality, key}] {
+        self->inProgress_.drawn(drawn);
+        self->update();
+    });
+}
+
+/// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still
+/// newer than those that the clients have: if changes are very frequent, clients see all pictures that the workers have
+/// time to make.
+void PictureStreams::onJobDone(JobResult result) {
+    assertOnStrand();
+    inProgress_.done(result.job);
+    pictures_.add(result.snapshot, std::move(result.pictures));
+    for (auto& [key, client] : clients_) {
+        if (client.streamKey.stream == Stream::none || !client.pacing.hasRoom()) continue;
+        const auto newest = client.pacing.newest();
+        if (newest && std::tie(*newest, client.quality) >= std::tie(result.revision, result.quality)) continue;
+        if (const Message* picture = pictures_.find(client.streamKey, result.revision, result.quality)) {
+            sendPicture(client, *picture);
+        } else if (const auto failed = std::ranges::find(result.failed, client.streamKey, &FailedPicture::first);
+                   failed != result.failed.end()) {
+            client.pacing.skipped(result.revision);
+            client.quality = result.quality;
+            if (const auto peer = client.peer.lock()) sendError(*peer, services_.metrics, failed->second, {});
+        }
+    }
+    update();
+}
+
+/// Sends the state of the newest snapshot, followed by a picture of it.
+void PictureStreams::sendPicture(Subscriber& client, const Message& picture) {
+    const auto peer = client.peer.lock();
+    if (!peer) return;
+    const Snapshot& snapshot = *pictures_.snapshot();
+    client.pacing.sent(snapshot.revision);
+    client.quality = snapshot.quality;
+    services_.metrics.countPicture(client.streamKey.stream);
+    peer->send({snapshot.stateTextFor(client.streamKey.scheme), false});
+    peer->send(picture,
+               [weak = weak_from_this(), to = client.peer, sent = snapshot.revision, since = snapshot.changed] {
+                   const auto now = Clock::now();
+                   const auto self = weak.lock();
+                   if (!self) return;
+                   self->services_.metrics.latency.Observe(Seconds(now - since).count());
+                   asio::post(self->strand_, [self, to, sent, now] {
+                       const auto written = self->clients_.find(to.lock().get());
+                       if (written == self->clients_.end()) return;
+                       written->second.pacing.written(sent, now);
+                       self->schedulePacing();
+                   });
+               });
+}
+
+/// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
+/// client's socket accepts messages, states in between are skipped.
+void PictureStreams::sendState(Subscriber& client) {
+    const auto peer = client.peer.lock();
+    if (!peer) return;
+    SharedBytes text;
+    if (client.streamKey.scheme == scene::Scheme::dark) {
+        if (stateRevision_ != revision()) {
+            stateText_ = SharedBytes(stateText(session_, {}, scene::Scheme::dark));
+            stateRevision_ = revision();
+        }
+        text = stateText_;
+    } else {
+        text = SharedBytes(stateText(session_, {}, client.streamKey.scheme));
+    }
+    client.pacing.skipped(revision());
+    client.quality = slicing::Quality::full;
+    client.stateInFlight = true;
+    peer->send({text, false}, [weak = weak_from_this(), to = client.peer] {
+        const auto self = weak.lock();
+        if (!self) return;
+        asio::post(self->strand_, [self, to] {
+            const auto written = self->clients_.find(to.lock().get());
+            if (written == self->clients_.end()) return;
+            written->second.stateInFlight = false;
+            self->update();
+        });
+    });
+}
+
+/// Starts a timer for expirePictures(), after which pictures that clients have not acknowledged in time count as shown.
+void PictureStreams::schedulePacing() {
+    std::optional<Clock::time_point> first;
+    for (const auto& [key, client] : clients_) {
+        const auto deadline = client.pacing.deadline(shownTimeout());
+        if (deadline && (!first || *deadline < *first)) first = deadline;
+    }
+    if (first) paceTimer_.start(weak_from_this(), *first, &PictureStreams::expirePictures);
+}
+
+void PictureStreams::expirePictures() {
+    for (auto& [key, client] : clients_) client.pacing.assumeShown(Clock::now(), shownTimeout());
+    update();
+    schedulePacing();
+}
+
+PictureStreams::Clock::duration PictureStreams::shownTimeout() const {
+    return std::chrono::duration_cast<Clock::duration>(services_.options.shownTimeout);
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,160 @@
+#pragma once
+// The pictures and states that a session sends to its clients.
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+#include <cassert>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "net/live/draft_timing.hpp"
+#include "net/live/held_session.hpp"
+#include "net/live/made_pictures.hpp"
+#include "net/live/motion_timing.hpp"
+#include "net/live/pacing.hpp"
+#include "net/live/peer.hpp"
+#include "net/live/pictures_in_progress.hpp"
+#include "net/live/snapshot.hpp"
+#include "net/one_shot_timer.hpp"
+#include "net/services.hpp"
+#include "net/shared_bytes.hpp"
+
+namespace oval4d::net {
+
+/// The clients of a session, and what each of them is sent. Pictures of the newest state follow as fast as workers make
+/// them and clients show them. To this end, a session has at most one picture job that is queued or being drawn. A
+/// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
+/// of a revision is made once and shared by all clients with the same stream, encoding and viewport. While the object
+/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
+class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
+  public:
+    using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+    using Clock = Pacing::Clock;
+    /// A client's lanes in the worker pools for its jobs in this session.
+    struct Lanes {
+        ClientPtr client;
+        parallel::WorkerPool::LanePtr pictures, exports;
+    };
+
+    /// `sessionId`: for the log. `held`: the session, whose owner calls sessionChanged() after each change.
+    PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<HeldSession> held);
+
+    /// Sets what to call after each step of the motion, which changes the session. Must be set before a client is
+    /// added.
+    void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
+
+    /// Adds a client, or changes its stream if it was added before.
+    void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
+    void remove(const Peer* peer) { clients_.erase(peer); }
+    /// Returns the stream of a client; null if it was not added. The pointer is valid until the next add() or remove().
+    const StreamKey* streamOf(const Peer& peer) const;
+    /// Returns the lanes of a client in this session. All connections of a client to a session share these lanes, so
+    /// that a client with several connections gets no larger share of the workers.
+    Lanes lanesOf(const ClientPtr& own) const;
+    /// Closes the connections of all clients.
+    void closeAll(std::uint16_t code, const std::string& reason);
+
+    /// Notes that the session has reached a new revision.
+    void sessionChanged(Clock::time_point now) { draftTiming_.change(now); }
+    /// Begins with drafts, as if the session changed in quick succession.
+    void beginDrafts() { draftTiming_.begin(); }
+    /// Notes that a client shows the picture of this revision, and sends the next one.
+    void shown(const Peer& peer, std::uint64_t ofRevision);
+    /// Sends every client the newest state or picture, if the picture is ready and the client can receive it. Requests
+    /// pictures that are missing. Must be called whenever the session may have changed, a client may have become able
+    /// to receive a picture, or a worker may have become available.
+    void update();
+
+    /// Returns the time at which the session reached its revision.
+    Clock::time_point changed() const { return draftTiming_.changed(); }
+    /// Returns the snapshot of the current revision, of full quality; null if there is none.
+    SnapshotPtr newestSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
+
+  private:
+    // A connection to this session.
+    struct Subscriber {
+        std::weak_ptr<Peer> peer;
+        Lanes lanes;
+        StreamKey streamKey;
+        Pacing pacing;
+        slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
+        bool stateInFlight = false;  // without a stream: whether a `state` message is queued, but not yet written
+    };
+    // A picture that could not be made, and the reason.
+    using FailedPicture = std::pair<StreamKey, Error>;
+    // A job that makes pictures of one revision.
+    struct PictureJob {
+        std::uint64_t number = 0;  // identifies the job within the session; starts at 1
+        session::State state;
+        std::uint64_t revision = 0;
+        Clock::time_point changed;  // the time at which the session reached this revision
+        slicing::Quality quality = slicing::Quality::full;
+        SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
+        std::vector<StreamKey> wanted;  // the pictures to make
+    };
+    // The result of a PictureJob.
+    struct JobResult {
+        std::uint64_t job = 0;  // number of the job
+        std::uint64_t revision = 0;
+        slicing::Quality quality = slicing::Quality::full;
+        SnapshotPtr snapshot;
+        MadePictures::List pictures;
+        std::vector<FailedPicture> failed;
+    };
+
+    void assertOnStrand() const {
+        assert(strand_.running_in_this_thread() && "the session is used outside its strand");
+    }
+    std::uint64_t revision() const { return session_.revision; }
+    void advanceMotion();
+    slicing::Quality wantedQuality() const;
+    void scheduleRefinement();
+    void requestPictures(std::vector<StreamKey> wanted);
+    const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
+    void scheduleRetry();
+    void onJobDone(JobResult result);
+    void sendPicture(Subscriber& client, const Message& picture);
+    void sendState(Subscriber& client);
+    void schedulePacing();
+    void expirePictures();
+    Clock::duration shownTimeout() const;
+    bool readyForNext(const Subscriber& client) const;
+
+    // The following functions run on a worker.
+    void runJob(pipeline::Pipeline& pipeline);
+    void onDrawn(const PictureJob& job, const StreamKey& key);
+
+    // Constant after construction.
+    const Services services_;  // declared first: other members are initialized from it
+    const Strand strand_;
+    const std::string sessionId_;
+    std::function<void()> moved_;
+
+    // Used only on the strand.
+    const std::shared_ptr<HeldSession> held_;
+    session::Session& session_;  // that of held_
+    std::map<const Peer*, Subscriber> clients_;
+    DraftTiming draftTiming_;
+    MotionTiming motionTiming_;
+    PicturesInProgress inProgress_;
+    MadePictures pictures_;  // kept while a client waits for one, else empty
+    SharedBytes stateText_;  // the `state` message of stateRevision_, for clients without a stream or a scheme
+    std::optional<std::uint64_t> stateRevision_;
+    OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
+
+    // Shared by the strand and a worker.
+    std::mutex queuedJobMutex_;
+    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while no
+    // job is posted.
+    std::optional<PictureJob> queuedJob_;
+};
+
+}  // namespace oval4d::net

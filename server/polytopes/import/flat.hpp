@@ -1,0 +1,139 @@
+#pragma once
+// Planes and hyperplanes through inexact points, and their fit to groups of points.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "polytopes/import/hull_frame.hpp"
+
+namespace oval4d::polytopes {
+
+/// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain due to the corners'
+/// errors.
+template <std::size_t Dimension>
+class Flat {
+  public:
+    static constexpr std::size_t kCorners = Dimension + 1;
+    using Corners = std::array<std::uint32_t, kCorners>;
+
+    Flat(const Corners& corners, std::span<const glm::dvec4> points) : corners_(corners), origin_(points[corners[0]]) {
+        for (std::size_t j = 0; j < Dimension; ++j) {
+            glm::dvec4 rest = points[corners.at(j + 1)] - origin_;
+            for (std::size_t i = 0; i < j; ++i) {
+                edges_.at(j).at(i) = glm::dot(rest, axes_.at(i));
+                rest -= edges_.at(j).at(i) * axes_.at(i);
+            }
+            const double length = glm::length(rest);
+            edges_.at(j).at(j) = length;
+            axes_.at(j) = length > 0 ? rest / length : glm::dvec4(0);
+            volume_ *= length;
+        }
+    }
+
+    const Corners& corners() const { return corners_; }
+    /// Returns the volume of the simplex times the factorial of its dimension.
+    double volume() const { return volume_; }
+    const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
+
+    /// Returns the coordinates, along the axes of the flat, of the point of the flat nearest to p.
+    std::array<double, Dimension> project(const glm::dvec4& p) const {
+        glm::dvec4 rest = p - origin_;
+        std::array<double, Dimension> along;
+        for (std::size_t i = 0; i < Dimension; ++i) {
+            along.at(i) = glm::dot(rest, axes_.at(i));
+            rest -= along.at(i) * axes_.at(i);
+        }
+        return along;
+    }
+
+    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of its
+    /// barycentric coordinates.
+    double errorAmplification(const glm::dvec4& p) const {
+        std::array<double, Dimension> weights = project(p);
+        double sum = 0, first = 1;
+        for (std::size_t j = Dimension; j-- > 0;) {
+            if (!(edges_.at(j).at(j) > 0)) return std::numeric_limits<double>::infinity();
+            weights.at(j) /= edges_.at(j).at(j);
+            for (std::size_t i = 0; i < j; ++i) weights.at(i) -= weights.at(j) * edges_.at(j).at(i);
+            sum += std::abs(weights.at(j));
+            first -= weights.at(j);
+        }
+        return sum + std::abs(first);
+    }
+
+    /// Returns whether p lies in the flat, within `factor` times the sum of two error bounds: that of p
+    /// (HullFrame::errorBound()) and that of the flat, extrapolated to p.
+    bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
+        glm::dvec4 rest = p - origin_;
+        for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
+        const double distance = glm::length(rest);
+        if (!(distance > 0)) return true;
+        constexpr double kMaxAmplification = 16;  // how far a flat's error bound is assumed to grow by extrapolation
+        return distance <=
+               factor * frame.errorBound(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
+    }
+
+  private:
+    Corners corners_;
+    glm::dvec4 origin_;
+    std::array<glm::dvec4, Dimension> axes_{};
+    std::array<std::array<double, Dimension>, Dimension> edges_{};  // from the first corner, along axes_
+    double volume_ = 1;
+};
+
+using Plane = Flat<2>;
+using Hyperplane = Flat<3>;
+
+/// Greedily chooses points that span a large simplex: each is the farthest from the flat through the points chosen
+/// before.
+template <std::size_t Count>
+std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
+    glm::dvec4 middle(0);
+    for (const std::uint32_t v : from) middle += points[v] / static_cast<double>(from.size());
+    std::array<std::uint32_t, Count> chosen{};
+    std::array<glm::dvec4, Count> axes{};
+    for (std::size_t i = 0; i < Count; ++i) {
+        double most = -1;
+        for (const std::uint32_t v : from) {
+            glm::dvec4 rest = points[v] - (i == 0 ? middle : points[chosen[0]]);
+            for (std::size_t k = 1; k < i; ++k) rest -= glm::dot(rest, axes.at(k)) * axes.at(k);
+            if (const double length = glm::dot(rest, rest); length > most) {
+                most = length;
+                chosen.at(i) = v;
+                axes.at(i) = length > 0 ? rest / std::sqrt(length) : glm::dvec4(0);
+            }
+        }
+    }
+    return chosen;
+}
+
+/// Grows a group of simplices in a flat, which at first goes through the corners `own` of one of them. While a larger
+/// simplex of the group's vertices defines the flat more precisely, replaces the flat by that one, if it still contains
+/// `own`, and grows the group again. `grow` returns the group in a flat, and `verticesOf` the vertices of a group.
+/// Returns the group, and sets `flat` to its flat.
+template <typename F, typename Corners, typename Grow, typename VerticesOf>
+std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
+                                        std::span<const glm::dvec4> points, const HullFrame& frame) {
+    constexpr int kMaxRefits = 4;
+    constexpr double kLarger = 1.01;
+    std::vector<std::uint32_t> group = grow(flat);
+    for (int i = 0; i < kMaxRefits && group.size() > 1; ++i) {
+        const F wider(largeSimplex<F::kCorners>(verticesOf(group), points), points);
+        const bool contains = std::ranges::all_of(own, [&](auto v) { return wider.contains(points[v], frame); });
+        if (!(wider.volume() > kLarger * flat.volume()) || !contains) break;
+        flat = wider;
+        group = grow(flat);
+    }
+    return group;
+}
+
+}  // namespace oval4d::polytopes

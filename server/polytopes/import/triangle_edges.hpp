@@ -1,0 +1,36 @@
+#pragma once
+// The edges of triangles, sorted, to find the triangles that share an edge.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace oval4d::polytopes {
+
+using Triangle = std::array<std::uint32_t, 3>;  ///< indices of points
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// An edge of a triangle.
+struct TriangleEdge {
+    Edge edge;
+    std::uint32_t triangle;
+};
+
+/// Returns the edges of all triangles, sorted by their ends. `corners` maps an element of `triangles` to its corners.
+template <typename Triangles, typename Corners>
+std::vector<TriangleEdge> edgesOfTriangles(const Triangles& triangles, Corners corners) {
+    std::vector<TriangleEdge> edges;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const Triangle& corner = corners(triangles[t]);
+        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::minmax(corner.at(i), corner.at((i + 1) % 3)), t});
+    }
+    std::sort(edges.begin(), edges.end(), [](const TriangleEdge& a, const TriangleEdge& b) {
+        return std::pair(a.edge, a.triangle) < std::pair(b.edge, b.triangle);
+    });
+    return edges;
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,54 @@
+#pragma once
+// Draws patches into a picture in memory, eight pixels at a time. Needs a processor with AVX2 and FMA.
+
+#include <cstdint>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "render/slices/avx2.hpp"
+#include "render/slices/shape_batch.hpp"
+#include "render/slices/shape_rasterizer.hpp"
+
+namespace oval4d::render {
+
+#if defined(__x86_64__)
+
+/// A vertex of a patch in the picture.
+struct PatchCorner {
+    float x, y;      ///< in pixels from the lower left corner
+    float nearness;  ///< 1 / (the distance from the eye along the view axis)
+    int row;         ///< the first of the drawn rows whose center is not below the corner, or their end
+    glm::vec3 place;
+};
+
+/// The rows that a patch covers: begin … end − 1.
+struct RowRange {
+    int begin, end;
+};
+
+/// The picture to which patches are drawn, the rows that are drawn, and the light.
+struct PatchCanvas {
+    static constexpr int kLanes = 8;  ///< the number of pixels or rows that are computed at a time
+
+    int width = 0, height = 0;
+    RowRange rows{0, 0};  ///< those that are drawn
+    std::uint32_t* pixels = nullptr;
+    float* nearness = nullptr;  ///< the depth buffer
+    /// In row y, the current patch covers the pixels left[y] … right[y] − 1. The arrays have kLanes more entries than
+    /// there are rows, because rows are computed kLanes at a time.
+    int *left = nullptr, *right = nullptr;
+    float ambient = 0, gloss = 0;
+    unsigned shininess = 1;
+    bool opaque = true;  ///< whether the background is, and with it every pixel
+};
+
+/// Draws a patch, a convex polygon. `corners` is working memory for as many corners. `pixelSize`: the size of a pixel
+/// at the distance 1 from the eye.
+OVAL4D_AVX2 void drawPatch(const PatchCanvas& canvas, std::span<const ShapeVertex> vertices,
+                           std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::Depth depth,
+                           float pixelSize);
+
+#endif
+
+}  // namespace oval4d::render

@@ -1,0 +1,73 @@
+#include "store/object_list.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "store/cbor.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::store {
+
+using nlohmann::json;
+
+std::size_t ObjectListWriter::indexOf(const slicing::Object& object) {
+    const auto [found, isNew] = indices_.try_emplace(slicing::identityOf(object), list_.size());
+    if (isNew) {
+        const geometry::ObjectInfo& info = slicing::infoOf(object);
+        json entry = json::array({info.name});
+        if (!info.rebuildableFromName) entry.push_back(keyOf_(object));
+        list_.push_back(std::move(entry));
+    }
+    return found->second;
+}
+
+ObjectListReader::ObjectListReader(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
+    for (const json& entry : list) {
+        if (entry.size() == 1) {
+            objects_.push_back(rebuilt(readShortText(entry.at(0)), cache));
+        } else if (auto object = objectOf(readShortText(entry.at(1)))) {
+            objects_.push_back(std::move(*object));
+        } else {
+            throwUnreadable("an object is missing");
+        }
+    }
+}
+
+const slicing::Object& ObjectListReader::at(const json& index) const {
+    const auto i = readInteger<std::size_t>(index);
+    if (i >= objects_.size()) throwUnreadable("an object is missing");
+    return objects_[i];
+}
+
+slicing::Object ObjectListReader::imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+    if (frame == geometry::ReferenceFrame{}) return source;
+    const auto known = std::ranges::find_if(
+        images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
+    if (known != images_.end()) return known->image;
+    const std::size_t vertices = slicing::elementCounts(source)[0];
+    if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
+    vertexBudget_ -= vertices;
+    images_.push_back({source, frame, slicing::imageOf(source, frame)});
+    return images_.back().image;
+}
+
+/// Returns the polytope with this name.
+slicing::Object ObjectListReader::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
+    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
+    const auto named = polytopes::designNamed(name, kMaxVertices);
+    const auto* design = std::get_if<polytopes::Design>(&named);
+    if (design == nullptr) throwUnreadable("the catalogue has no polytope called " + text::inQuotes(name));
+    const std::size_t vertices = polytopes::elementCounts(*design).vertices;
+    if (vertices > vertexBudget_) throwUnreadable("its polytopes have too many vertices");
+    vertexBudget_ -= vertices;
+    try {
+        return cache.get(*design);
+    } catch (const std::invalid_argument& fault) {
+        throwUnreadable("a polytope cannot be built: " + std::string(fault.what()));
+    }
+}
+
+}  // namespace oval4d::store

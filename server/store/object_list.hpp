@@ -1,0 +1,64 @@
+#pragma once
+// The list of the objects of one session record. Its states refer to these objects by their indices.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/reference_frame.hpp"
+#include "polytopes/catalogue/polytope_cache.hpp"
+#include "slicing/object.hpp"
+#include "store/session_codec.hpp"
+
+namespace oval4d::store {
+
+/// Collects the objects of a session in a list without duplicates.
+class ObjectListWriter {
+  public:
+    explicit ObjectListWriter(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
+
+    /// Returns the index of the object in the list. Adds the object if the list does not have it yet.
+    std::size_t indexOf(const slicing::Object& object);
+
+    /// The encoded list: [name] for an object that is built from its name, and [name, key] for any other object.
+    const nlohmann::json& list() const { return list_; }
+
+  private:
+    const ObjectKeyLookup& keyOf_;
+    nlohmann::json list_ = nlohmann::json::array();
+    std::map<const void*, std::size_t> indices_;
+};
+
+/// The objects of a decoded session, also in the frames of reference in which its states show them.
+class ObjectListReader {
+  public:
+    /// Reads what ObjectListWriter::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
+    /// built, or if the objects that are built from their names have more than ten million vertices altogether.
+    ObjectListReader(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
+
+    /// Returns the object with this index. Throws UnreadableRecord if there is none.
+    const slicing::Object& at(const nlohmann::json& index) const;
+
+    /// Returns an object in the frame of reference `frame`; the same one for all states that show it. Throws
+    /// UnreadableRecord if all transformed objects and the objects that are built from their names have more than ten
+    /// million vertices altogether.
+    slicing::Object imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
+
+  private:
+    struct Image {
+        slicing::Object source;
+        geometry::ReferenceFrame frame;
+        slicing::Object image;
+    };
+    slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache);
+
+    // A few bytes of a record can request large objects, hence this limit.
+    std::size_t vertexBudget_ = 10'000'000;
+    std::vector<slicing::Object> objects_;
+    std::vector<Image> images_;
+};
+
+}  // namespace oval4d::store

@@ -1,0 +1,93 @@
+#pragma once
+// Writes members that several messages have.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "slicing/element.hpp"
+#include "slicing/field_settings.hpp"
+#include "slicing/object.hpp"
+#include "text/choice.hpp"
+#include "wire/json_writer.hpp"
+
+namespace oval4d::wire {
+
+/// Begins a message: writes its type, and its id if there is one.
+inline void beginMessage(JsonWriter& w, std::string_view type, std::optional<double> id) {
+    w.beginObject();
+    w.member("type", type);
+    if (id) {
+        w.key("id");
+        w.id(*id);
+    }
+}
+
+/// The numbers of vertices, edges, 2-faces and cells.
+using Counts = std::array<std::uint64_t, 4>;
+
+inline Counts countsOf(const slicing::Object& object) {
+    const auto [vertices, edges, faces, cells] = slicing::elementCounts(object);
+    return {vertices, edges, faces, cells};
+}
+
+inline void writeCounts(JsonWriter& w, const Counts& counts) {
+    w.member("vertices", counts[0]);
+    w.member("edges", counts[1]);
+    w.member("faces", counts[2]);
+    w.member("cells", counts[3]);
+}
+
+/// Writes a value of a setting, or of a member that messages share, as JSON.
+template <typename Number>
+void writeValue(JsonWriter& w, const Number& number) {
+    w.value(number);
+}
+template <text::HasChoices Enum>
+void writeValue(JsonWriter& w, const Enum& value) {
+    w.value(text::nameOf(choicesOf(value), value));
+}
+template <glm::length_t length>
+void writeValue(JsonWriter& w, const glm::vec<length, double>& coordinates) {
+    w.beginArray();
+    for (int axis = 0; axis < length; ++axis) w.value(coordinates[axis]);
+    w.endArray();
+}
+inline void writeValue(JsonWriter& w, const std::vector<std::uint32_t>& numbers) { w.numbers(numbers); }
+inline void writeValue(JsonWriter& w, const std::vector<double>& numbers) {
+    w.beginArray();
+    for (const double number : numbers) w.value(number);
+    w.endArray();
+}
+inline void writeValue(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
+    w.beginArray();
+    for (const slicing::FogPoint& point : points) {
+        w.beginObject();
+        w.member("value", point.value);
+        w.member("opacity", point.opacity);
+        if (point.color) w.member("color", *point.color);
+        w.endObject();
+    }
+    w.endArray();
+}
+inline void writeValue(JsonWriter& w, const std::optional<slicing::Element>& element) {
+    if (!element) return w.null();
+    w.beginObject();
+    w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
+    w.member("number", std::uint64_t{element->index});
+    w.endObject();
+}
+
+/// Writes a member of an object.
+template <typename Value>
+void writeMember(JsonWriter& w, std::string_view name, const Value& value) {
+    w.key(name);
+    writeValue(w, value);
+}
+
+}  // namespace oval4d::wire

@@ -1,0 +1,173 @@
+#include "wire/state_message.hpp"
+
+#include "fields/array/array_function.hpp"
+#include "fields/field.hpp"
+#include "scene/color.hpp"
+#include "scene/surface_look.hpp"
+#include "session/setting_table.hpp"
+#include "slicing/object.hpp"
+#include "wire/json_writer.hpp"
+#include "wire/message_members.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme scheme) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    w.key("polytope");
+    w.beginObject();
+    w.member("name", std::string_view(info.name));
+    writeCounts(w, countsOf(object));
+    w.key("kinds");
+    w.beginArray();
+    for (std::size_t i = 0; i < info.cellTypes.size(); ++i) {
+        w.beginObject();
+        w.member("name", std::string_view(info.cellTypes[i].name));
+        w.member("cells", std::uint64_t{info.cellTypes[i].cells});
+        w.member("color", scene::cellTypeColor(i, info.cellTypes.size(), scheme));
+        w.endObject();
+    }
+    w.endArray();
+    if (info.originInFile != glm::dvec4(0)) writeMember(w, "center", info.originInFile);
+    w.endObject();
+}
+
+void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
+    w.key("orientation");
+    w.beginArray();
+    for (int row = 0; row < 4; ++row) {
+        w.beginArray();
+        for (int column = 0; column < 4; ++column) w.value(matrix[column][row]);
+        w.endArray();
+    }
+    w.endArray();
+}
+
+void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
+    w.key("last");
+    if (!turn) return w.null();
+    w.beginObject();
+    w.key("planes");
+    w.beginArray();
+    for (const geometry::Plane plane : turn->planes()) w.value(geometry::name(plane));
+    w.endArray();
+    w.key("angles");
+    w.beginArray();
+    for (const geometry::Plane plane : turn->planes()) w.value(*(*turn)[plane]);
+    w.endArray();
+    w.endObject();
+}
+
+// Writes the member `values`: the second function, if there is one, and the color scale of values.
+void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
+    constexpr int kColors = 9;
+    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->get(), scheme);
+    w.key("values");
+    w.beginObject();
+    if (field.second && field.second->array) {
+        w.member("variable", std::string_view(field.second->variable));
+    } else if (field.second) {
+        w.member("formula", std::string_view(field.second->formula));
+    }
+    w.key("range");
+    w.beginArray();
+    w.value(scale.least);
+    w.value(scale.greatest);
+    w.endArray();
+    w.key("colors");
+    w.beginArray();
+    for (int i = 0; i < kColors; ++i) {
+        const double at = static_cast<double>(i) / (kColors - 1);
+        w.value(std::uint64_t{scale.color(scale.least + at * (scale.greatest - scale.least))});
+    }
+    w.endArray();
+    w.endObject();
+}
+
+void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look, scene::Scheme scheme) {
+    w.key("field");
+    w.beginObject();
+    if (field.array) {
+        w.key("shape");
+        w.beginArray();
+        for (const std::size_t samples : field.array->shape()) w.value(std::uint64_t{samples});
+        w.endArray();
+        w.key("range");
+        w.beginArray();
+        w.value(double{field.array->statistics().min});
+        w.value(double{field.array->statistics().max});
+        w.endArray();
+        if (!field.array->rangeIsExact()) w.member("estimated", true);
+    } else {
+        w.member("formula", std::string_view(field.formula));
+    }
+    if (field.second || scene::colorsByValue(look)) writeValues(w, field, scheme);
+    w.key("box");
+    w.beginArray();
+    for (int axis = 0; axis < 4; ++axis) {
+        w.beginArray();
+        w.value(field.box.min[axis]);
+        w.value(field.box.max[axis]);
+        w.endArray();
+    }
+    w.endArray();
+    w.endObject();
+}
+
+void writeSettings(JsonWriter& w, const session::State& state) {
+    std::string_view object;  // the one that has been begun
+    const auto continueIn = [&](std::string_view next) {
+        if (next == object) return;
+        if (!object.empty()) w.endObject();
+        if (!next.empty()) {
+            w.key(next);
+            w.beginObject();
+        }
+        object = next;
+    };
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            if (setting.forFields && slicing::fieldIn(state.object) == nullptr) return;
+            continueIn(setting.name.object);
+            writeMember(w, setting.name.member, setting.ofState(state));
+        }
+    });
+    continueIn({});
+}
+
+}  // namespace
+
+void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
+    const scene::Scheme scheme = scene::schemeOn(state.look.background, viewer);
+    JsonWriter w(out);
+    beginMessage(w, "state", id);
+    w.member("revision", revision);
+    if (quality == slicing::Quality::draft) w.member("draft", true);
+    writeObject(w, state.object, scheme);
+    if (const fields::Field* const field = slicing::fieldIn(state.object)) writeField(w, *field, state.look, scheme);
+    writeMatrix(w, state.orientation.matrix());
+    w.key("section");
+    w.beginObject();
+    w.member("w", state.focusPointInFile().w);
+    w.member("name", section.slice);
+    w.member("vertices", section.vertices);
+    w.endObject();
+    w.member("turning", state.turning);
+    w.member("moving", state.moves());
+    writeSettings(w, state);
+    writeLast(w, state.lastTurn);
+    w.endObject();
+}
+
+std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                         std::optional<double> id, slicing::Quality quality, scene::Scheme viewer) {
+    constexpr std::size_t kTypicalBytes = 1024;
+    std::string out;
+    out.reserve(kTypicalBytes);
+    stateMessage(state, section, revision, id, out, quality, viewer);
+    return out;
+}
+
+}  // namespace oval4d::wire

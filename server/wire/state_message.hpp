@@ -1,0 +1,26 @@
+#pragma once
+// Writes the `state` message as JSON text.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "scene/background.hpp"
+#include "session/session.hpp"
+#include "slicing/section_name.hpp"
+#include "slicing/surface_detail.hpp"
+
+namespace oval4d::wire {
+
+/// Returns the `state` message of a state. `section` has the names of its focus slice, and `quality` is the quality of
+/// the picture that follows. `viewer` is the scheme of this picture if the background is scene::Background::automatic;
+/// the message has the colors of kinds and of values. The PNG files of frames contain the same text.
+std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                         std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
+                         scene::Scheme viewer = scene::Scheme::dark);
+/// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
+void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                  std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
+                  scene::Scheme viewer = scene::Scheme::dark);
+
+}  // namespace oval4d::wire

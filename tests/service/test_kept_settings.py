@@ -1,0 +1,62 @@
+"""No setting is lost in a SQLite file, a picture, a `state` message or an address."""
+
+import asyncio
+import json
+
+import all_settings
+import numpy
+import pytest
+from harness import Server
+from test_restoring import put_state
+from wire import Client
+
+
+def kept(state):
+    """Returns what must be kept of a state. The orientation is rounded: a matrix and its rotation differ by about
+    1e-16."""
+    rest = {name: each for name, each in state.items() if name not in ("revision", "id", "type", "moving", "draft")}
+    return rest | {"orientation": numpy.round(state["orientation"], 12).tolist()}
+
+
+async def test_each_setting_is_changed(server):
+    changed = set()
+    for prepare in all_settings.SESSIONS:
+        async with Client(server, stream="none") as client:
+            before = await client.request("get", what="state")
+            await prepare(client)
+            after = await client.request("get", what="state")
+            changed |= {name for name in all_settings.setting_names()
+                        if all_settings.value(after, name) != all_settings.value(before, name)}
+    assert changed == all_settings.setting_names()
+
+
+@pytest.mark.parametrize("prepare", all_settings.SESSIONS)
+async def test_a_sqlite_file_loses_no_setting(tmp_path, prepare):
+    store = ("--store", f"sqlite:{tmp_path}/sessions.sqlite")
+    with Server(*store) as server:
+        async with Client(server, stream="none") as client:
+            await prepare(client)
+            before = await client.request("get", what="state")
+    with Server(*store) as server:
+        async with Client(server, client.welcome["session"], token=client.welcome["token"], stream="none") as client:
+            assert {**await client.request("get", what="state"), "id": 0} == {**before, "id": 0}
+
+
+@pytest.mark.parametrize("prepare", all_settings.SESSIONS)
+async def test_pictures_states_and_addresses_lose_no_setting(server, prepare):
+    async with Client(server, stream="none") as client:
+        await prepare(client)
+        state = await client.request("get", what="state")
+        picture = await client.request_frame(width=320, height=200)
+        query = (await client.request("get", what="address"))["query"]
+    for body in (picture, json.dumps(state).encode()):
+        async with Client(server, stream="none") as other:
+            status, done = await asyncio.to_thread(put_state, server, other.welcome, body)
+            assert status == 200, done
+            assert kept(await other.request("get", what="state")) == kept(state)
+    async with Client(server, stream="none") as other:
+        await other.request("address", query=query)
+        opened = await other.request("get", what="state")
+        for name in all_settings.setting_names() - {("orientation",)}:
+            assert all_settings.value(opened, name) == pytest.approx(all_settings.value(state, name)), name
+        assert numpy.allclose(opened["orientation"], state["orientation"])

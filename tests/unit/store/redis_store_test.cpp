@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "store/redis_store.hpp"
+#include "unit/store/redis_server.hpp"
+
+namespace oval4d::store {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(RedisStore, ExpiresUntouchedSessions) {
+    const Redis redis;
+    const auto brief = redis.connect(1h), lasting = redis.connect(3h);
+    ASSERT_TRUE(brief && lasting);
+    const auto expectExpiry = [&](Milliseconds longest) {
+        for (const char* key : {"oval4d:{id}", "oval4d:{id}:polytopes"}) {
+            EXPECT_GT(redis.expiryOf(key), longest - 1h) << key;
+            EXPECT_LE(redis.expiryOf(key), longest) << key;
+        }
+    };
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {{"p", "bytes"}}, {}, false};
+    EXPECT_EQ(brief->save({&update, 1}).at(0), SaveResult::saved);
+    expectExpiry(1h);
+    const std::vector<std::string> ids{"id"};
+    lasting->touch(ids);
+    expectExpiry(3h);
+    brief->claim("id");
+    expectExpiry(1h);
+    EXPECT_TRUE(lasting->claim("id"));
+    expectExpiry(3h);
+}
+
+TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
+    const Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
+    ASSERT_TRUE(one && two);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
+    EXPECT_TRUE(one->pollClaims().empty());
+    EXPECT_EQ(two->claim("id")->fence, 2U);
+    EXPECT_EQ(one->pollClaims(), std::vector<std::string>{"id"});
+    EXPECT_TRUE(one->pollClaims().empty()) << "returned only once";
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
+    const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
+    EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
+    EXPECT_EQ(one->claim("id")->fence, 3U);
+    EXPECT_TRUE(two->pollClaims().empty()) << "the server had closed the session itself";
+}
+
+TEST(RedisStore, RemovesOnlyItsOwnSessions) {
+    const Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
+    ASSERT_TRUE(one && two);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {{"p", "q"}}, {}, false, true};
+    one->save({&update, 1});
+    const std::vector<std::string> ids{"id"};
+    two->remove(ids);
+    EXPECT_TRUE(one->tokenHash("id"));
+    one->remove(ids);
+    EXPECT_FALSE(one->tokenHash("id"));
+}
+
+TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
+    Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
+    ASSERT_TRUE(one && two);
+    const RecordUpdate first{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
+    redis.stop();
+    EXPECT_THROW(one->save({&first, 1}), StoreError);
+    EXPECT_THROW(one->pollClaims(), StoreError);
+    EXPECT_THROW(two->pollClaims(), StoreError);
+    redis.start();
+    ASSERT_TRUE(redis.connect());
+    const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};
+    EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
+    EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
+    // Another server with the same fence, from before the loss.
+    EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::claimed);
+}
+
+}  // namespace
+}  // namespace oval4d::store
