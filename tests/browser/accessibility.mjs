@@ -389,8 +389,8 @@ test("accessibility: forced colors show which controls are pressed and which row
     await differs("[data-action=faces]", "[data-action=view]");
     await differs("[data-page-tool=geometry]", "[data-page-tool=frames]");
     await differs("#tools label:has([value=cell]) span", "#tools label:has([value=plain]) span");
-    await differs(".presence label:has([value=shown])", ".presence label:has([value=hidden])");
-    await differs(".presence .shown", ".presence .hidden");
+    await differs(".visibility label:has([value=shown])", ".visibility label:has([value=hidden])");
+    await differs(".visibility .shown", ".visibility .hidden");
     await panels.completions(page);
     await differs("#command-options [aria-selected=true]", "#command-options [aria-selected=false]");
     for (let i = 0; i < 2; ++i) await page.keyboard.press("Escape");

@@ -78,10 +78,10 @@ test("colors: a kind can be hidden, faded and shown again, by mouse, by keyboard
     await page.keyboard.press("ArrowLeft");
     await script.until((one) => one.faded.join() === "1", "kind 0 shown");
     await script.request({ type: "command", line: "hide 0 1" });
-    await page.waitForFunction(() => document.querySelectorAll('.kinds [data-presence="hidden"]').length === 2);
+    await page.waitForFunction(() => document.querySelectorAll('.kinds [data-visibility="hidden"]').length === 2);
     assert.equal(await checked(page, "kind-1"), "hidden");
     await script.request({ type: "undo" });
-    await page.waitForFunction(() => document.querySelectorAll('.kinds [data-presence="hidden"]').length === 0);
+    await page.waitForFunction(() => document.querySelectorAll('.kinds [data-visibility="hidden"]').length === 0);
     await script.request({ type: "set", polytope: "8-cell" });
     await page.waitForFunction(() => document.querySelectorAll(".kinds > div").length === 1);
     assert.equal(await checked(page, "kind-0"), "shown", "another polytope shows all kinds");

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { accurateBrowser, common, idle, named, openPage, openWithScript, presented, ready, restart, scriptFor, spoken, stateAfter } from "./support/browser.mjs";
+import { idle, named, openPage, openWithScript, presented, restart, scriptFor, spoken, stateAfter } from "./support/browser.mjs";
 import { picture } from "./support/drawing.mjs";
 import { change, focusSurface, formula, openPanel, surfacePixels, write } from "./support/field.mjs";
 import { passTime } from "./support/page_time.mjs";
@@ -294,32 +294,6 @@ test("field panel: another formula colors the surfaces, and has the names of the
     await close();
 });
 
-test("field panel: an address opens a field, and the panel copies such an address", async () => {
-    const permissions = ["clipboard-read", "clipboard-write"];
-    const { page, script, close } = await openPanel({ permissions });
-    await write(page, script, "x^2+y^2 + 1/10 <= w*z; a=0.5");
-    await change(page, script, "[data-end='w to']", "3");
-    await script.request({ type: "set", levels: [0, 0.5], inside: "above" });
-    await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
-    await page.click("#field-link");
-    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
-    const link = await page.evaluate(() => navigator.clipboard.readText());
-    assert.ok(link.includes("formula=x^2%2By^2%20%2B%201/10%20%3C=%20w*z;%20a=0.5&box=-2,2,-2,2,-2,2,-2,3&"), link);
-    const second = await openPage({ url: `${link}&slices=11` });
-    await ready(second.page);
-    await named(second.page, "formula");
-    const other = await scriptFor(second.page);
-    const state = await other.until(({ slices }) => slices.count === 11, "the rest of the address");
-    assert.deepEqual([state.levels, state.inside], [[0, 0.5], "above"]);
-    await second.page.click("[data-page-tool=field]");
-    assert.equal(await formula(second.page), "x^2+y^2 + 1/10 <= w*z; a=0.5");
-    assert.equal(await second.page.inputValue("[data-end='w to']"), "3");
-    assert.deepEqual(second.errors, []);
-    other.leave();
-    await second.close();
-    await close();
-});
-
 test("field panel: the panel continues with a formula of the command line", async () => {
     const { page, script, errors, close } = await openWithScript();
     await page.keyboard.press(":");
@@ -334,17 +308,6 @@ test("field panel: the panel continues with a formula of the command line", asyn
     assert.equal(await page.locator("#field-constants output").textContent(), "0.5");
     assert.equal((await script.state()).revision, revision, "the panel shows the field that is there");
     assert.deepEqual(errors, []);
-    await close();
-});
-
-test("field panel: the mistakes of an address are reported", async () => {
-    const { url } = await common();
-    const { page, close } = await openPage({ url: `${url}?formula=x^2%2B$&box=1,2&slices=11` });
-    await page.waitForFunction(() => /box=1,2/.test(document.getElementById("notice").textContent));
-    const notice = await page.locator("#notice").textContent();
-    assert.match(notice, /“formula=x\^2\+\$”.*position 5/);
-    assert.match(notice, /“box=1,2”: it must be eight numbers/);
-    await page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "11");
     await close();
 });
 
@@ -379,98 +342,5 @@ test("field panel: on a phone, the panel has large controls below the picture", 
     await page.tap("#field-close");
     assert.equal(await page.locator("#tools").isVisible(), true);
     assert.deepEqual(errors, []);
-    await close();
-});
-
-test("field panel: fog can be shown, edited by dragging and typing, and taken back", async () => {
-    const { page, script, errors, close } = await openPanel({ browser: await accurateBrowser() });
-    const fogOf = async () => (await script.state()).fog;
-    await spoken(page, "formula"); // after the first announcement, changes are announced
-    await page.waitForSelector("#fog-show");
-    assert.equal(await page.locator("#fog-curve").isVisible(), false);
-    await page.click("#fog-show");
-    const first = await script.until(({ fog }) => fog.length === 3, "fog");
-    await presented(page, first.revision);
-    assert.deepEqual(first.fog.map(({ opacity }) => opacity), [0.95, 0.5, 0]);
-    await spoken(page, ", fog from ");
-
-    // A drag changes one point in many steps, and is undone as one.
-    const handle = page.locator("#fog-curve [data-point='1'] .reach");
-    const { x, y, width, height } = await handle.boundingBox();
-    const [left, top] = [x + width / 2, y + height / 2];
-    await page.evaluate(() => void (window.released = new Promise((then) => addEventListener("pointerup", then))));
-    await page.mouse.move(left, top);
-    await page.mouse.down();
-    for (let i = 1; i <= 8; ++i) await page.mouse.move(left + 2 * i, top - 3 * i);
-    await page.mouse.up();
-    await page.evaluate(async () => void (await window.released)); // the browser may pass the last moves on later
-    const shown = await page.inputValue("[data-fog='opacity 2']");
-    assert.ok(Number(shown) > 0.6);
-    const dragged = await script.until(({ fog }) => String(fog[1]?.opacity) === shown, "the last place of the drag");
-    assert.ok(dragged.fog[1].value > first.fog[1].value);
-    assert.deepEqual([dragged.fog[0], dragged.fog[2]], [first.fog[0], first.fog[2]]);
-    await script.request({ type: "undo" });
-    assert.deepEqual(await fogOf(), first.fog, "one undo takes back the whole drag");
-    await page.waitForFunction(() => document.querySelector("[data-fog='opacity 2']").value === "0.5");
-
-    // By keyboard: numbers, an added point, a removed one.
-    await page.fill("[data-fog='opacity 1']", "0.25");
-    await script.until(({ fog }) => fog[0]?.opacity === 0.25, "a typed opacity");
-    const { revision } = await script.state();
-    for (const [field, text] of [["opacity 1", "2"], ["value 1", "1e9"], ["opacity 3", "none"]]) {
-        const before = await page.inputValue(`[data-fog='${field}']`);
-        await page.fill(`[data-fog='${field}']`, text);
-        await page.waitForFunction(() => /least to the greatest/.test(document.getElementById("fog-error").textContent));
-        await page.fill(`[data-fog='${field}']`, before);
-        await page.waitForFunction(() => document.getElementById("fog-error").textContent === "");
-    }
-    await page.focus("#fog-add");
-    await page.keyboard.press("Enter");
-    const four = await script.until(({ fog }) => fog.length === 4, "a fourth point");
-    assert.ok(four.revision > revision);
-    assert.ok(four.fog.every(({ value }, i) => i === 0 || value > four.fog[i - 1].value));
-    await page.click("[aria-label='Remove point 2']");
-    await script.until(({ fog }) => fog.length === 3, "three points");
-    await page.locator("[data-fog='color 1']").evaluate((input) => {
-        input.value = "#00ff80";
-        input.dispatchEvent(new Event("input"));
-        input.dispatchEvent(new Event("change"));
-    });
-    const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "a color");
-
-    // The colors of points without one are those of the picture.
-    await presented(page, colored.revision);
-    const { scene } = await script.request({ type: "get", what: "slices" });
-    const last = await page.inputValue("[data-fog='color 3']");
-    const near = (a, b) => [16, 8, 0].every((shift) => Math.abs(((a >> shift) & 255) - ((b >> shift) & 255)) <= 6);
-    assert.ok(near(parseInt(last.slice(1), 16), scene.fog.table[255] & 0xffffff), last);
-    assert.equal(scene.fog.table[1] & 0xffffff, 0x00ff80);
-
-    await page.click("#fog-off");
-    await script.until(({ fog }) => fog.length === 0, "no fog");
-    assert.equal(await page.evaluate(() => document.activeElement.id), "fog-show");
-    await script.request({ type: "undo" });
-    await page.waitForFunction(() => document.querySelector("[data-fog='color 1']")?.value === "#00ff80");
-    assert.deepEqual(await fogOf(), colored.fog);
-    await write(page, script, "x^2+y^2+z^2+w^2*2");
-    assert.deepEqual(errors, []);
-    await close();
-});
-
-test("field panel: an address has the fog", async () => {
-    const { page, script, close } = await openPanel({ permissions: ["clipboard-read", "clipboard-write"] });
-    const fog = [{ value: -1, opacity: 0.5 }, { value: 0.25, opacity: 1, color: 0x00ff80 }];
-    await script.request({ type: "set", fog });
-    await page.waitForSelector("[data-fog='value 2']");
-    await page.click("#field-link");
-    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
-    const link = await page.evaluate(() => navigator.clipboard.readText());
-    assert.ok(link.includes("&fog=-1:0.5,0.25:1:00ff80"), link);
-    const second = await openPage({ url: link });
-    await ready(second.page);
-    const other = await scriptFor(second.page);
-    assert.deepEqual((await other.until((state) => state.fog?.length === 2, "the fog")).fog, fog);
-    other.leave();
-    await second.close();
     await close();
 });

@@ -29,7 +29,7 @@ test("phone: the picture has room, nothing overflows, every button is large enou
         await tab.tap();
         assert.ok((await overflow()) <= 0);
         for (const button of await page
-            .locator("#tools section :is(button, .segments input, .presence input):visible")
+            .locator("#tools section :is(button, .segments input, .visibility input):visible")
             .all()) {
             await button.scrollIntoViewIfNeeded();
             const box = await button.boundingBox();

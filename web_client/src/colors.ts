@@ -12,7 +12,7 @@ interface LabelAndTooltip {
     title: string;
 }
 
-/** The colorings, for polytopes and for fields. A coloring without a text has the same effect as `plain`. */
+/** The colorings of polytopes and of fields. One that has no entry for an object has the same effect as `plain`. */
 const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
         polytope: { label: "Cell", title: "Each cell has its own color" },
@@ -55,13 +55,13 @@ const kBackgrounds: Record<Background, { label: string; title: string }> = {
     white: { label: "White", title: "White, as paper" },
     transparent: { label: "Clear", title: "None in PNG files, for slides; white on this page" },
 };
-const kPresences = ["shown", "faded", "hidden"] as const;
-type Presence = (typeof kPresences)[number];
+const kVisibilities = ["shown", "faded", "hidden"] as const;
+type Visibility = (typeof kVisibilities)[number];
 
 const kMaxListedKinds = 24; // an imported polytope may have as many kinds of cells as cells
 
 export class Colors {
-    private readonly modes = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
+    private readonly colorings = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
     private readonly options = new Map<Coloring, HTMLElement>();
     private readonly scale = element("p", { class: "scale", hidden: true });
     private readonly backgrounds = element("div", { class: "segments", role: "group", "aria-label": "Background" });
@@ -76,12 +76,12 @@ export class Colors {
             const radio = element("input", { type: "radio", name: "color", value });
             const option = element("label", {}, radio, element("span"));
             this.options.set(value, option);
-            this.modes.append(option);
+            this.colorings.append(option);
         }
-        this.modes.addEventListener("change", (event) => {
+        this.colorings.addEventListener("change", (event) => {
             this.applyChange({ color: (event.target as HTMLInputElement).value as Coloring });
         });
-        this.list.addEventListener("change", () => this.applyPresences());
+        this.list.addEventListener("change", () => this.applyVisibilities());
         for (const [value, { label, title }] of Object.entries(kBackgrounds)) {
             const radio = element("input", { type: "radio", name: "background", value });
             this.backgrounds.append(element("label", { title }, radio, element("span", {}, label)));
@@ -93,7 +93,7 @@ export class Colors {
 
     get sections(): Section[] {
         return [
-            { title: "Colors", after: "look", content: [this.modes, this.scale, this.list] },
+            { title: "Colors", after: "look", content: [this.colorings, this.scale, this.list] },
             { title: "Background", content: [this.backgrounds] },
         ];
     }
@@ -109,9 +109,9 @@ export class Colors {
         checkRadio(this.backgrounds, state.background);
         this.list.toggleAttribute("data-colored", state.color === "kind");
         this.rows.forEach((row, kind) => {
-            const presence = presenceOf(state, kind);
-            row.dataset["presence"] = presence;
-            checkRadio(row, presence);
+            const visibility = visibilityOf(state, kind);
+            row.dataset["visibility"] = visibility;
+            checkRadio(row, visibility);
         });
     }
 
@@ -125,7 +125,7 @@ export class Colors {
             option.querySelector("span")!.textContent = text?.label ?? "";
         }
         const seen = coloringSeen(state);
-        checkRadio(this.modes, seen);
+        checkRadio(this.colorings, seen);
         const scale = scaleOf(state, seen);
         this.scale.hidden = scale === undefined;
         const shown = JSON.stringify(scale);
@@ -143,12 +143,12 @@ export class Colors {
         this.list.replaceChildren(...this.rows, ...(more > 0 ? [rest] : []));
     }
 
-    /** Applies the chosen presences; kinds of cells that are not listed keep their presence. */
-    private applyPresences(): void {
+    /** Applies the chosen visibilities; kinds of cells that are not listed keep their visibility. */
+    private applyVisibilities(): void {
         const { hidden, faded } = this.state!;
-        const chosen = (presence: Presence, before: number[]): number[] => [
+        const chosen = (visibility: Visibility, before: number[]): number[] => [
             ...this.rows.flatMap((row, kind) =>
-                row.querySelector("input:checked")?.getAttribute("value") === presence ? [kind] : [],
+                row.querySelector("input:checked")?.getAttribute("value") === visibility ? [kind] : [],
             ),
             ...before.filter((kind) => kind >= this.rows.length),
         ];
@@ -161,7 +161,7 @@ function coloringSeen(state: State): Coloring {
     return kColorings[state.color][isField(state) ? "field" : "polytope"] ? state.color : "plain";
 }
 
-/** The color scale of what the picture shows; that of values if only the caps show them. */
+/** The color scale of the coloring that is seen; if it has none and the caps show values, the scale of the values. */
 function scaleOf({ caps, field }: State, seen: Coloring): Scale | undefined {
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
@@ -185,27 +185,27 @@ function kindsOf(state: State): CellKind[] {
 /** A text for screen readers such as "cube hidden, tetrahedron faded", or "all kinds of cells shown". */
 export function spokenKinds(state: State): string {
     const kinds = kindsOf(state);
-    const named = (list: number[], presence: Presence): string[] =>
-        list.map((kind) => `${kinds[kind]?.name ?? `kind ${kind}`} ${presence}`);
+    const named = (list: number[], visibility: Visibility): string[] =>
+        list.map((kind) => `${kinds[kind]?.name ?? `kind ${kind}`} ${visibility}`);
     const all = [...named(state.hidden, "hidden"), ...named(state.faded, "faded")];
     return all.length === 0 ? "all kinds of cells shown" : all.join(", ");
 }
 
-function presenceOf({ hidden, faded }: State, kind: number): Presence {
+function visibilityOf({ hidden, faded }: State, kind: number): Visibility {
     return hidden.includes(kind) ? "hidden" : faded.includes(kind) ? "faded" : "shown";
 }
 
 function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     const swatch = element("i", { "aria-hidden": "true" });
     if (color !== undefined) swatch.style.background = cssColor(color);
-    const radios = kPresences.map((presence) => {
-        const label = capitalize(presence);
-        const attributes = { type: "radio", name: `kind-${kind}`, value: presence, "aria-label": label };
+    const radios = kVisibilities.map((visibility) => {
+        const label = capitalize(visibility);
+        const attributes = { type: "radio", name: `kind-${kind}`, value: visibility, "aria-label": label };
         return element(
             "label",
             { title: label },
             element("input", attributes),
-            element("span", { class: presence }),
+            element("span", { class: visibility }),
         );
     });
     return element(
@@ -214,7 +214,7 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
         swatch,
         element("span", {}, name.replace(/(\w{9,})hedron/g, "$1\u00ADhedron")), // a soft hyphen in long names
         element("small", {}, formatCount(cells)),
-        element("div", { class: "presence" }, ...radios),
+        element("div", { class: "visibility" }, ...radios),
     );
 }
 

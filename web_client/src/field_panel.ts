@@ -15,7 +15,7 @@ import { NewestOnly } from "./newest_only";
 import { ObserverControls } from "./observer_controls";
 import { readStored, writeStored } from "./storage";
 
-export interface FieldEvents {
+export interface FieldPanelEvents {
     /**
      * Loads a formula, then changes settings; returns the revision. `continues` tells whether it belongs to the undo step
      * of the previous command. Throws an Error if the formula is refused.
@@ -56,15 +56,15 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaField | undefined; // the formula that this page loaded last
-    private sent: { settings: Settings; revision: number } | undefined; // with the formula, until its state arrives
+    private sent: { settings: Settings; revision: number } | undefined; // in the last load(), until their state arrives
     private state: State | undefined;
-    // The revision at which this page loaded its last formula, when it did, and whether pair() has seen it.
-    private last: { revision: number; time: number; isPaired: boolean } | undefined;
-    private shown = ""; // textOf() the state
-    private own = ""; // textOf() the state with the formula that this page loaded last
-    private readonly typed = new Map<string, FormulaField>(); // by textOf() the state: what was typed
+    // The last load of a formula by this page: its revision, its time, and whether recordOwnText() has seen its state.
+    private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
+    private shownText = ""; // textOf() the state
+    private ownText = ""; // textOf() the state with the formula that this page loaded last
+    private readonly typedFields = new Map<string, FormulaField>(); // what was typed, by textOf() the state
 
-    constructor(private readonly events: FieldEvents) {
+    constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
         byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
@@ -120,8 +120,8 @@ export class FieldPanel {
 
     private noteLoaded(field: FormulaField, revision: number): void {
         this.loaded = field;
-        this.last = { revision, time: performance.now(), isPaired: false };
-        this.pair();
+        this.lastLoad = { revision, time: performance.now(), isRecorded: false };
+        this.recordOwnText();
     }
 
     restart(): void {
@@ -152,26 +152,26 @@ export class FieldPanel {
      * Records how the server writes the formula that this page loaded last, in the first state that has it: without
      * superfluous blanks and parentheses, and with numbers as the values of constants.
      */
-    private pair(): void {
-        const { last, state, loaded } = this;
-        if (!last || last.isPaired || !loaded || !state || state.revision < last.revision) return;
-        last.isPaired = true;
-        this.own = textOf(state);
-        if (this.typed.size >= kMaxTyped) this.typed.clear();
-        this.typed.set(this.own, loaded);
+    private recordOwnText(): void {
+        const { lastLoad, state, loaded } = this;
+        if (!lastLoad || lastLoad.isRecorded || !loaded || !state || state.revision < lastLoad.revision) return;
+        lastLoad.isRecorded = true;
+        this.ownText = textOf(state);
+        if (this.typedFields.size >= kMaxTyped) this.typedFields.clear();
+        this.typedFields.set(this.ownText, loaded);
     }
 
     /** Shows the formula of a state that this page did not load, such as one that undo has restored. */
     private showFormulaOf(state: State): void {
-        this.pair();
+        this.recordOwnText();
         const text = textOf(state);
-        const isNew = text !== this.shown;
-        this.shown = text;
+        const isNew = text !== this.shownText;
+        this.shownText = text;
         const { formula, box, values } = state.field ?? {};
-        const isOwn = text === this.own || this.last?.isPaired === false;
+        const isOwn = text === this.ownText || this.lastLoad?.isRecorded === false;
         if (!isNew || formula === undefined || !box || this.loads.isBusy || isOwn) return;
-        this.own = text;
-        this.loaded = this.typed.get(text) ?? { formula, box, ...(values?.formula && { values: values.formula }) };
+        this.ownText = text;
+        this.loaded = this.typedFields.get(text) ?? { formula, box, ...(values?.formula && { values: values.formula }) };
         this.write(this.loaded);
         this.showError(undefined);
     }
@@ -246,9 +246,10 @@ export class FieldPanel {
      * together.
      */
     private continues({ formula }: FormulaField): boolean {
-        const { loaded, last, state } = this;
-        if (!loaded || !last || !state || state.revision > last.revision) return false; // another command came between
-        return performance.now() - last.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
+        const { loaded, lastLoad, state } = this;
+        // If the state is newer, another command came between.
+        if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
+        return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
     }
 
     /** The settings that stay the same when a formula is edited, although a new object has settings of its own. */

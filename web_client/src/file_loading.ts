@@ -5,7 +5,7 @@ import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
 import { isBinary, uploadArray } from "./array_upload";
 import { byId, element } from "./element";
-import { FileError, linesAround, type LoadedObject, nameOf, readFile, readState, tooLarge } from "./files";
+import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, tooLarge } from "./files";
 import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds
@@ -20,12 +20,12 @@ export class FileLoading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly dropTarget = byId("drop");
-    private readonly kept = new Map<string, LoadedObject | File>(); // loaded from this page, by name; arrays as files
+    private readonly kept = new Map<string, LoadContent | File>(); // loaded from this page, by name; arrays as files
     private queue: Promise<void> = Promise.resolve();
 
     constructor(
         private readonly client: Client,
-        private readonly reveal: (state: State) => Promise<unknown>, // shows the state in the session
+        private readonly showState: (state: State) => Promise<unknown>, // in the session
     ) {
         this.chooser.addEventListener("change", () => {
             this.enqueue([...(this.chooser.files ?? [])]);
@@ -41,7 +41,7 @@ export class FileLoading {
         this.chooser.click();
     }
 
-    /** Loads an object of this page into a new session; does nothing if this page has loaded none of this name. */
+    /** Loads the file of this name again, into a new session; does nothing if this page has not loaded it before. */
     async reload(name: string): Promise<void> {
         const object = this.kept.get(name);
         if (object instanceof File) await this.upload(object);
@@ -61,18 +61,18 @@ export class FileLoading {
     }
 
     private async load(file: File): Promise<void> {
-        let read: LoadedObject | undefined;
+        let read: LoadContent | undefined;
         try {
             this.showProgress(file.name);
             const limit = this.client.welcome?.limits["message"] ?? kDefaultLimit;
             const state = await readState(file, limit);
             if (state) {
-                await this.reveal(state);
-                this.showWarnings([]);
+                await this.showState(state);
+                this.finishLoading([]);
                 return;
             }
             if (await isBinary(file)) {
-                this.showWarnings((await this.upload(file)).warnings ?? []);
+                this.finishLoading((await this.upload(file)).warnings ?? []);
                 this.keep(file);
                 return;
             }
@@ -83,17 +83,17 @@ export class FileLoading {
         }
     }
 
-    private async loadObject(object: LoadedObject): Promise<void> {
+    private async loadObject(object: LoadContent): Promise<void> {
         const { warnings = [] } = await this.send(object);
         this.keep(object);
-        this.showWarnings(warnings, warnings.length > 0 ? await this.originButton(object) : []);
+        this.finishLoading(warnings, warnings.length > 0 ? await this.originButton(object) : []);
     }
 
     /**
      * A button that loads an object again so that it turns about the origin of its file; none if it does so already, or if
      * another object is shown.
      */
-    private async originButton(object: LoadedObject): Promise<Node[]> {
+    private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });
         if (polytope.name !== object.name || !polytope.center) return [];
         const button = element("button", { type: "button" }, "Turn about the origin of the file");
@@ -104,7 +104,7 @@ export class FileLoading {
         return [button];
     }
 
-    private async loadAgain(object: LoadedObject): Promise<void> {
+    private async loadAgain(object: LoadContent): Promise<void> {
         try {
             this.showProgress(object.name);
             await this.loadObject(object);
@@ -128,8 +128,8 @@ export class FileLoading {
         else this.progress.removeAttribute("value"); // the server does not report progress
     }
 
-    private async send(file: LoadedObject): Promise<Done> {
-        const answer = this.client.request({ type: "load", ...file });
+    private async send(content: LoadContent): Promise<Done> {
+        const answer = this.client.request({ type: "load", ...content });
         const all = this.client.unsent;
         const timer = setInterval(() => {
             const { unsent } = this.client;
@@ -139,7 +139,7 @@ export class FileLoading {
     }
 
     /** Keeps an object that was loaded from this page, for reload(). */
-    private keep(object: LoadedObject | File): void {
+    private keep(object: LoadContent | File): void {
         const name = object instanceof File ? nameOf(object) : object.name;
         this.kept.delete(name);
         this.kept.set(name, object);
@@ -156,7 +156,8 @@ export class FileLoading {
         this.showReport("Reading the file");
     }
 
-    private showWarnings(warnings: string[], buttons: Node[] = []): void {
+    /** Shows the warnings; hides the panel if there are none. */
+    private finishLoading(warnings: string[], buttons: Node[] = []): void {
         this.endProgress("done");
         if (warnings.length === 0) return this.hide();
         const list = element("ul", {}, ...warnings.map((warning) => element("li", {}, toSentence(warning))));

@@ -2,8 +2,8 @@
 
 import { pngText, type State } from "@oval4d/protocol";
 
-/** The members of a `load` message. */
-export interface LoadedObject {
+/** The members of a `load` message that loads a polytope or points from a file. */
+export interface LoadContent {
     name: string;
     format: "off" | "points" | "cloud";
     data: string;
@@ -19,7 +19,7 @@ const kMaxNameLength = 64; // characters, as in `load`
  * Reads the text of a polytope or a list of points from a file; throws FileError if it cannot be sent in a message of
  * `limit` bytes.
  */
-export async function readFile(file: File, limit: number): Promise<LoadedObject> {
+export async function readFile(file: File, limit: number): Promise<LoadContent> {
     if (file.size === 0) throw new FileError("The file is empty.");
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await textOf(file);
@@ -69,7 +69,7 @@ export async function readState(file: File, limit: number): Promise<State | unde
 }
 
 /** The format, from the keyword at the start (after any comments), or else from the file name extension. */
-function formatOf(name: string, data: string): LoadedObject["format"] {
+function formatOf(name: string, data: string): LoadContent["format"] {
     const [, first = ""] = /^(?:\s|#[^\n]*(?:\n|$))*([^\s#]*)/.exec(data) ?? [];
     if (/^cloud$/i.test(first)) return "cloud";
     return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";

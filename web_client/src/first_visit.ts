@@ -19,7 +19,7 @@ export function isFirstVisit(): boolean {
 }
 
 /** The line, which closes when its advice has been followed: the object was turned, and the focus moved. */
-export class Welcome {
+export class WelcomeLine {
     private readonly root = byId("welcome");
     private since = 0; // the revision of the first view
     private first: State | undefined;

@@ -11,7 +11,7 @@ export class FocusPointDrag {
     private panel: MatrixPanel | undefined; // in which the drag began
     private hovering: Point | undefined; // where the mouse hovers
 
-    /** `matrix` returns the matrix in the picture; undefined if there is none, or while its layout is not known. */
+    /** `matrix` returns the matrix in the picture; undefined if there is none, or while its place is not known. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,

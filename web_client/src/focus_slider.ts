@@ -3,7 +3,7 @@
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
-import { CriticalLevels, type Level } from "./critical_levels";
+import { type CriticalValue, CriticalValues } from "./critical_values";
 import { byId } from "./element";
 import { FocusControl } from "./focus_control";
 import { formatW } from "./format";
@@ -16,7 +16,7 @@ export interface SliderEvents {
 
 const kSnapDistance = 4; // pixels from a mark
 const kKeySteps = 200; // steps of the arrow keys from one end to the other
-const kMaxMarks = 60; // from this number of levels on, their density is shown
+const kMaxMarks = 60; // critical values; of more, the density is shown
 const kDensityBins = 80;
 const kSweepTime = 8; // seconds from one end to the other at the speed 1
 const kMaxInterval = 0.1; // seconds between two animation frames, if the page was too busy
@@ -27,7 +27,7 @@ export class FocusSlider {
     private readonly section = byId("focus-section");
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
-    private readonly levels: CriticalLevels;
+    private readonly criticalValues: CriticalValues;
     private readonly control: FocusControl;
     private state: State | undefined;
     private isDragged = false;
@@ -39,7 +39,7 @@ export class FocusSlider {
         client: Client,
         private readonly events: SliderEvents,
     ) {
-        this.levels = new CriticalLevels(client, () => this.showRange());
+        this.criticalValues = new CriticalValues(client, () => this.showRange());
         this.control = new FocusControl(client, (error) => {
             if (error) {
                 this.stop();
@@ -53,15 +53,15 @@ export class FocusSlider {
     update(state: State): void {
         this.state = state;
         if (this.control.update(state)) this.stop();
-        this.levels.update(state);
+        this.criticalValues.update(state);
         const { name, vertices } = state.section;
         this.section.textContent = name || (vertices && `vertices: ${vertices}`);
         this.show();
     }
 
-    /** Takes the levels from the picture of the newest state. */
+    /** Takes the critical values from the picture of the newest state. */
     updatePicture(slices: Slices): void {
-        this.levels.adopt(slices);
+        this.criticalValues.adopt(slices);
     }
 
     /** Prepares for the states of a new connection. */
@@ -105,7 +105,7 @@ export class FocusSlider {
 
     /** The lowest and the highest w of the object. */
     private get range(): [number, number] {
-        return this.levels.range;
+        return this.criticalValues.range;
     }
 
     private moveTo(w: number): void {
@@ -122,11 +122,11 @@ export class FocusSlider {
 
     /** The w of a mark within a few pixels, if there is one; otherwise the same w. */
     private snapped(w: number): number {
-        const { all, isExact } = this.levels;
+        const { all, isExact } = this.criticalValues;
         if (!this.isDragged || this.mayNotSnap || !isExact || all.length === 0 || all.length > kMaxMarks) return w;
         const [least, most] = this.range;
-        const distance = (level: Level): number => Math.abs(level.w - w);
-        const nearest = all.reduce((best, level) => (distance(level) < distance(best) ? level : best));
+        const distance = (value: CriticalValue): number => Math.abs(value.w - w);
+        const nearest = all.reduce((best, value) => (distance(value) < distance(best) ? value : best));
         const perPixel = (most - least) / Math.max(1, this.marks.getBoundingClientRect().width);
         return distance(nearest) <= kSnapDistance * perPixel ? nearest.w : w;
     }
@@ -184,7 +184,7 @@ export class FocusSlider {
     }
 
     private showRange(): void {
-        const { all, isCurrent } = this.levels;
+        const { all, isCurrent } = this.criticalValues;
         const [least, most] = this.range;
         const isEmpty = !(most > least);
         this.input.disabled = this.playButton.disabled = isEmpty;
@@ -208,16 +208,16 @@ export class FocusSlider {
     }
 }
 
-/** A vertical line for each level, in a square of side 1. */
-function marksOutline(levels: Level[], at: (w: number) => number): string {
-    return levels.map(({ w }) => `M${at(w)} 0V1`).join("");
+/** A vertical line for each critical value, in a square of side 1. */
+function marksOutline(values: CriticalValue[], at: (w: number) => number): string {
+    return values.map(({ w }) => `M${at(w)} 0V1`).join("");
 }
 
-/** How many vertices or changes lie at which w, as an area in a square of side 1. */
-function densityOutline(levels: Level[], at: (w: number) => number): string {
+/** How many vertices or changes lie at each value of w, as an area in a square of side 1. */
+function densityOutline(values: CriticalValue[], at: (w: number) => number): string {
     const bins = new Array<number>(kDensityBins).fill(0);
     const binOf = (w: number): number => Math.min(kDensityBins - 1, Math.floor(at(w) * kDensityBins));
-    for (const { w, vertices } of levels) bins[binOf(w)]! += vertices ?? 1;
+    for (const { w, vertices } of values) bins[binOf(w)]! += vertices ?? 1;
     const most = Math.max(...bins);
     const steps = bins.map((count, i) => `V${1 - count / most}H${(i + 1) / kDensityBins}`);
     return `M0 1${steps.join("")}V1Z`;

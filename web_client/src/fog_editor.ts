@@ -13,7 +13,7 @@ import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
 
 const kTypingDelay = 150; // milliseconds after the last change by typing
-const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the drawing, in its units
+const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the curve, in units of its viewBox
 const kSvg = "http://www.w3.org/2000/svg";
 
 interface Row {
@@ -30,26 +30,26 @@ export class FogEditor {
     private readonly error = byId("fog-error");
     private mistake = ""; // in the text of the fields; "" if there is none
     private refusal = ""; // why the server refused the last change; "" if it did not
-    private readonly add = byId<HTMLButtonElement>("fog-add");
-    private readonly show = byId<HTMLButtonElement>("fog-show");
-    private readonly off = byId<HTMLButtonElement>("fog-off");
+    private readonly addButton = byId<HTMLButtonElement>("fog-add");
+    private readonly showButton = byId<HTMLButtonElement>("fog-show");
+    private readonly offButton = byId<HTMLButtonElement>("fog-off");
     private readonly changes = new NewestOnly<{ fog: FogPoint[]; continues: boolean }>((change) => this.apply(change));
     private readonly lastChange = new LastChange();
     private rows: Row[] = [];
     private points: FogPoint[] = []; // what the editor shows
     private state: State | undefined;
     private distribution: ValueDistribution | undefined; // of the newest picture with a histogram
-    private ends: [number, number] = [0, 1]; // of the values that the drawing shows
-    private dragged: number | undefined; // a point
+    private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
+    private dragged: number | undefined; // the index of the point that is dragged
     private isContinued = false; // whether the next change belongs to the undo step of the last one
 
     /** `set` changes settings; it throws an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
-        this.add.addEventListener("click", () => this.change(withNewPoint(this.points)));
-        this.show.addEventListener("click", () => this.change(this.usual()));
-        this.off.addEventListener("click", () => {
+        this.addButton.addEventListener("click", () => this.change(withNewPoint(this.points)));
+        this.showButton.addEventListener("click", () => this.change(this.usual()));
+        this.offButton.addEventListener("click", () => {
             this.change([]);
-            this.show.focus(); // this button disappears
+            this.showButton.focus(); // the button Off disappears
         });
         this.curve.addEventListener("pointerdown", (event) => this.grab(event));
         this.curve.addEventListener("pointermove", (event) => this.drag(event));
@@ -62,7 +62,7 @@ export class FogEditor {
 
     update(state: State): void {
         this.state = state;
-        this.show.disabled = state.fog === undefined;
+        this.showButton.disabled = state.fog === undefined;
         const isOld = this.lastChange.isAfter(state);
         if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // the editor is newer
         this.points = state.fog ?? [];
@@ -137,9 +137,9 @@ export class FogEditor {
     private draw(): void {
         const { points } = this;
         const isOn = points.length > 0;
-        for (const part of [this.curve, this.list, this.add, this.off]) part.toggleAttribute("hidden", !isOn);
-        this.show.textContent = isOn ? "Reset" : "Show fog";
-        this.add.disabled = points.length >= kMaxFogPoints;
+        for (const part of [this.curve, this.list, this.addButton, this.offButton]) part.toggleAttribute("hidden", !isOn);
+        this.showButton.textContent = isOn ? "Reset" : "Show fog";
+        this.addButton.disabled = points.length >= kMaxFogPoints;
         this.showRows();
         if (!isOn) return;
         if (this.dragged === undefined) {
@@ -161,7 +161,7 @@ export class FogEditor {
         gradient.append(...stops);
         this.curve.replaceChildren(
             gradient,
-            shape("path", { class: "values", d: this.bars() }),
+            shape("path", { class: "values", d: this.distributionOutline() }),
             shape("polygon", { class: "fog", points: `${kMargin},${floor} ${line} ${kWidth - kMargin},${floor}` }),
             shape("polyline", { points: line }),
             ...places.map(([x, y], i) => {
@@ -184,7 +184,7 @@ export class FogEditor {
     }
 
     /** The outline of the distribution of the values. */
-    private bars(): string {
+    private distributionOutline(): string {
         if (!this.distribution) return "";
         const { range, tones } = this.distribution;
         const at = tones.map((tone, i) => {

@@ -7,19 +7,19 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrix {
     private known: SectionMatrix | undefined;
-    private knownFor = ""; // what the known or requested layout depends on; empty if there is none
+    private knownFor = ""; // what the place of the known or requested matrix depends on; empty if there is none
 
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
     ) {}
 
-    /** The layout, with sections that may be old; undefined if it is not known, or if there is no matrix. */
+    /** The matrix, whose sections may be old; undefined if its place is not known, or if no matrix is shown. */
     get current(): SectionMatrix | undefined {
         return this.known;
     }
 
-    /** Requests the layout if it has changed. To be called when the state, the size or the mode may have changed. */
+    /** Requests the matrix if its place has changed. To be called when the state, size or mode may have changed. */
     update({ view, shown, polytope }: State): void {
         const isShown = view === "matrix" && this.stage.mode === "frames";
         const key = isShown ? JSON.stringify([shown.coordinates, polytope, this.stage.size]) : "";

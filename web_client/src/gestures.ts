@@ -1,7 +1,7 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
 // element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right
-// or middle button, with Alt, or with two fingers, dragging rolls the 4-D ball; with Shift, too, the ball of every slice.
-// In a panel of the matrix, dragging moves the focus point.
+// or middle button or with Alt, dragging rolls the 4-D ball or, if Shift is held as well, the 3-D ball of every slice.
+// Dragging with two fingers rolls the 4-D ball. In a panel of the matrix, dragging moves the focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
@@ -32,7 +32,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     const fingers = new Map<number, PointerEvent>();
     let longPress: ReturnType<typeof setTimeout> | undefined;
     let isLongPress = false; // whether the last touch was long enough to open the menu
-    let isMenuOpen = false; // whether it has opened the menu
+    let isMenuOpen = false; // whether the last long press has opened the menu
     let isClick = false; // whether the pointer has not moved since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix

@@ -63,7 +63,7 @@ export class Help {
                 element(
                     "table",
                     {},
-                    ...lines.map((key) => tableRow(key.name, key.text, { about: key.action })),
+                    ...lines.map((key) => tableRow(key.name, key.text, { searchTerms: key.action })),
                     ...(inverse ? [tableRow("Shift +", "Apply the inverse rotation")] : []),
                 ),
             );
@@ -91,7 +91,7 @@ export class Help {
     filter(topic: string): void {
         const wanted = topic.toLowerCase();
         const mentions = (line: HTMLElement): boolean =>
-            `${line.textContent} ${line.dataset["about"] ?? ""}`.toLowerCase().includes(wanted);
+            `${line.textContent} ${line.dataset["searchTerms"] ?? ""}`.toLowerCase().includes(wanted);
         const lines = [...this.sheet.querySelectorAll<HTMLElement>("tr, dl > div")];
         if (topic !== "" && !lines.some(mentions)) {
             throw new Error(`the help does not mention “${topic}”; write help to see all of it`);
@@ -114,21 +114,21 @@ function section(title: string, rows: readonly (readonly [string, string])[], ta
 /** The list of commands, with an example of each. */
 function commandSection(): HTMLElement {
     const lines = kCommands.map(({ name, text, example }) => {
-        const about = name === "set" ? `${text}: ${[...kSettings.keys()].join(", ")}` : text;
-        const line = [element("dt", {}, element("code", {}, `:${example}`)), element("dd", {}, about)];
+        const meaning = name === "set" ? `${text}: ${[...kSettings.keys()].join(", ")}` : text;
+        const line = [element("dt", {}, element("code", {}, `:${example}`)), element("dd", {}, meaning)];
         return element("div", { "data-command": name }, ...line);
     });
     const title = element("h3", {}, "Commands, with examples");
     return element("section", { class: "commands" }, title, element("dl", {}, ...lines));
 }
 
-/** A line of a table. A topic finds it also by `about`. */
-function tableRow(name: string, text: string, { tag = "kbd", about = "" }: Line = {}): HTMLElement {
+/** A row of a table. A topic finds it also by `searchTerms`. */
+function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: RowOptions = {}): HTMLElement {
     const head = element("th", { scope: "row" }, element(tag, {}, name));
-    return element("tr", { "data-about": about || undefined }, head, element("td", {}, text));
+    return element("tr", { "data-search-terms": searchTerms || undefined }, head, element("td", {}, text));
 }
 
-interface Line {
+interface RowOptions {
     tag?: "kbd" | "span";
-    about?: string;
+    searchTerms?: string;
 }

@@ -18,7 +18,7 @@ export interface KeyStroke {
 
 /**
  * Whether the key is for the control that has the focus: every key in a text field; Enter and the space bar on a button;
- * these, the arrows, Home and End on a slider or a radio button.
+ * Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a checkbox.
  */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;

@@ -66,7 +66,8 @@ export function sessionOfEntry(): Credentials | undefined {
 }
 
 /**
- * The newest session of this tab, if the address was opened anew and names no view; a link to a view opens a new session.
+ * The last session of this tab; undefined if there is none, or if the current address has a query or had one when the
+ * session was stored. A link with a query thus opens a new session.
  */
 function sessionOfTab(): Credentials | undefined {
     const stored = readStored<StoredSession>(kSessionKey);
@@ -122,11 +123,11 @@ function isIgnored(name: string): boolean {
 }
 
 /**
- * The names and values of a query, without those that protocol/address.json ignores. As in a form, "+" is a blank; but in
+ * The parameters of a query, without those that protocol/address.json ignores. As in a form, "+" is a blank; but in
  * arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, but not before a unit.
  * The server reads the queries of the API in the same way.
  */
-function settingsOf(query: string): [name: string, value: string][] {
+function parametersOf(query: string): [name: string, value: string][] {
     const parts = repaired(query)
         .replace(/^\?/, "")
         .split("&")
@@ -147,7 +148,7 @@ function settingsOf(query: string): [name: string, value: string][] {
 
 /** The field of a query such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2". */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
-    const { formula, box, values } = Object.fromEntries(settingsOf(query));
+    const { formula, box, values } = Object.fromEntries(parametersOf(query));
     if (formula === undefined) return { faults: [] };
     const given = box === undefined ? kUsualBox : boxOf(parseNumbers(box));
     const fault = `The address contains “box=${box}”: it must be eight numbers, the ranges of x, y, z and w`;
@@ -158,7 +159,7 @@ function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
 export function commandLines(query: string): string[] {
     // "toward" comes last, as in frame.png, because it depends on the polytope and the rotations.
     const isLast = ([name]: [string, string]): number => Number(name === "toward");
-    return settingsOf(query)
+    return parametersOf(query)
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))
         .sort((a, b) => isLast(a) - isLast(b))
         .map(([name, value]) => {

@@ -27,12 +27,12 @@ export class ObserverControls {
         follow: new NewestOnly((follow) => this.apply({ follow }, "follow")),
         boost: new NewestOnly((boost) => this.apply({ boost }, "boost")),
     };
-    private isDragged = false; // whether the next pace belongs to the undo step of the last one
+    private continues = false; // whether the next pace belongs to the undo step of the last one
 
     /** `set` changes settings; it throws an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
         for (const begin of ["pointerdown", "keydown"]) {
-            this.pace.addEventListener(begin, () => (this.isDragged = false));
+            this.pace.addEventListener(begin, () => (this.continues = false));
         }
         this.pace.addEventListener("input", () => {
             const pace = Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
@@ -73,8 +73,8 @@ export class ObserverControls {
     }
 
     private async applyPace(pace: number): Promise<void> {
-        const continues = this.isDragged;
-        this.isDragged = true;
+        const { continues } = this;
+        this.continues = true;
         await this.apply({ pace, continues });
     }
 

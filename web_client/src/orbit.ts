@@ -4,7 +4,7 @@
 import type { Client, Orbit, State } from "@oval4d/protocol";
 
 import { LastChange } from "./last_change";
-import type { SliceLayout } from "./picture/slice_layout";
+import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 
 const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
@@ -20,7 +20,7 @@ export class OrbitControl {
     private sending = false;
     private unsent = false;
     private readonly lastChange = new LastChange();
-    private unlimited: Orbit | undefined; // the orbit before the first move that was made while the layout was unknown
+    private lastLimited: Orbit | undefined; // the orbit before the first move that no hit tester has limited
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
@@ -33,13 +33,13 @@ export class OrbitControl {
     };
 
     /**
-     * `layout` returns where the slices are, or undefined until this is known. `stopped` says why the camera stays where
-     * it is.
+     * `hitTester` returns the hit tester of the picture, which tells how many slices are visible; undefined until it is
+     * known. `stopped` says why the camera stays where it is.
      */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
-        private readonly layout: () => SliceLayout | undefined,
+        private readonly hitTester: () => HitTester | undefined,
         private readonly stopped: (reason: string) => void,
     ) {}
 
@@ -61,14 +61,14 @@ export class OrbitControl {
     }
 
     reset(): void {
-        this.unlimited = undefined;
+        this.lastLimited = undefined;
         this.setOrbit(kInitial);
     }
 
-    /** Limits the moves that were made while the layout was not known. */
-    layoutKnown(): void {
-        const from = this.unlimited;
-        this.unlimited = undefined;
+    /** Limits the moves that were made before the hit tester was known. */
+    hitTesterKnown(): void {
+        const from = this.lastLimited;
+        this.lastLimited = undefined;
         if (from) this.setOrbit(this.limited(from, this.stage.orbit));
     }
 
@@ -100,9 +100,9 @@ export class OrbitControl {
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };
-        const layout = this.layout();
-        if (!layout) this.unlimited ??= from;
-        const visible = (orbit: Orbit): number => layout?.visibleShare(orbit, this.stage.size) ?? 1;
+        const hitTester = this.hitTester();
+        if (!hitTester) this.lastLimited ??= from;
+        const visible = (orbit: Orbit): number => hitTester?.visibleShare(orbit, this.stage.size) ?? 1;
         const least = Math.min(kLeastVisible, visible(from));
         let part = visible(to) < least ? 0 : 1;
         for (let step = 1, k = 0; part < 1 && k < kBisections; ++k) {

@@ -6,7 +6,7 @@ import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 import { followHover, type Point } from "./hover";
 import { originInFile } from "./origin";
 import { elementOfHit, ElementSources } from "./picture/element_sources";
-import type { SliceLayout } from "./picture/slice_layout";
+import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 
@@ -20,7 +20,7 @@ export class Pointing {
     private scheduled = false;
     private shown: Pointed | undefined;
     private sources: ElementSources | undefined;
-    private layout: SliceLayout | undefined; // of the picture that `sources` belongs to
+    private hitTester: HitTester | undefined; // of the picture that `sources` belongs to
     private isTapped = false; // whether the label names what a finger has tapped
 
     constructor(
@@ -33,15 +33,15 @@ export class Pointing {
     }
 
     /** The element at a point of the drawing, in pixels. */
-    elementAt(x: number, y: number, layout: SliceLayout): Pointed | undefined {
+    elementAt(x: number, y: number, hitTester: HitTester): Pointed | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         // A state may be newer than the picture.
-        if (polytope?.cells !== layout.picture.scene.colors.cells.length) return undefined;
+        if (polytope?.cells !== hitTester.picture.scene.colors.cells.length) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
-        const column = layout.columnAt(x * ratio, y * ratio, size);
+        const column = hitTester.columnAt(x * ratio, y * ratio, size);
         if (column !== undefined) return { element: "vertex", number: column };
-        const hit = layout.hitAt(x * ratio, y * ratio, orbit, size, ratio);
+        const hit = hitTester.hitAt(x * ratio, y * ratio, orbit, size, ratio);
         return hit && { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };
     }
 
@@ -49,22 +49,22 @@ export class Pointing {
      * Shows the name of what a finger has tapped until the next touch. The picture may change meanwhile, because a tap moves
      * the focus.
      */
-    name(tapped: Pointed, layout: SliceLayout, at: Point): void {
+    name(tapped: Pointed, hitTester: HitTester, at: Point): void {
         const state = this.state()!;
-        const { ownVertices } = new ElementSources(layout.picture, state.polytope).showing(tapped);
+        const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).showing(tapped);
         this.isTapped = true;
-        this.label.show(descriptionOf(tapped, [...ownVertices], layout, state), at);
+        this.label.show(descriptionOf(tapped, [...ownVertices], hitTester, state), at);
     }
 
     /** Finds the element under the pointer in the current picture. Returns whether the picture must be drawn again. */
     update(): boolean {
         const { at } = this;
-        const { layout } = this.stage;
-        const found = at && layout && this.elementAt(at.x, at.y, layout);
+        const { hitTester } = this.stage;
+        const found = at && hitTester && this.elementAt(at.x, at.y, hitTester);
         const { shown } = this;
-        const isNew = layout !== this.layout;
+        const isNew = hitTester !== this.hitTester;
         if (isNew) this.sources = undefined;
-        this.layout = layout;
+        this.hitTester = hitTester;
         if (!found && !shown) return false;
         const isSame = !isNew && found?.element === shown?.element && found?.number === shown?.number;
         if (isSame && found?.slice === shown?.slice) {
@@ -73,14 +73,14 @@ export class Pointing {
         }
         this.shown = found;
         if (!found) {
-            this.stage.light(undefined);
+            this.stage.highlightPointed(undefined);
             this.label.hide();
         } else {
             const state = this.state()!;
-            this.sources ??= new ElementSources(layout!.picture, state.polytope);
+            this.sources ??= new ElementSources(hitTester!.picture, state.polytope);
             const lit = this.sources.showing(found);
-            if (!isSame) this.stage.light(lit);
-            this.label.show(descriptionOf(found, [...lit.ownVertices], layout!, state), at!);
+            if (!isSame) this.stage.highlightPointed(lit);
+            this.label.show(descriptionOf(found, [...lit.ownVertices], hitTester!, state), at!);
         }
         return !isSame;
     }
@@ -103,7 +103,7 @@ export class Pointing {
 function descriptionOf(
     { element, number, slice }: Pointed,
     own: number[],
-    { picture: { coordinates } }: SliceLayout,
+    { picture: { coordinates } }: HitTester,
     state: State,
 ): ElementDescription {
     const { kinds = [] } = state.polytope;

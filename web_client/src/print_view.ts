@@ -9,7 +9,7 @@ export class PrintView {
     private readonly root = byId("print");
     private frame: ImageBitmap | undefined; // a picture of the server to print
     private isPrepared = false;
-    private focused: HTMLElement | undefined; // the last one; print hides it, which takes the focus away
+    private focused: HTMLElement | undefined; // the last element with the focus, which printing takes away
 
     /** `title` returns the title of the picture. */
     constructor(
@@ -27,8 +27,8 @@ export class PrintView {
 
     /** When the server draws the pictures, gets one on white before the browser prints. */
     private keydown(event: KeyboardEvent): void {
-        const isPrinting = !event.repeat && event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
-        if (!isPrinting || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;
+        const isPrintKey = !event.repeat && event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
+        if (!isPrintKey || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;
         event.preventDefault();
         void this.printFrame();
     }

@@ -5,7 +5,7 @@ import { toSentence } from "./format";
 
 const kMargin = 4; // pixels between the note and the edge of the window
 
-export interface FieldEvents {
+export interface StateFieldEvents {
     /** The value for editing. */
     editable(): string;
     /** Applies what the user has typed; throws an Error whose message is shown at the field. */
@@ -29,7 +29,7 @@ export class StateField {
         symbol: string,
         meaning: string,
         hint: string,
-        private readonly events: FieldEvents,
+        private readonly events: StateFieldEvents,
     ) {
         const symbolElement = (): HTMLElement =>
             element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);

@@ -12,7 +12,7 @@ import { spokenFrame } from "./reference_frame";
 import { makeToolbar } from "./toolbar";
 
 /** A field of the header: the part of the state that it shows, and the command that changes it. */
-interface FieldDescription {
+interface StateFieldDescription {
     name: string;
     symbol: string;
     /** Describes the value. */
@@ -29,7 +29,7 @@ interface FieldDescription {
 
 const kAngleHint = "In degrees, or for example pi/8";
 
-const kFields: FieldDescription[] = [
+const kStateFields: StateFieldDescription[] = [
     {
         ...field("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
         hint: kAngleHint,
@@ -81,7 +81,7 @@ export class StateFields {
 
     /** `run` executes a command; it throws an Error whose message is shown at the field. */
     constructor(run: (command: string) => Promise<unknown>) {
-        for (const { name, symbol, meaning, hint, value, editable = value, command } of kFields) {
+        for (const { name, symbol, meaning, hint, value, editable = value, command } of kStateFields) {
             const stateField = new StateField(name, symbol, meaning, hint, {
                 editable: () => (this.state ? editable(this.state) : ""),
                 apply: async (text) => this.state && run(command(text, this.state)),
@@ -93,7 +93,7 @@ export class StateFields {
     }
 
     update(state: State): void {
-        for (const { name, value } of kFields) this.fields.get(name)!.show(value(state));
+        for (const { name, value } of kStateFields) this.fields.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
         if (state.turning && this.timer !== undefined) return; // otherwise each step would delay the announcement
@@ -116,7 +116,7 @@ function announcementsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
     return [
         state.polytope.name,
-        ...kFields.map((one) => one.spoken(state)),
+        ...kStateFields.map((one) => one.spoken(state)),
         state.section.name ? `section: ${state.section.name}` : "",
         `${state.view} view`,
         state.view === "matrix" ? `focus point ${state.point.map(formatCoordinate).join(", ")}` : "",

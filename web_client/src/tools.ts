@@ -3,6 +3,7 @@
 import type { KeyBinding, Keymap, Parts, Plane, Projection, State } from "@oval4d/protocol";
 
 import parts from "../../protocol/schema/parts.schema.json";
+import settings from "../../protocol/schema/settings.schema.json";
 import { byId, element, planeName } from "./element";
 import { makeToolbar } from "./toolbar";
 
@@ -33,15 +34,14 @@ const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * The actions that switch something on and off, and a function that returns whether it is on. A part of the picture is
- * switched by the action of the same name.
+ * The actions that switch something on and off, and a function that returns whether it is on. A part of the picture, or
+ * a view, is switched by the action of the same name.
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
-    matrix: (state) => state.view === "matrix",
-    strip: (state) => state.view === "strip",
     projection: (state) => state.projection !== "off",
+    ...Object.fromEntries(settings.properties.view.enum.map((view) => [view, (state: State) => state.view === view])),
     ...Object.fromEntries(
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
@@ -54,7 +54,7 @@ const kProjectionLabels: Record<Projection, string> = {
 };
 /** The actions that change only the projection. */
 const kActionsOnProjection = ["cells", "back", "sections"];
-/** Labels of buttons that differ from the key table, whose label is not clear enough there. */
+/** Labels of buttons whose label in the key table is not clear enough on a button. */
 const kLabels: Record<string, string> = {
     view: "One slice",
     command_line: "Command",
@@ -76,7 +76,7 @@ const kStepperPairs = [
     ["zoom_out", "zoom_in", "Zoom"],
 ] as const;
 
-const kPadColumns: Plane[] = ["xy", "xz", "xw"]; // the perpendicular planes zw, yw, yz are below them
+const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below them: the perpendicular planes zw, yw, yz
 
 export class Tools {
     private readonly root = byId("tools");
@@ -89,7 +89,7 @@ export class Tools {
 
     show(keymap: Keymap, pageSections: Section[]): void {
         this.toggleButtons.clear();
-        const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareCells);
+        const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareGridPlaces);
         const sections = keymap.groups
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
             .filter(({ keys }) => keys.some((key) => key.action !== "rotate"))
@@ -106,7 +106,7 @@ export class Tools {
         }
         const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOtherTab;
         this.root.replaceChildren(
-            this.tabBar([...kTabs.map((tab) => tab.title), kOtherTab]),
+            this.groupToolbar([...kTabs.map((tab) => tab.title), kOtherTab]),
             ...groups.map(({ name, title, content }) => {
                 const attributes = { "data-tab": tabOf(name), "data-group": name };
                 const controls = element("div", {}, ...content);
@@ -124,7 +124,7 @@ export class Tools {
         }
     }
 
-    private tabBar(titles: string[]): HTMLElement {
+    private groupToolbar(titles: string[]): HTMLElement {
         const buttons = titles.map((title) => {
             const button = element("button", { type: "button" }, title);
             button.addEventListener("click", () => choose(title));
@@ -173,7 +173,7 @@ export class Tools {
     private rotationStepper(binding: KeyBinding): HTMLElement {
         const planes = binding.planes ?? [];
         const made = this.stepper(binding, true, planes.map(planeName), binding.name, binding);
-        const { row, column } = cellOf(planes);
+        const { row, column } = gridPlaceOf(planes);
         made.style.gridColumn = String(column);
         made.style.gridRow = String(row);
         return made;
@@ -233,19 +233,19 @@ function uncapitalized(text: string): string {
 
 /** The column of a plane, or of its perpendicular plane. */
 function columnOf(plane: Plane): number {
-    const column = kPadColumns.indexOf(plane);
-    return column >= 0 ? column : kPadColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
+    const column = kRotationColumns.indexOf(plane);
+    return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
 }
 
-/** The cell of the grid in which a rotation is, counted from 1. */
-function cellOf(planes: readonly Plane[]): { row: number; column: number } {
-    const row = planes.length > 1 ? 3 : kPadColumns.includes(planes[0]!) ? 1 : 2;
+/** The row and the column of a rotation in the grid of rotations, counted from 1. */
+function gridPlaceOf(planes: readonly Plane[]): { row: number; column: number } {
+    const row = planes.length > 1 ? 3 : kRotationColumns.includes(planes[0]!) ? 1 : 2;
     return { row, column: 1 + columnOf(planes[0]!) };
 }
 
-/** The order of the grid, so that Tab and the arrow keys follow what is seen. */
-function compareCells(a: KeyBinding, b: KeyBinding): number {
-    const [one, other] = [cellOf(a.planes ?? []), cellOf(b.planes ?? [])];
+/** Orders rotations by their places in the grid, so that Tab and the arrow keys follow what is seen. */
+function compareGridPlaces(a: KeyBinding, b: KeyBinding): number {
+    const [one, other] = [gridPlaceOf(a.planes ?? []), gridPlaceOf(b.planes ?? [])];
     return one.row - other.row || one.column - other.column;
 }
 

@@ -18,10 +18,10 @@ interface Placement {
 
 export class TwoFingers {
     private last: Placement;
-    private moved = { x: 0, y: 0 };
-    private twisted = 0;
-    private moves = false;
-    private twists = false;
+    private moved = { x: 0, y: 0 }; // pixels since the fingers touched the drawing
+    private twisted = 0; // radians since then
+    private moves = false; // whether the movement has left its dead zone
+    private twists = false; // whether the twist has left its dead zone
 
     constructor(a: Finger, b: Finger) {
         this.last = placementOf(a, b);

@@ -7,7 +7,7 @@
 import type { Elements, PolytopeElement, Slice, Slices } from "@oval4d/protocol";
 
 import type { Hit } from "./hit_test";
-import type { Counts, HighlightedElements } from "./highlighted_elements";
+import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 
 const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
@@ -16,7 +16,7 @@ const kLevel = 1e-4; // circumradii: a vertex nearer to the slice does not deter
 /** The hyperplane a · x + b · y + c · z + m · w = offset, with a unit vector (a, b, c). */
 type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
 
-export function elementOfHit({ kind, source }: Hit, counts: Counts): PolytopeElement {
+export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): PolytopeElement {
     if (kind === "points") {
         if (source < counts.faces) return { element: "face", number: source };
         return elementOfHit({ kind: "vertices", source: source - counts.faces }, counts);
@@ -32,17 +32,17 @@ export function elementOfHit({ kind, source }: Hit, counts: Counts): PolytopeEle
 }
 
 export class ElementSources {
-    private readonly cells = new Map<number, Hyperplane | undefined>();
-    private readonly bodies: Elements[];
+    private readonly hyperplanes = new Map<number, Hyperplane | undefined>(); // by cell
+    private readonly slicesAndParts: Elements[]; // the slices, and the parts of the projection
     private readonly slices: Slice[];
 
     constructor(
         private readonly picture: Slices,
-        private readonly counts: Counts,
+        private readonly counts: ElementCounts,
     ) {
         // Includes slices that are not drawn, because they determine the elements in the same way.
         this.slices = picture.slices.filter((slice) => slice.vertices.length > 0);
-        this.bodies = [...this.slices, ...(picture.projection?.parts ?? [])];
+        this.slicesAndParts = [...this.slices, ...(picture.projection?.parts ?? [])];
     }
 
     /** The parts of the picture that show the element. */
@@ -72,7 +72,7 @@ export class ElementSources {
         const { edges: edgeCount, faces: faceCount, cells: cellCount } = this.counts;
         if (element === "vertex") return new Set([number]);
         const found = new Set<number>();
-        for (const { edges, faces, of } of this.bodies) {
+        for (const { edges, faces, of } of this.slicesAndParts) {
             const addVertex = (v: number): void => {
                 if (of.vertices[v]! >= edgeCount) found.add(of.vertices[v]! - edgeCount);
             };
@@ -109,11 +109,11 @@ export class ElementSources {
             }
             return cells.every((cell) => cell < this.counts.cells) ? cells : [];
         }
-        return element === "face" ? this.cellsAtPoint(number) : [];
+        return element === "face" ? this.cellsInSections(number) : [];
     }
 
-    /** The two cells that meet at a 2-face, if a planar section cuts them. */
-    private cellsAtPoint(face: number): number[] {
+    /** The two cells that meet at a 2-face; empty unless a planar section cuts the 2-face. */
+    private cellsInSections(face: number): number[] {
         for (const { edges, of } of this.picture.matrix?.sections ?? []) {
             const at = of.points.indexOf(face);
             const cells = at < 0 ? [] : of.edges.filter((_, e) => edges[e]!.includes(at));
@@ -182,7 +182,7 @@ export class ElementSources {
     /** Adds the edges whose two vertices are in this set. */
     private addEdgesBetween(own: ReadonlySet<number>, sources: Set<number>): void {
         const { edges: edgeCount, faces: faceCount } = this.counts;
-        for (const { edges, of } of this.bodies) {
+        for (const { edges, of } of this.slicesAndParts) {
             const isOwn = (v: number): boolean => own.has(of.vertices[v]! - edgeCount);
             of.edges.forEach((source, e) => {
                 if (source >= faceCount && isOwn(edges[2 * e]!) && isOwn(edges[2 * e + 1]!)) sources.add(source);
@@ -202,8 +202,8 @@ export class ElementSources {
 
     /** The hyperplane of a cell that a slice cuts; undefined if the picture does not determine it. */
     private hyperplaneOf(cell: number): Hyperplane | undefined {
-        if (!this.cells.has(cell)) this.cells.set(cell, this.findHyperplane(cell));
-        return this.cells.get(cell);
+        if (!this.hyperplanes.has(cell)) this.hyperplanes.set(cell, this.findHyperplane(cell));
+        return this.hyperplanes.get(cell);
     }
 
     private findHyperplane(cell: number): Hyperplane | undefined {

@@ -5,8 +5,8 @@ import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 /** A half-open range in the arrays of SliceElements. */
 export type Range = [begin: number, end: number];
 
-/** The elements of one slice. */
-export interface Body {
+/** One slice, and the ranges of its elements. */
+export interface SliceRanges {
     slice: Slice;
     position: Vector;
     vertices: Range;
@@ -17,7 +17,7 @@ export interface Body {
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
 export class SliceElements {
-    bodies: Body[] = [];
+    sliceRanges: SliceRanges[] = [];
     vertexCount = 0;
     edgeCount = 0;
     faceCount = 0;
@@ -28,39 +28,41 @@ export class SliceElements {
     corners = new Uint32Array(0);
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
-    readonly buckets = new Buckets();
-    private readonly spare: Body[] = []; // unused bodies, kept for pictures with more slices
+    readonly edgesByVertex = new EdgeBuckets(); // by the vertex with the smaller index
+    private readonly spare: SliceRanges[] = []; // unused, kept for pictures with more slices
 
     /** Replaces the elements by those of a new picture. */
     update({ slices, scene }: Slices): void {
         this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
-        while (this.bodies.length > 0) this.spare.push(this.bodies.pop()!);
-        for (const slice of slices) if (slice.drawn && slice.vertices.length > 0) this.bodies.push(this.addBody(slice));
+        while (this.sliceRanges.length > 0) this.spare.push(this.sliceRanges.pop()!);
+        for (const slice of slices) {
+            if (slice.drawn && slice.vertices.length > 0) this.sliceRanges.push(this.addSlice(slice));
+        }
         this.points = ensureCapacity(this.points, 3 * this.vertexCount);
         this.edges = ensureCapacity(this.edges, 2 * this.edgeCount);
         this.cornerBegin = ensureCapacity(this.cornerBegin, this.faceCount + 1);
         this.corners = ensureCapacity(this.corners, this.cornerCount);
         this.cornerEdges = ensureCapacity(this.cornerEdges, this.cornerCount);
         this.normals = ensureCapacity(this.normals, 3 * this.faceCount);
-        for (const body of this.bodies) this.writeBody(body, scene);
+        for (const ranges of this.sliceRanges) this.writeSlice(ranges, scene);
     }
 
-    private addBody(slice: Slice): Body {
+    private addSlice(slice: Slice): SliceRanges {
         const { vertexCount, edgeCount, faceCount } = this;
         this.vertexCount += slice.vertices.length / 3;
         this.edgeCount += slice.edges.length / 2;
         this.faceCount += slice.faces.begin.length - 1;
         this.cornerCount += slice.faces.corners.length;
-        const body = this.spare.pop() ?? emptyBody(slice);
-        body.slice = slice;
-        body.position = slice.position;
-        setRange(body.vertices, vertexCount, this.vertexCount);
-        setRange(body.edges, edgeCount, this.edgeCount);
-        setRange(body.faces, faceCount, this.faceCount);
-        return body;
+        const ranges = this.spare.pop() ?? emptyRanges(slice);
+        ranges.slice = slice;
+        ranges.position = slice.position;
+        setRange(ranges.vertices, vertexCount, this.vertexCount);
+        setRange(ranges.edges, edgeCount, this.edgeCount);
+        setRange(ranges.faces, faceCount, this.faceCount);
+        return ranges;
     }
 
-    private writeBody({ slice, position, vertices, edges, faces }: Body, scene: SceneDescription): void {
+    private writeSlice({ slice, position, vertices, edges, faces }: SliceRanges, scene: SceneDescription): void {
         const begin = slice.faces.begin;
         const firstCorner = this.cornerBegin[faces[0]]!;
         for (let i = 0; i < slice.vertices.length; ++i) {
@@ -71,7 +73,7 @@ export class SliceElements {
         for (let i = 0; i < slice.faces.corners.length; ++i) {
             this.corners[firstCorner + i] = vertices[0] + slice.faces.corners[i]!;
         }
-        this.buckets.sort(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
+        this.edgesByVertex.sort(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
         for (let f = faces[0]; f < faces[1]; ++f) {
             this.computeNormal(f);
             this.findCornerEdges(f);
@@ -87,7 +89,7 @@ export class SliceElements {
         for (let c = this.cornerBegin[f]!; c < this.cornerBegin[f + 1]!; ++c) {
             const a = this.corners[c]!;
             const b = this.nextCorner(f, c);
-            const { begin, items } = this.buckets;
+            const { begin, items } = this.edgesByVertex;
             const lower = Math.min(a, b);
             for (let k = begin[lower]!; k < begin[lower + 1]!; ++k) {
                 const e = items[k]!;
@@ -113,7 +115,7 @@ export class SliceElements {
     }
 }
 
-function emptyBody(slice: Slice): Body {
+function emptyRanges(slice: Slice): SliceRanges {
     return { slice, position: slice.position, vertices: [0, 0], edges: [0, 0], faces: [0, 0], distance: 0 };
 }
 
@@ -123,7 +125,7 @@ function setRange(range: Range, begin: number, end: number): void {
 }
 
 /** A counting sort of a slice's edges by vertex: vertex v has the edges items[begin[v]] … items[begin[v + 1] − 1]. */
-export class Buckets {
+export class EdgeBuckets {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
 

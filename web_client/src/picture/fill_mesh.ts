@@ -11,7 +11,7 @@ import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 
-/** Values of a fill's `seen`. */
+/** The visibility of a triangle in `Fill.seen`; 0 is hidden. */
 const kFaded = 1;
 const kFull = 2;
 
@@ -65,10 +65,10 @@ export class FillMesh {
         const distance = ({ position: [x, y, z] }: SliceFill): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
         let used = 0;
-        for (const presence of [kFull, kFaded]) {
+        for (const visibility of [kFull, kFaded]) {
             for (const { fill, first } of this.parts) {
                 for (let i = 0; i < fill.triangles.length; ++i) {
-                    if ((fill.seen?.[Math.floor(i / 3)] ?? kFull) !== presence) continue;
+                    if ((fill.seen?.[Math.floor(i / 3)] ?? kFull) !== visibility) continue;
                     this.index.array[used++] = first + fill.triangles[i]!;
                 }
             }

@@ -122,19 +122,19 @@ interface Resources {
 }
 
 /** What hides fog: balls and bars, whose edges are translucent because they are antialiased, and surfaces. */
-type Solids = "frame" | "surfaces";
+type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
     private picture: Slices | undefined; // undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<Solids, WebGLRenderTarget> | undefined; // likewise
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
         this.gl = renderer.getContext() as WebGL2RenderingContext;
     }
 
-    /** Takes over the fog of a new picture. */
+    /** Uploads the fog of a new picture to the GPU. If the picture has no fog, frees the GPU memory. */
     update(picture: Slices): void {
         const hadFog = this.picture !== undefined;
         this.picture = picture.scene.fog && picture;
@@ -196,10 +196,10 @@ export class FogPainter {
         this.renderer.resetState();
     }
 
-    /** Calls `draw`, which draws all solids of a kind, to find their depths. */
-    drawDepths({ width, height }: Viewport, solids: Solids, draw: () => void): void {
+    /** Calls `draw`, which draws all that hides fog of one kind, to find its depths. */
+    drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
-        const target = this.targets[solids];
+        const target = this.targets[occluders];
         target.setSize(width, height);
         this.renderer.setRenderTarget(target);
         this.renderer.clear();
@@ -222,11 +222,11 @@ export class FogPainter {
     }
 
     /**
-     * Blends a part of the fog of one slice with the picture: that behind the nearest ball or bar, which is drawn
-     * before the balls and bars and is seen through their edges; or that in front of them. The caller draws the slices
-     * from far to near.
+     * Blends a part of the fog of one slice with the picture. `behind`: the fog behind the nearest ball or bar, which
+     * is drawn before the balls and bars and is seen through their edges. `inFront`: the fog in front of them. The
+     * caller draws the slices from far to near.
      */
-    draw(slice: Slice, lens: Lens, part: "behind" | "before"): void {
+    draw(slice: Slice, lens: Lens, part: "behind" | "inFront"): void {
         const { gl, picture, resources, targets } = this;
         const lattice = resources?.lattices.get(slice);
         if (!picture || !resources || !targets || !lattice || !slice.fog) return;

@@ -1,6 +1,8 @@
-// Geometry mode: renders the slices with WebGL, and draws all that is flat on a 2-D canvas above.
+// Geometry mode: renders the slices and the projection with WebGL; draws the labels, parallel coordinates and other 2-D
+// content on a second canvas, which lies on top.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
+// A Drawing is a geometry with the material that it is drawn with.
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
@@ -8,13 +10,13 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 import { FillMesh } from "./fill_mesh";
 import { FogPainter } from "./fog_painter";
 import { Lens } from "./lens";
-import { type Counts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
-import { Mesh } from "./mesh";
+import { type ElementCounts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
+import { HitTester } from "./hit_tester";
 import { onWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
-import { SliceLayout } from "./slice_layout";
 import { fragmentShader, vertexShader } from "./shaders";
+import { SliceMesh } from "./slice_mesh";
 import { SurfacePainter } from "./surface_painter";
 
 ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
@@ -24,7 +26,7 @@ export class GeometryView {
     private readonly renderer: WebGLRenderer;
     private readonly scene = new Scene();
     private readonly camera = new Camera();
-    private readonly mesh = new Mesh();
+    private readonly sliceMesh = new SliceMesh();
     private readonly fillMesh = new FillMesh();
     private readonly drawing: Drawing<BufferGeometry, RawShaderMaterial>;
     private readonly fillDrawing: Drawing<BufferGeometry, RawShaderMaterial>;
@@ -36,8 +38,8 @@ export class GeometryView {
         pixels: { value: 1 },
     };
     private readonly projectionUniforms = { ...this.uniforms, ballRadius: { value: 1 }, barRadius: { value: 0 } };
-    private readonly flat = this.material("painted");
-    private readonly solid = this.material("solid");
+    private readonly paintedMaterial = this.material("painted");
+    private readonly solidMaterial = this.material("solid");
     private readonly projectionMesh = new ProjectionMesh();
     private readonly projectionDrawings = [
         new Drawing(this.projectionMesh.solid, this.material("solid", this.projectionUniforms)),
@@ -48,12 +50,12 @@ export class GeometryView {
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
-    private counts: Counts = { edges: 0, faces: 0, cells: 0 };
+    private counts: ElementCounts = { edges: 0, faces: 0, cells: 0 };
     private pointed: HighlightedElements | undefined;
     private highlighted: HighlightedElements | undefined;
-    /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
-    layout: SliceLayout | undefined;
-    private sortedOrbit: Orbit | undefined; // the orbit for which the mesh is ordered
+    /** The hit tester of the picture; undefined before the first picture. It is valid until the next picture. */
+    hitTester: HitTester | undefined;
+    private sortedOrbit: Orbit | undefined; // the orbit for which the meshes are ordered
     private readonly background = new Color();
 
     /** Requires WebGL 2. */
@@ -72,7 +74,7 @@ export class GeometryView {
         });
         this.pen = overlay.getContext("2d")!;
         const drawings = [
-            new Drawing(this.mesh.geometry, this.flat),
+            new Drawing(this.sliceMesh.geometry, this.paintedMaterial),
             new Drawing(this.fillMesh.geometry, this.material("painted")),
         ] as const;
         for (const drawing of [...drawings, ...this.projectionDrawings]) {
@@ -106,18 +108,18 @@ export class GeometryView {
      * Replaces the slices to draw; `orbit` is the orbit for which the server placed the camera, `counts` are the
      * polytope's.
      */
-    update(picture: Slices, orbit: Orbit, counts: Counts): void {
+    update(picture: Slices, orbit: Orbit, counts: ElementCounts): void {
         this.counts = counts;
         this.picture = picture;
         this.pictureOrbit = orbit;
-        this.layout = new SliceLayout(picture, orbit);
+        this.hitTester = new HitTester(picture, orbit);
         const highlighted = (this.highlighted = allHighlighted(picture, this.pointed));
         const filled = this.fillMesh.update(picture, highlighted);
         const isField = this.surfacePainter.update(picture) || picture.scene.fog !== undefined;
         this.fogPainter.update(picture);
-        this.mesh.update(picture, !filled && !isField, highlighted);
+        this.sliceMesh.update(picture, !filled && !isField, highlighted);
         this.fillDrawing.visible = filled;
-        this.drawing.material = filled || isField ? this.solid : this.flat;
+        this.drawing.material = filled || isField ? this.solidMaterial : this.paintedMaterial;
         this.sortedOrbit = undefined;
         const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
@@ -130,11 +132,11 @@ export class GeometryView {
     }
 
     /** Highlights the element under the pointer, until the next call. */
-    light(pointed: HighlightedElements | undefined): void {
+    highlightPointed(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         if (!this.picture) return;
         const highlighted = (this.highlighted = allHighlighted(this.picture, pointed));
-        this.mesh.paint(this.picture, highlighted);
+        this.sliceMesh.paint(this.picture, highlighted);
         this.fillMesh.paint(this.picture, highlighted);
         if (!this.projectionMesh.update(this.picture, highlighted)) return;
         if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.lens);
@@ -153,12 +155,12 @@ export class GeometryView {
         this.lens.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
         if (azimuth !== this.sortedOrbit?.azimuth || elevation !== this.sortedOrbit.elevation) {
-            this.mesh.sortForCamera(this.lens, this.picture.projection?.position);
+            this.sliceMesh.sortForCamera(this.lens, this.picture.projection?.position);
             this.fillMesh.sortForCamera(this.lens);
             if (this.picture.projection) this.projectionMesh.sortForCamera(this.lens);
         }
         this.sortedOrbit = orbit;
-        this.uniforms.pixels.value = this.lens.pixels;
+        this.uniforms.pixels.value = this.lens.pixelsPerUnit;
         this.camera.projectionMatrix.copy(this.lens.projection);
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
@@ -183,9 +185,9 @@ export class GeometryView {
      * ones and before the nearer ones.
      */
     private render(): void {
-        const { renderer, mesh, drawing, projectionDrawings } = this;
+        const { renderer, sliceMesh, drawing, projectionDrawings } = this;
         renderer.clear();
-        if (!this.picture!.projection || drawing.material === this.solid) {
+        if (!this.picture!.projection || drawing.material === this.solidMaterial) {
             const { fogPainter, surfacePainter, lens } = this;
             if (fogPainter.isShown) {
                 fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
@@ -194,7 +196,7 @@ export class GeometryView {
             surfacePainter.draw("opaque", lens);
             if (fogPainter.isShown) this.drawFog("behind");
             renderer.render(this.scene, this.camera);
-            if (fogPainter.isShown) this.drawFog("before");
+            if (fogPainter.isShown) this.drawFog("inFront");
             else surfacePainter.draw("translucent", lens);
             return;
         }
@@ -202,24 +204,27 @@ export class GeometryView {
         for (const [slices, paintsSlices] of passes) {
             drawing.visible = paintsSlices;
             for (const projection of projectionDrawings) projection.visible = !paintsSlices;
-            mesh.select(slices);
+            sliceMesh.select(slices);
             renderer.render(this.scene, this.camera);
         }
         drawing.visible = true;
     }
 
-    /** Draws a part of the fog of each slice, from far to near; the slice's translucent surfaces before the last part. */
-    private drawFog(part: "behind" | "before"): void {
+    /**
+     * Draws a part of the fog of each slice, from far to near. The fog in front of the balls and bars is drawn after the
+     * translucent surfaces of its slice.
+     */
+    private drawFog(part: "behind" | "inFront"): void {
         this.fogPainter.begin(this.lens);
         const depths = new Map(this.picture!.slices.map((slice) => [slice, this.lens.depthOf(slice.position)]));
         for (const [slice] of [...depths].sort(([, a], [, b]) => b - a)) {
-            if (part === "before") this.surfacePainter.draw("translucent", this.lens, slice);
+            if (part === "inFront") this.surfacePainter.draw("translucent", this.lens, slice);
             this.fogPainter.draw(slice, this.lens, part);
         }
     }
 
     dispose(): void {
-        this.mesh.geometry.dispose();
+        this.sliceMesh.geometry.dispose();
         this.fillMesh.geometry.dispose();
         this.projectionMesh.dispose();
         this.surfacePainter.dispose();

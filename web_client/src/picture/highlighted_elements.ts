@@ -1,10 +1,10 @@
-// What is drawn in the color of the highlight: the kept element, which the server determines, and the element under the
-// pointer.
+// What is drawn in the color of the highlight: the kept element, which is the `highlight` of the state, and the element
+// under the pointer.
 
 import type { SceneDescription, Slices, State } from "@oval4d/protocol";
 
 /** The polytope's numbers of elements. */
-export type Counts = Pick<State["polytope"], "edges" | "faces" | "cells">;
+export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
 /** The parts of a picture that show the highlighted elements. */
 export interface HighlightedElements {
@@ -33,6 +33,6 @@ export function cellColor(cell: number, colors: SceneDescription["colors"], high
 }
 
 /** Whether a point of a planar section, given by its value of `of.points`, shows a highlighted element. */
-export function isPointLit(source: number, { vertices, edges }: HighlightedElements, counts: Counts): boolean {
+export function isPointLit(source: number, { vertices, edges }: HighlightedElements, counts: ElementCounts): boolean {
     return source < counts.faces + counts.edges ? edges.has(source) : vertices.has(source - counts.faces);
 }

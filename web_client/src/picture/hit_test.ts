@@ -15,8 +15,8 @@ export interface Hit {
     slice?: Slice;
 }
 
-/** The slices, or the parts of the projection, with their transformation to world space. */
-interface Body {
+/** A slice, or a part of the projection, with its transformation to world space. */
+interface PickableMesh {
     elements: Elements;
     slice?: Slice;
     position: Vector;
@@ -33,60 +33,61 @@ export const kReach = 4; // pixels on the page: the least radius of balls and ba
 const kBallRise = 3;
 const kBarRise = 2;
 
-/** Camera coordinates x, y, z and screen coordinates x, y of the vertices of a body. */
-let seen = new Float32Array(0);
+/** Camera coordinates x, y, z and screen coordinates x, y of the vertices of a mesh. */
+let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at a point, in pixels of the lens: the nearest element of the nearest body that has one there. `ratio` is
- * the number of these pixels per pixel of the page.
+ * The element at a point, in pixels of the lens: the nearest element of the nearest mesh that has one there. `ratio`
+ * is the number of these pixels per pixel of the page.
  */
 export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
-    const bodies = bodiesOf(picture, lens).sort((a, b) => a.distance - b.distance);
-    for (const body of bodies) {
-        if (!mayContain(body, picture, lens, x, y)) continue;
-        const hit = new BodyTest(body, lens, x, y, kReach * ratio).nearest();
+    const meshes = pickableMeshes(picture, lens).sort((a, b) => a.distance - b.distance);
+    for (const mesh of meshes) {
+        if (!mayContain(mesh, picture, lens, x, y)) continue;
+        const hit = new MeshTest(mesh, lens, x, y, kReach * ratio).nearest();
         if (hit) return hit;
     }
     return undefined;
 }
 
-function bodiesOf({ slices, scene, projection }: Slices, { eye }: Lens): Body[] {
+function pickableMeshes({ slices, scene, projection }: Slices, { eye }: Lens): PickableMesh[] {
     const { shown, scale } = scene;
     const distance = ([x, y, z]: Vector): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
     const [ball, bar] = [shown.balls ? scene.ball : 0, shown.bars ? scene.bar : 0];
-    const bodies: Body[] = [];
+    const meshes: PickableMesh[] = [];
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
         const look = { ball, bar, hasFaces: shown.faces && !scene.surfaces }; // the domain of a field has none
-        bodies.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
+        meshes.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
     }
     for (const part of projection?.parts ?? []) {
         const { position, scale: partScale } = projection!;
         const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
-        bodies.push({ elements: part, position, scale: partScale, ...look, distance: distance(position) });
+        meshes.push({ elements: part, position, scale: partScale, ...look, distance: distance(position) });
     }
-    return bodies;
+    return meshes;
 }
 
-/** Whether the point can be within the body: a quick test with the circumscribed sphere. */
-function mayContain({ position, scale, ball }: Body, { scene }: Slices, lens: Lens, x: number, y: number): boolean {
+/** Whether the point can be within the mesh: a quick test with the circumscribed sphere. */
+function mayContain(mesh: PickableMesh, { scene }: Slices, lens: Lens, x: number, y: number): boolean {
+    const { position, scale, ball } = mesh;
     const center = lens.project(position);
     const depth = lens.depthOf(position);
     const kMagnified = 2; // a vertex of a perspective projection may be farther from the center
     const radius = kMagnified * scale * scene.circumradius + kBallRise * ball;
     if (!center || depth <= radius) return true;
-    return Math.hypot(center.x - x, center.y - y) <= (lens.pixels * radius) / (depth - radius);
+    return Math.hypot(center.x - x, center.y - y) <= (lens.pixelsPerUnit * radius) / (depth - radius);
 }
 
-/** The test of one body against one point. */
-class BodyTest {
+/** The test of one mesh against one point. */
+class MeshTest {
     private depth = Infinity;
     private hit: Hit | undefined;
 
     constructor(
-        private readonly body: Body,
+        private readonly mesh: PickableMesh,
         private readonly lens: Lens,
         private readonly x: number,
         private readonly y: number,
@@ -96,7 +97,7 @@ class BodyTest {
     }
 
     nearest(): Hit | undefined {
-        const { ball, bar, hasFaces } = this.body;
+        const { ball, bar, hasFaces } = this.mesh;
         if (ball > 0) this.testBalls();
         if (bar > 0) this.testBars();
         if (hasFaces) this.testFaces();
@@ -104,59 +105,59 @@ class BodyTest {
     }
 
     private projectVertices(): void {
-        const { elements, position, scale } = this.body;
+        const { elements, position, scale } = this.mesh;
         const { vertices } = elements;
-        seen = ensureCapacity(seen, (kStride * vertices.length) / 3);
+        projected = ensureCapacity(projected, (kStride * vertices.length) / 3);
         this.project(vertices, position, scale);
     }
 
-    /** Writes the points' coordinates into `seen`. */
+    /** Writes the points' coordinates into `projected`. */
     private project(points: Float32Array, position: Vector, scale: number): void {
         const view = this.lens.view.elements;
         for (let i = 0, at = 0; i < points.length; i += 3, at += kStride) {
             const x = position[0] + scale * points[i]!;
             const y = position[1] + scale * points[i + 1]!;
             const z = position[2] + scale * points[i + 2]!;
-            seen[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
-            seen[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
-            seen[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
-            this.lens.toScreen(seen, at);
+            projected[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
+            projected[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
+            projected[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
+            this.lens.toScreen(projected, at);
         }
     }
 
     /** Takes an element if it is the nearest so far; `depth` is its distance along the camera's axis. */
     private take(kind: Hit["kind"], source: number, depth: number): void {
         if (depth >= this.depth) return;
-        const { slice } = this.body;
+        const { slice } = this.mesh;
         this.depth = depth;
         this.hit = { kind, source, ...(slice && { slice }) };
     }
 
     private testBalls(): void {
-        const { elements, ball } = this.body;
+        const { elements, ball } = this.mesh;
         const { of, balls, seen: visibility, vertices } = elements;
         for (let v = 0, at = 0; v < vertices.length / 3; ++v, at += kStride) {
-            const depth = -seen[at + 2]!;
+            const depth = -projected[at + 2]!;
             if (depth <= 0 || visibility?.vertices[v] === 0) continue;
-            const perPixel = depth / this.lens.pixels;
+            const perPixel = depth / this.lens.pixelsPerUnit;
             const radius = Math.max(ball * (balls?.scale[v] ?? 1), this.reach * perPixel);
-            const distance = Math.hypot(seen[at + 3]! - this.x, seen[at + 4]! - this.y) * perPixel;
+            const distance = Math.hypot(projected[at + 3]! - this.x, projected[at + 4]! - this.y) * perPixel;
             if (distance <= radius) this.take("vertices", of.vertices[v]!, depth - kBallRise * radius);
         }
     }
 
     private testBars(): void {
-        const { elements, bar } = this.body;
+        const { elements, bar } = this.mesh;
         const { edges, of, seen: visibility } = elements;
         for (let e = 0; e < edges.length / 2; ++e) {
             const [a, b] = [kStride * edges[2 * e]!, kStride * edges[2 * e + 1]!];
-            if (seen[a + 2]! >= 0 || seen[b + 2]! >= 0 || visibility?.edges[e] === 0) continue;
-            const [ax, ay] = [seen[a + 3]!, seen[a + 4]!];
-            const [dx, dy] = [seen[b + 3]! - ax, seen[b + 4]! - ay];
+            if (projected[a + 2]! >= 0 || projected[b + 2]! >= 0 || visibility?.edges[e] === 0) continue;
+            const [ax, ay] = [projected[a + 3]!, projected[a + 4]!];
+            const [dx, dy] = [projected[b + 3]! - ax, projected[b + 4]! - ay];
             const along = ((this.x - ax) * dx + (this.y - ay) * dy) / (dx * dx + dy * dy || 1);
             const part = Math.min(1, Math.max(0, along));
-            const depth = -seen[a + 2]! - part * (seen[b + 2]! - seen[a + 2]!);
-            const perPixel = depth / this.lens.pixels;
+            const depth = -projected[a + 2]! - part * (projected[b + 2]! - projected[a + 2]!);
+            const perPixel = depth / this.lens.pixelsPerUnit;
             const radius = Math.max(bar, this.reach * perPixel);
             const distance = Math.hypot(ax + part * dx - this.x, ay + part * dy - this.y) * perPixel;
             if (distance <= radius) this.take("edges", of.edges[e]!, depth - kBarRise * radius);
@@ -164,7 +165,7 @@ class BodyTest {
     }
 
     private testFaces(): void {
-        const { slice, elements, position, scale } = this.body;
+        const { slice, elements, position, scale } = this.mesh;
         const { faces, of, seen: visibility } = elements;
         if (!slice?.fill) {
             for (let f = 0; f + 1 < faces.begin.length; ++f) {
@@ -175,7 +176,7 @@ class BodyTest {
             return;
         }
         const { points, triangles, tints } = slice.fill;
-        seen = ensureCapacity(seen, (kStride * points.length) / 3);
+        projected = ensureCapacity(projected, (kStride * points.length) / 3);
         this.project(points, position, scale);
         for (let t = 0; t < tints.length; ++t) {
             this.take("faces", tints[t]!, this.depthOfPolygon(triangles, 3 * t, 3 * t + 3));
@@ -188,17 +189,17 @@ class BodyTest {
         let p = kStride * corners[end - 1]!;
         for (let c = begin; c < end; ++c) {
             const q = kStride * corners[c]!;
-            if (seen[q + 2]! >= 0) return Infinity;
-            const [py, qy] = [seen[p + 4]!, seen[q + 4]!];
+            if (projected[q + 2]! >= 0) return Infinity;
+            const [py, qy] = [projected[p + 4]!, projected[q + 4]!];
             if (py > this.y !== qy > this.y) {
-                const crossing = seen[p + 3]! + ((this.y - py) / (qy - py)) * (seen[q + 3]! - seen[p + 3]!);
+                const crossing = projected[p + 3]! + ((this.y - py) / (qy - py)) * (projected[q + 3]! - projected[p + 3]!);
                 if (this.x < crossing) isInside = !isInside;
             }
             p = q;
         }
         if (!isInside) return Infinity;
-        const [nx, ny, nz] = areaVector(seen, corners, [begin, end], kStride);
+        const [nx, ny, nz] = areaVector(projected, corners, [begin, end], kStride);
         const [rayX, rayY] = this.lens.rayAt(this.x, this.y);
-        return (nx * seen[p]! + ny * seen[p + 1]! + nz * seen[p + 2]!) / (nx * rayX + ny * rayY - nz);
+        return (nx * projected[p]! + ny * projected[p + 1]! + nz * projected[p + 2]!) / (nx * rayX + ny * rayY - nz);
     }
 }

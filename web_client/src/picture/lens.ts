@@ -5,7 +5,8 @@ import { Matrix4, Vector3, Vector4 } from "three";
 
 import type { Orbit, SceneDescription, Viewport } from "@oval4d/protocol";
 
-export interface Point {
+/** A point of the picture, in pixels from its upper left corner. */
+export interface ScreenPoint {
     x: number;
     y: number;
 }
@@ -53,7 +54,7 @@ export class Lens {
     }
 
     /** Projects a world position to pixels from the upper left corner; undefined for a position behind the viewer. */
-    project(world: readonly [number, number, number]): Point | undefined {
+    project(world: readonly [number, number, number]): ScreenPoint | undefined {
         const { x, y, w } = this.clip
             .set(...world, 1)
             .applyMatrix4(this.view)
@@ -61,7 +62,7 @@ export class Lens {
         return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
     }
 
-    /** Projects camera coordinates x, y, z at `at` of an array, and writes the pixels x, y behind them. */
+    /** Projects the camera coordinates x, y, z that begin at `points[at]`, and writes the pixels x, y after them. */
     toScreen(points: Float32Array, at: number): void {
         const f = this.projection.elements;
         const depth = -points[at + 2]!;
@@ -87,7 +88,7 @@ export class Lens {
     }
 
     /** Pixels per world unit at distance 1. */
-    get pixels(): number {
+    get pixelsPerUnit(): number {
         return (this.projection.elements[5]! * this.height) / 2;
     }
 }

@@ -2,7 +2,7 @@
 
 import type { SceneDescription, SectionMatrix, Slices, Vector, Viewport } from "@oval4d/protocol";
 
-import { cellColor, type Counts, type HighlightedElements, isPointLit } from "./highlighted_elements";
+import { cellColor, type ElementCounts, type HighlightedElements, isPointLit } from "./highlighted_elements";
 import type { Lens } from "./lens";
 import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
 import { cssColor, setFont } from "./pen";
@@ -18,14 +18,14 @@ const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
 /** What all panels of a picture have in common. */
-interface Look {
+interface PanelContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;
     scene: SceneDescription;
     viewport: Viewport;
     highlighted: HighlightedElements;
     /** The polytope's numbers of elements. */
-    counts: Counts;
+    counts: ElementCounts;
 }
 
 export function drawMatrix(
@@ -34,14 +34,14 @@ export function drawMatrix(
     lens: Lens,
     viewport: Viewport,
     highlighted: HighlightedElements,
-    counts: Counts,
+    counts: ElementCounts,
 ): void {
     const { matrix, scene } = picture;
     if (!matrix) return;
     drawFocusPoint(pen, picture, matrix, lens, viewport);
-    const look = { pen, matrix, scene, viewport, highlighted, counts };
-    drawNames(look);
-    for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, look);
+    const context = { pen, matrix, scene, viewport, highlighted, counts };
+    drawNames(context);
+    for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, context);
     pen.globalAlpha = 1;
 }
 
@@ -75,7 +75,7 @@ function drawFocusPoint(
     pen.lineCap = "butt";
 }
 
-function drawNames({ pen, matrix, scene, viewport }: Look): void {
+function drawNames({ pen, matrix, scene, viewport }: PanelContext): void {
     const digits = setFont(pen, kNameHeight * matrix.panel * viewport.height);
     scene.colors.axes.forEach((color, axis) => {
         const { x, y } = nameCenter(matrix, axis, viewport);
@@ -84,8 +84,8 @@ function drawNames({ pen, matrix, scene, viewport }: Look): void {
     });
 }
 
-function drawPanel(panel: MatrixPanel, look: Look): void {
-    const { pen, matrix, scene, viewport } = look;
+function drawPanel(panel: MatrixPanel, context: PanelContext): void {
+    const { pen, matrix, scene, viewport } = context;
     const { shown, colors } = scene;
     const box = boxOf(panel);
     pen.globalAlpha = kPanelOpacity;
@@ -94,10 +94,10 @@ function drawPanel(panel: MatrixPanel, look: Look): void {
     pen.roundRect(box.left, box.top, box.width, box.height, kCorner * matrix.panel * viewport.height);
     pen.fill();
     const points = panel.section.points.map((point) => panel.pixelOf(point));
-    if (shown.faces) drawFill(panel, points, look);
-    drawFocusLines(panel, box, look);
-    if (shown.bars) drawEdges(panel, points, look);
-    if (shown.balls || panel.section.balls) drawPoints(panel, points, look);
+    if (shown.faces) drawFill(panel, points, context);
+    drawFocusLines(panel, box, context);
+    if (shown.bars) drawEdges(panel, points, context);
+    if (shown.balls || panel.section.balls) drawPoints(panel, points, context);
 }
 
 type Box = ReturnType<typeof boxOf>;
@@ -111,7 +111,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 type Quadruple = [number, number, number, number];
 
 /** Fills the section, unless its edges cross. */
-function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: Look): void {
+function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelContext): void {
     const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
     if (boundary.length === 0 || !isConvex) return;
     pen.globalAlpha = kFillOpacity;
@@ -122,7 +122,7 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
 }
 
 /** Draws the lines in which the plane meets the other planes of its row and its column. */
-function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: Look): void {
+function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelContext): void {
     const { row, column, section } = panel;
     const [first, second] = section.axes;
     const [x, y] = panel.pixelOf([matrix.point[first]!, matrix.point[second]!]);
@@ -138,7 +138,11 @@ function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, view
     }
 }
 
-function drawEdges({ section }: MatrixPanel, points: Pixel[], { pen, matrix, scene, viewport, highlighted }: Look): void {
+function drawEdges(
+    { section }: MatrixPanel,
+    points: Pixel[],
+    { pen, matrix, scene, viewport, highlighted }: PanelContext,
+): void {
     const opacities = [0, scene.faded, 1];
     pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
     pen.lineCap = "round";
@@ -155,8 +159,8 @@ function drawEdges({ section }: MatrixPanel, points: Pixel[], { pen, matrix, sce
     pen.lineCap = "butt";
 }
 
-function drawPoints({ section }: MatrixPanel, points: Pixel[], look: Look): void {
-    const { pen, matrix, scene, viewport, highlighted, counts } = look;
+function drawPoints({ section }: MatrixPanel, points: Pixel[], context: PanelContext): void {
+    const { pen, matrix, scene, viewport, highlighted, counts } = context;
     const { balls, of, seen } = section;
     const opacities = [0, scene.faded, 1];
     points.forEach(([x, y], i) => {

@@ -5,7 +5,7 @@ import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-import type { Counts, HighlightedElements } from "./highlighted_elements";
+import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import { drawMatrix } from "./matrix_drawing";
 import { cssColor, setFont } from "./pen";
 
@@ -17,7 +17,7 @@ export function drawOverlay(
     viewport: Viewport,
     leastText: number,
     highlighted: HighlightedElements,
-    counts: Counts,
+    counts: ElementCounts,
 ): void {
     const { scene, slices } = picture;
     pen.clearRect(0, 0, viewport.width, viewport.height);
@@ -49,6 +49,7 @@ interface Label {
     size: number; // font size
     digits: number; // height of the digits
     half: number; // half the width of the text
+    room: number; // half the width that the label takes beside others
 }
 
 /**
@@ -66,6 +67,11 @@ function drawLabels(
     const placed: Label[] = [];
     const bottom = scene.shown.coordinates && lens.isMoved ? viewport.height - topOfCoordinates(scene, viewport) : viewport.height;
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
+    // All labels take as much room as the widest one, so that those with a minus are omitted on their side of the focus
+    // exactly where those without one are omitted on the other side.
+    const sample = 100; // a font size
+    setFont(pen, sample);
+    const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
     labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
     for (const slice of labeled) {
         const at = lens.project(slice.label_at);
@@ -73,14 +79,15 @@ function drawLabels(
         const wanted = scene.text * slice.label_size * viewport.height;
         const size = Math.max(wanted, leastText);
         const digits = setFont(pen, size);
-        const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
+        const half = pen.measureText(slice.label).width / 2;
+        const label = { slice, ...at, size, digits, half, room: Math.max(half, (widest * size) / 2) };
         const whole =
             label.x >= label.half &&
             label.x <= viewport.width - label.half &&
             label.y >= 0 &&
             label.y <= bottom - digits;
         const apart = (other: Label): boolean =>
-            Math.abs(other.x - label.x) > other.half + label.half + digits / 2 ||
+            Math.abs(other.x - label.x) > other.room + label.room + digits / 2 ||
             Math.abs(other.y - label.y) > 1.1 * digits;
         if (slice.focus || (whole && placed.every(apart))) placed.push(label);
     }

@@ -5,7 +5,7 @@
 
 import type { Parts, Vector } from "@oval4d/protocol";
 
-import { type Body, Buckets, ensureCapacity, type SliceElements } from "./elements";
+import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceRanges } from "./elements";
 import type { Lens } from "./lens";
 import { kQuad } from "./shape_buffers";
 import { sortByKey } from "./sort";
@@ -21,8 +21,8 @@ export class PaintersOrder {
     private order = new Uint32Array(0); // each slice's vertices from far to near
     private scratch = new Uint32Array(0); // for sorting
     private rank = new Uint32Array(0); // the index of each vertex in `order`
-    private readonly bodies: Body[] = []; // from far to near
-    private readonly bars = new Buckets(); // edges by the rank of the farther vertex
+    private readonly sliceRanges: SliceRanges[] = []; // from far to near
+    private readonly edgesByRank = new EdgeBuckets(); // by the rank of the farther vertex
     private out = new Uint32Array(0);
     private used = 0;
     /** The number of indices of the slices that are farther away than the point passed to writeIndices(). */
@@ -47,31 +47,31 @@ export class PaintersOrder {
     writeIndices(lens: Lens, out: Uint32Array<ArrayBuffer>, point: Vector): number {
         this.out = out;
         this.used = this.farther = 0;
-        this.sortBodies(lens);
+        this.sortSlices(lens);
         const limit = distance(point, lens);
-        for (const body of this.bodies) {
-            this.findFrontElements(body, lens);
-            this.sortByDepth(body, lens);
+        for (const ranges of this.sliceRanges) {
+            this.findFrontElements(ranges, lens);
+            this.sortByDepth(ranges, lens);
             for (const front of [0, 1]) {
-                if (this.shown.faces) this.paintFaces(body, front);
-                this.paintFrame(body, front);
+                if (this.shown.faces) this.paintFaces(ranges, front);
+                this.paintFrame(ranges, front);
             }
-            if (body.distance >= limit) this.farther = this.used;
+            if (ranges.distance >= limit) this.farther = this.used;
         }
         return this.used;
     }
 
-    private sortBodies(lens: Lens): void {
-        this.bodies.length = 0;
-        for (const body of this.elements.bodies) {
-            body.distance = distance(body.position, lens);
-            this.bodies.push(body);
+    private sortSlices(lens: Lens): void {
+        this.sliceRanges.length = 0;
+        for (const ranges of this.elements.sliceRanges) {
+            ranges.distance = distance(ranges.position, lens);
+            this.sliceRanges.push(ranges);
         }
-        this.bodies.sort((a, b) => b.distance - a.distance);
+        this.sliceRanges.sort((a, b) => b.distance - a.distance);
     }
 
     /** Determines which faces face the viewer; a vertex or edge is in front if it belongs to such a face. */
-    private findFrontElements({ vertices, edges, faces }: Body, { eye }: Lens): void {
+    private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: Lens): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);
         this.edgeInFront.fill(0, ...edges);
@@ -90,7 +90,7 @@ export class PaintersOrder {
         }
     }
 
-    private sortByDepth({ vertices, edges: range }: Body, { view: { elements: view } }: Lens): void {
+    private sortByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: Lens): void {
         const { depth, order, rank } = this;
         const { points, edges } = this.elements;
         for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -99,10 +99,10 @@ export class PaintersOrder {
         }
         sortByKey(order, vertices, depth, this.scratch);
         for (let i = vertices[0]; i < vertices[1]; ++i) rank[order[i]!] = i;
-        this.bars.sort(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
+        this.edgesByRank.sort(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
     }
 
-    private paintFaces({ faces }: Body, front: number): void {
+    private paintFaces({ faces }: SliceRanges, front: number): void {
         const { cornerBegin, vertexCount, edgeCount } = this.elements;
         for (let f = faces[0]; f < faces[1]; ++f) {
             if (this.faceInFront[f] !== front) continue;
@@ -115,8 +115,8 @@ export class PaintersOrder {
         }
     }
 
-    private paintFrame({ vertices }: Body, front: number): void {
-        const { begin, items } = this.bars;
+    private paintFrame({ vertices }: SliceRanges, front: number): void {
+        const { begin, items } = this.edgesByRank;
         const { balls, bars } = this.shown;
         for (let i = vertices[0]; i < vertices[1]; ++i) {
             const v = this.order[i]!;

@@ -35,7 +35,7 @@ export class ProjectionMesh {
     // The translucent shapes: the first vertex of each, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
-    private depthOf = new Uint8Array(0);
+    private depthKind = new Uint8Array(0);
     private depth = new Float32Array(0);
     private order = new Uint32Array(0);
     private scratch = new Uint32Array(0);
@@ -53,9 +53,9 @@ export class ProjectionMesh {
         let solids = 0;
         const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
-            const addQuad = (opacity: number, depthOf: number): void => {
+            const addQuad = (opacity: number, depthKind: number): void => {
                 if (opacity === 0) this.used -= 4;
-                else if (i > 0 || opacity < 1) this.addTranslucent(4, depthOf);
+                else if (i > 0 || opacity < 1) this.addTranslucent(4, depthKind);
                 else for (const corner of kQuad) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
             const point = (v: number): [number, number, number] => [
@@ -103,7 +103,7 @@ export class ProjectionMesh {
         const heightOf = (points: Float32Array, v: number): number =>
             view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
         for (let i = 0; i < this.count; ++i) {
-            const [first, kind] = [this.first[i]!, this.depthOf[i]!];
+            const [first, kind] = [this.first[i]!, this.depthKind[i]!];
             let height = heightOf(at, first); // toward the viewer
             if (kind === kFarEnd) height = Math.min(height, heightOf(to, first));
             else if (kind === kNearEnd) height = Math.max(height, heightOf(to, first));
@@ -119,7 +119,7 @@ export class ProjectionMesh {
         for (let k = 0; k < this.count; ++k) {
             const i = this.order[k]!;
             const first = this.first[i]!;
-            if (this.depthOf[i] !== kMiddle) for (const corner of kQuad) index[used++] = first + corner;
+            if (this.depthKind[i] !== kMiddle) for (const corner of kQuad) index[used++] = first + corner;
             else {
                 for (let v = 2; v < this.size[i]!; ++v) {
                     index[used++] = first;
@@ -162,10 +162,10 @@ export class ProjectionMesh {
     }
 
     /** Adds a shape that consists of the last vertices. */
-    private addTranslucent(vertices: number, depthOf: number): void {
+    private addTranslucent(vertices: number, depthKind: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;
-        this.depthOf[this.count++] = depthOf;
+        this.depthKind[this.count++] = depthKind;
     }
 
     private reserve(parts: ObjectProjection["parts"]): void {
@@ -178,7 +178,7 @@ export class ProjectionMesh {
         for (const name of ["first", "size", "order", "scratch"] as const) {
             this[name] = ensureCapacity(this[name], quads + faces);
         }
-        this.depthOf = ensureCapacity(this.depthOf, quads + faces);
+        this.depthKind = ensureCapacity(this.depthKind, quads + faces);
         this.depth = ensureCapacity(this.depth, quads + faces);
         const solidGrown = this.solidIndex.reserve(6 * quads);
         const translucentGrown = this.translucentIndex.reserve(6 * quads + 3 * corners);

@@ -19,7 +19,10 @@ export class ShapeBuffers {
     readonly shape = new GrowingBuffer(Int8Array, 4);
     readonly color = new GrowingBuffer(Uint8Array, 4, true);
 
-    /** Makes room for this many vertices; returns whether buffers were replaced, and must be attached again. */
+    /**
+     * Makes room for this many vertices. Returns true if a buffer was reallocated; the caller must then call
+     * attachTo().
+     */
     reserve(vertices: number): boolean {
         let grown = false;
         for (const buffer of [this.at, this.to, this.shape, this.color]) grown = buffer.reserve(vertices) || grown;

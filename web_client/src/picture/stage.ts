@@ -5,8 +5,8 @@ import { pngText, type Orbit, type Slices, type State, type Viewport } from "@ov
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
-import type { Counts, HighlightedElements } from "./highlighted_elements";
-import type { SliceLayout } from "./slice_layout";
+import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
+import type { HitTester } from "./hit_tester";
 
 /** Where the slices are rendered: on this page, or on the server. */
 export type Mode = "geometry" | "frames";
@@ -54,7 +54,7 @@ export class Stage {
     private isDraft = false; // whether a finer picture will follow the newest one
     private unpresentedRevision: number | undefined; // of the picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
-    private readonly painted = new MessageChannel(); // its message is a task after the rendering of the animation frame
+    private readonly afterRendering = new MessageChannel(); // its message arrives after the browser has rendered
     private scheduled = false;
     private limits: SizeLimits = {};
 
@@ -75,7 +75,7 @@ export class Stage {
                 this.events.graphicsChanged(!this.isContextLost);
             });
         }
-        this.painted.port1.onmessage = () => this.reportPresented();
+        this.afterRendering.port1.onmessage = () => this.reportPresented();
         this.updateSize();
         new ResizeObserver(() => this.updateSize()).observe(root);
         this.followPixelRatio();
@@ -95,17 +95,17 @@ export class Stage {
         this.unpresentedRevision = undefined;
     }
 
-    /** Where the slices are on the screen, in device pixels; undefined if the server draws them. */
-    get layout(): SliceLayout | undefined {
-        return this.currentMode === "geometry" ? this.geometry?.layout : undefined;
+    /** The hit tester of the picture, for points in device pixels; undefined if the server draws the picture. */
+    get hitTester(): HitTester | undefined {
+        return this.currentMode === "geometry" ? this.geometry?.hitTester : undefined;
     }
 
     /** Highlights the element under the pointer; the caller then draws. */
-    light(pointed: HighlightedElements | undefined): void {
-        this.geometry?.light(pointed);
+    highlightPointed(pointed: HighlightedElements | undefined): void {
+        this.geometry?.highlightPointed(pointed);
     }
 
-    showSlices(slices: Slices, orbit: Orbit, counts: Counts): void {
+    showSlices(slices: Slices, orbit: Orbit, counts: ElementCounts): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit, counts);
         this.unpresentedRevision = slices.revision;
@@ -166,7 +166,10 @@ export class Stage {
         this.drawNow();
     }
 
-    /** The height of the picture on the page, in CSS pixels. It has fewer device pixels if there would be too many. */
+    /**
+     * The height of the picture on the page, in CSS pixels. The picture has fewer pixels than its area of the screen if
+     * that has more than kMaxPixels or the server's limits allow.
+     */
     get shownHeight(): number {
         return this.root.clientHeight || this.size.height / devicePixelRatio; // nothing has a height in print
     }
@@ -186,7 +189,7 @@ export class Stage {
         if (this.unpresentedRevision === undefined) return;
         this.drawn = { revision: this.unpresentedRevision, by: this.currentMode };
         this.unpresentedRevision = undefined;
-        this.painted.port2.postMessage(null);
+        this.afterRendering.port2.postMessage(null);
     }
 
     private reportPresented(): void {
@@ -197,7 +200,10 @@ export class Stage {
         this.events.presented(revision, by);
     }
 
-    /** Updates the size when the window moves to a screen with another ratio, where its size stays the same. */
+    /**
+     * Updates the size when the window moves to a screen with another pixel ratio. The ResizeObserver does not report
+     * this, because the size in CSS pixels stays the same.
+     */
     private followPixelRatio(): void {
         const changed = (): void => {
             this.updateSize();

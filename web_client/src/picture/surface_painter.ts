@@ -70,7 +70,7 @@ interface Resources {
 }
 
 /** The surfaces of one slice. */
-interface Part {
+interface SliceSurfaces {
     slice: Slice;
     surface: Surface;
     position: Vector;
@@ -81,8 +81,8 @@ interface Part {
 }
 
 export class SurfacePainter {
-    private readonly parts: Part[] = []; // sorted from far to near when they are drawn
-    private readonly spare: Part[] = [];
+    private readonly parts: SliceSurfaces[] = []; // sorted from far to near when they are drawn
+    private readonly spare: SliceSurfaces[] = [];
     private picture: Slices | undefined; // undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
     private resources: Resources | undefined; // created when they are needed
@@ -100,7 +100,7 @@ export class SurfacePainter {
         for (const slice of picture.slices) {
             const { surface, drawn, position } = slice;
             if (!surface || !drawn) continue;
-            const part = this.spare.pop() ?? emptyPart(slice, surface);
+            const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
             Object.assign(part, { slice, surface, position });
             part.groups.update(surface);
             this.parts.push(part);
@@ -203,13 +203,13 @@ export class SurfacePainter {
         // Opaque surfaces need no order, but are drawn faster if the nearer ones come first.
         for (let i = 0; i < parts.length; ++i) {
             const part = parts[opaque ? parts.length - 1 - i : i]!;
-            if (!only || part.slice === only) this.drawPart(part, opaque);
+            if (!only || part.slice === only) this.drawSlice(part, opaque);
         }
         gl.bindVertexArray(null);
         this.renderer.resetState();
     }
 
-    private drawPart(part: Part, opaque: boolean): void {
+    private drawSlice(part: SliceSurfaces, opaque: boolean): void {
         const { gl } = this;
         const { uniforms, buffers } = this.resources!;
         const { position, firstPoint } = part;
@@ -223,7 +223,7 @@ export class SurfacePainter {
         }
     }
 
-    private drawLevel(part: Part, level: SurfaceLevel): void {
+    private drawLevel(part: SliceSurfaces, level: SurfaceLevel): void {
         const { gl } = this;
         const { uniforms } = this.resources!;
         const color = part.surface.color ?? level.color;
@@ -238,7 +238,11 @@ export class SurfacePainter {
     }
 
     /** Draws the triangles of a level, except those that face forward or backward. */
-    private drawSides({ groups, firstByte, firstPoint }: Part, { level, caps }: SurfaceLevel, hidden: GLenum | undefined): void {
+    private drawSides(
+        { groups, firstByte, firstPoint }: SliceSurfaces,
+        { level, caps }: SurfaceLevel,
+        hidden: GLenum | undefined,
+    ): void {
         const { gl } = this;
         const { uniforms } = this.resources!;
         if (hidden === undefined) {
@@ -280,7 +284,7 @@ function isOpaque({ opacity }: SurfaceLevel): boolean {
     return opacity === 1;
 }
 
-function emptyPart(slice: Slice, surface: Surface): Part {
+function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
     return { slice, surface, position: [0, 0, 0], groups: new TriangleGroups(), depth: 0, firstPoint: 0, firstByte: 0 };
 }
 

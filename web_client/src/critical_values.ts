@@ -5,7 +5,7 @@
 import type { Client, Slices, State } from "@oval4d/protocol";
 
 /** A critical w; of a polytope, with the number of vertices that lie there. */
-export interface Level {
+export interface CriticalValue {
     w: number;
     vertices?: number;
 }
@@ -15,17 +15,17 @@ const kRestTime = 200;
 const kFieldRestTime = 1500;
 const kRounding = 1e-6; // circumradii: rounded values that differ by less count as equal
 
-export class CriticalLevels {
+export class CriticalValues {
     /** From the lowest w to the highest; empty before the first are known. */
-    all: Level[] = [];
-    /** Whether they are those of the newest state; otherwise they are those of an earlier one. */
+    all: CriticalValue[] = [];
+    /** Whether `all` and `range` are those of the newest state; otherwise they are those of an earlier one. */
     isCurrent = false;
-    /** Whether they are exact and those of the newest state. */
+    /** Whether `all` and `range` are exact and those of the newest state. */
     isExact = false;
     /** The lowest and the highest w of the object; 0 before they are known. */
     range: [number, number] = [0, 0];
-    private originW = 0; // to add to the w of pictures
-    private knownFor = ""; // what the known or requested levels depend on
+    private originW = 0; // is added to the values of w of pictures
+    private knownFor = ""; // what the known or requested values depend on
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;
@@ -44,7 +44,7 @@ export class CriticalLevels {
         this.isCurrent = this.isExact = false;
         this.restTime = field ? kFieldRestTime : kRestTime;
         if (field) {
-            // Until they are known, the range is that of the slices.
+            // Until the critical values are known, the range is that of the slices.
             const reach = (slices.spacing * (slices.count - 1)) / 2;
             this.all = [];
             this.range = [slices.offset - reach, slices.offset + reach];
@@ -87,7 +87,7 @@ export class CriticalLevels {
             this.isCurrent = this.isExact = true;
             this.onChange();
         } catch {
-            if (this.knownFor === key) this.knownFor = ""; // the next state requests them again
+            if (this.knownFor === key) this.knownFor = ""; // the next state requests the values again
         } finally {
             this.isAsking = false;
             if (this.knownFor !== key && this.knownFor !== "") this.schedule();

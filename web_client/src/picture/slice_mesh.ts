@@ -1,5 +1,6 @@
-// Balls, bars and faces as one mesh. A new picture changes its vertices; a new picture or camera changes its indices,
-// which order all elements from far to near, so that transparency and soft edges are correct without a depth buffer.
+// Balls, bars and faces of all slices as one mesh. A new picture changes its vertices; a new picture or camera changes
+// its indices, which order all elements from far to near, so that transparency and soft edges are correct without a
+// depth buffer.
 
 import { BufferGeometry } from "three";
 
@@ -13,7 +14,7 @@ import { PaintersOrder } from "./painters_order";
 import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 
-export class Mesh {
+export class SliceMesh {
     readonly geometry = new BufferGeometry();
 
     private readonly elements = new SliceElements();
@@ -31,7 +32,7 @@ export class Mesh {
         const { shown } = scene;
         // Without balls, round joints of the bars' radius join the bars.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
-        for (const { slice, vertices, edges } of elements.bodies) {
+        for (const { slice, vertices, edges } of elements.sliceRanges) {
             for (let v = vertices[0]; v < vertices[1]; ++v) {
                 for (let k = 0; k < 4; ++k) {
                     this.writeVertex(4 * v + k, v, kBall, k);
@@ -48,12 +49,12 @@ export class Mesh {
 
     /** Writes the colors of the picture last passed to update(). */
     paint({ scene }: Slices, highlighted: HighlightedElements): void {
-        const { bodies, cornerBegin, vertexCount, edgeCount } = this.elements;
+        const { sliceRanges, cornerBegin, vertexCount, edgeCount } = this.elements;
         const { shown, colors, faded, opacity } = scene;
         const opacities = [0, faded, 1];
         const { shapes } = this;
         const ballColor = shown.balls ? colors.ball : colors.bar;
-        for (const { slice, vertices, edges, faces } of bodies) {
+        for (const { slice, vertices, edges, faces } of sliceRanges) {
             const { of, seen, balls, tints = of.faces } = slice;
             for (let i = 0; i < vertices[1] - vertices[0]; ++i) {
                 const color = highlighted.vertices.has(of.vertices[i]!) ? colors.highlight : ballColor;

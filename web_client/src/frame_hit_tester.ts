@@ -1,17 +1,17 @@
-// Where the slices are in the pictures that the server draws. The page asks when it needs to know, because the answer is
-// as large as a picture of the geometry stream.
+// The hit tester of the pictures that the server draws. The page requests the slices for it only when it needs it,
+// because the answer is as large as a picture of the geometry stream.
 
 import type { Client, State } from "@oval4d/protocol";
 
-import { SliceLayout } from "./picture/slice_layout";
+import { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 
-export class FrameLayout {
+export class FrameHitTester {
     private state: State | undefined;
-    private known: SliceLayout | undefined;
-    private knownFor = ""; // what the known or requested layout depends on
+    private known: HitTester | undefined;
+    private knownFor = ""; // what the known or requested hit tester depends on
 
-    /** `onKnown` is called when a layout that `current` requested has arrived. */
+    /** `onKnown` is called when a hit tester that `current` requested has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
@@ -22,29 +22,29 @@ export class FrameLayout {
         this.state = state;
     }
 
-    /** The layout if it is known; otherwise requests it, and returns undefined. */
-    get current(): SliceLayout | undefined {
+    /** The hit tester if it is known; otherwise requests it, and returns undefined. */
+    get current(): HitTester | undefined {
         if (!this.state) return undefined;
         const { slices, view, shown, projection, polytope } = this.state;
         const key = JSON.stringify([slices, view, shown, projection, polytope.name, this.stage.size]);
         if (key !== this.knownFor) {
             this.knownFor = key;
             this.known = undefined;
-            void this.request().then((layout) => {
+            void this.request().then((hitTester) => {
                 if (this.knownFor !== key) return;
-                this.known = layout;
-                if (layout) this.onKnown();
+                this.known = hitTester;
+                if (hitTester) this.onKnown();
                 else this.knownFor = "";
             });
         }
         return this.known;
     }
 
-    /** Requests the layout of the newest picture; undefined if there is no answer. */
-    async request(): Promise<SliceLayout | undefined> {
+    /** Requests the hit tester of the newest picture; resolves to undefined if there is no answer. */
+    async request(): Promise<HitTester | undefined> {
         try {
             const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
-            return new SliceLayout(slices, this.state!.camera);
+            return new HitTester(slices, this.state!.camera);
         } catch {
             return undefined;
         }

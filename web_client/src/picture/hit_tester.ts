@@ -1,4 +1,4 @@
-// Where the slices of a picture are on the screen.
+// Finds what is at a point of a picture, and the share of its slices that is visible.
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
@@ -9,7 +9,7 @@ import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
 import { topOfCoordinates } from "./overlay";
 
-export class SliceLayout {
+export class HitTester {
     private readonly lens = new Lens();
 
     /** `orbit` is the orbit for which the server placed the camera of this picture. */
@@ -59,7 +59,10 @@ export class SliceLayout {
         return hitAt(this.picture, this.lens, x, y, ratio);
     }
 
-    /** The vertex whose parallel coordinates are at a point of the picture, in pixels. */
+    /**
+     * Returns the index of the vertex in whose parallel-coordinates plot the point (x, y) lies, in pixels; undefined if
+     * there is none.
+     */
     columnAt(x: number, y: number, size: Viewport): number | undefined {
         return this.panelAt(x, y, size) ? undefined : columnAt(this.picture, size, x, y);
     }

@@ -1,0 +1,87 @@
+// Clicks on the picture, and the menu of the element under the pointer.
+
+import type { Command, PolytopeElement, State } from "@oval4d/protocol";
+
+import { ElementMenu, type MenuItem } from "./element_menu";
+import { capitalize } from "./format";
+import type { Point } from "./hover";
+import type { HitTester } from "./picture/hit_tester";
+import type { Stage } from "./picture/stage";
+import type { Pointing } from "./pointing";
+
+const kLeastDisc = 12; // pixels: the radius within which a click hits a slice, however small it is
+
+interface Actions {
+    state: () => State | undefined;
+    /** Resolves to the hit tester of the picture; undefined if it is not known. */
+    hitTester: () => Promise<HitTester | undefined>;
+    /** The user has clicked. */
+    began: () => void;
+    /** Moves the focus point to a point in a panel of the matrix; returns whether there is one. */
+    moveFocusPoint: (at: Point) => boolean;
+    send: (command: Command) => void;
+    exportElement: (element: PolytopeElement) => void;
+}
+
+export class Clicks {
+    private readonly menu: ElementMenu;
+
+    constructor(
+        private readonly drawing: HTMLElement,
+        private readonly stage: Stage,
+        private readonly pointing: Pointing,
+        private readonly actions: Actions,
+    ) {
+        this.menu = new ElementMenu(drawing);
+    }
+
+    /**
+     * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
+     * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click near a slice makes that
+     * slice the focus slice and keeps the highlight, and a click on the background removes the highlight. The point is
+     * in pixels of the drawing. `isTap`: a touch; it also shows the element's name.
+     */
+    async click({ x, y }: Point, isTap: boolean): Promise<void> {
+        const { orbit, size } = this.stage;
+        const ratio = size.height / this.drawing.clientHeight;
+        const hitTester = await this.actions.hitTester();
+        this.actions.began();
+        if (!hitTester) return;
+        const pointed = this.pointing.elementAt(x, y, hitTester);
+        if (!pointed && this.actions.moveFocusPoint({ x, y })) return;
+        if (pointed && isTap) this.pointing.name(pointed, hitTester, { x, y });
+        const slice = pointed
+            ? pointed.slice
+            : hitTester.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
+        const kept = this.actions.state()?.highlight ?? null;
+        const highlight = pointed ? { element: pointed.element, number: pointed.number } : slice ? kept : null;
+        const isKept = highlight?.element === kept?.element && highlight?.number === kept?.number;
+        const change = {
+            ...(slice && !slice.focus && { slices: { focus: slice.index } }),
+            ...(!isKept && { highlight }),
+        };
+        if (Object.keys(change).length > 0) this.actions.send({ type: "set", ...change });
+    }
+
+    /** Lights the element at a point of the drawing, and offers what can be done with it. */
+    async openMenu(at: Point): Promise<boolean> {
+        const hitTester = await this.actions.hitTester();
+        const pointed = hitTester && this.pointing.elementAt(at.x, at.y, hitTester);
+        if (!pointed) return false;
+        const { element, number, slice } = pointed;
+        this.actions.send({ type: "set", highlight: { element, number } });
+        const command = (label: string, line: string): MenuItem => ({
+            label,
+            act: () => this.actions.send({ type: "command", line }),
+        });
+        const focus = slice && !slice.focus && command("Make its slice the focus", `focus ${slice.index}`);
+        this.menu.open(`${capitalize(element)} ${number}`, at, [
+            command("Turn it toward +w", `toward ${element} ${number}`),
+            ...(focus ? [focus] : []),
+            ...(element === "cell" ? [command("Hide its kind of cell", "hide"), command("Fade its kind of cell", "fade")] : []),
+            { label: "Export it…", act: () => this.actions.exportElement({ element, number }) },
+            command("Remove its highlight", "highlight none"),
+        ]);
+        return true;
+    }
+}

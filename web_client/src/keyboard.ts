@@ -1,0 +1,74 @@
+// The keys of the page: finds the action of a key, and executes it here or sends the key to the server.
+
+import type { Command, KeyBinding } from "@oval4d/protocol";
+
+import type { KeyRepeat } from "./key_repeat";
+import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
+import { readStored, writeStored } from "./storage";
+
+const kSingleKeysKey = "oval4d.single_keys"; // lasting storage key of whether keys act without Ctrl
+
+interface Actions {
+    send: (command: Command) => void;
+    /** A key is about to move the focus. */
+    focusMoves: () => void;
+    /** The key Escape was pressed outside dialogs. */
+    escape: (event: KeyboardEvent) => void;
+    /** Executes an action of the camera; returns false if it is another action. */
+    camera: (action: string) => boolean;
+    /** The other actions that only the page executes, by their names in the key table. */
+    page: Readonly<Record<string, () => void>>;
+}
+
+export class Keyboard {
+    /** The key table; empty before the server has sent it. */
+    keys: readonly KeyBinding[] = [];
+    private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
+
+    constructor(
+        private readonly repeat: KeyRepeat,
+        private readonly actions: Actions,
+    ) {}
+
+    /** Whether letters, digits and signs act without Ctrl; the browser remembers it. */
+    get usesSingleKeys(): boolean {
+        return this.actsWithoutCtrl;
+    }
+    set usesSingleKeys(on: boolean) {
+        this.actsWithoutCtrl = on;
+        writeStored(kSingleKeysKey, on, true);
+    }
+
+    keydown(event: KeyboardEvent): void {
+        if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
+        if (event.key === "Escape" && !event.isComposing) this.actions.escape(event);
+        if (isForControl(event)) return;
+        const action = editingAction(event);
+        const stroke = strokeFromEvent(event, this.keys);
+        const binding = this.keys.find((row) =>
+            action ? row.action === action : row.client && row.key === stroke?.key,
+        );
+        if (!binding && !stroke) return;
+        const isSingle = action === undefined && stroke?.key.length === 1 && !stroke.ctrl;
+        if (isSingle && !this.usesSingleKeys) return;
+        event.preventDefault();
+        if (binding) this.press(binding, false, event.repeat);
+        else if (stroke) this.send(stroke, event.repeat);
+    }
+
+    /** Executes the action of a key or a button: one of the page, of the camera, or of the server. */
+    press(binding: KeyBinding, inverse: boolean, held: boolean): void {
+        const act = this.actions.page[binding.action];
+        if (act) act();
+        else if (this.actions.camera(binding.action)) return;
+        else if (held && !this.repeat.mayRepeat) return;
+        else for (const stroke of strokesOfBinding(binding, inverse)) this.send(stroke, false);
+    }
+
+    /** Sends a key to the server. One that is held repeats only when the picture of its last press is shown. */
+    send(stroke: KeyStroke, held: boolean): void {
+        if (held && !this.repeat.mayRepeat) return;
+        if (this.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key))) this.actions.focusMoves();
+        this.actions.send({ type: "key", ...stroke });
+    }
+}

@@ -1,0 +1,117 @@
+// The session that the page shows: which one it joins, and the view with which a new one begins.
+
+import type { Client, Credentials, RequestError, State } from "@oval4d/protocol";
+
+import type { FormulaField } from "./fields";
+import { isFirstVisit, kFirstView } from "./first_visit";
+import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
+
+interface Actions {
+    /** The page shows another session, of which nothing is known yet. */
+    joined: () => void;
+    /** Loads a field, which the panel of fields then shows. */
+    loadField: (field: FormulaField) => Promise<void>;
+    /** Reloads a file that this page had loaded into the lost session. */
+    reloadFile: (name: string) => Promise<unknown>;
+    /** A command of the initial view has produced this revision. */
+    viewShown: (revision: number) => void;
+    tell: (messages: string[]) => void;
+}
+
+export class PageSession {
+    private lostState: State | undefined; // the last state of a lost session, which the new session restores
+
+    /** `view` is what the page shows at the start. */
+    constructor(
+        private readonly client: Client,
+        private readonly view: InitialView,
+        private readonly actions: Actions,
+    ) {}
+
+    /**
+     * On the first visit, makes the first view the initial one, unless the address names another view or session.
+     * Returns whether it has done so.
+     */
+    useFirstView(): boolean {
+        const { credentials, lines, field } = this.view;
+        if (credentials || lines.length > 0 || field || !isFirstVisit()) return false;
+        this.view.lines = [...kFirstView];
+        return true;
+    }
+
+    /** Joins the session of a link that was pasted into the address bar, which does not load the page again. */
+    joinShared(): void {
+        const { credentials, fault } = extractSharedSession();
+        if (fault) this.actions.tell([fault]);
+        if (credentials) this.join(credentials);
+        else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
+    }
+
+    /** Returns to the session of an entry of the browser's history that does not load the page again. */
+    joinSessionOfEntry(): void {
+        const credentials = sessionOfEntry();
+        if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
+    }
+
+    /** Notes that the session is lost. `state` is its last state; the next session gets its view. */
+    lost(reason: string, state: State | undefined): void {
+        this.lostState = state;
+        this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
+        this.actions.tell([
+            state
+                ? `The session has ended (${reason}). This is a new one with the same view.`
+                : `The session cannot be opened (${reason}). This is a new one.`,
+        ]);
+    }
+
+    /** In a new session, restores the view of a lost session or applies the initial view. */
+    async restoreView(): Promise<void> {
+        const { lines, field, faults } = this.view;
+        const lost = this.lostState;
+        this.clearView();
+        this.lostState = undefined;
+        if (lost) await this.restore(lost);
+        if (field) {
+            try {
+                await this.actions.loadField(field);
+            } catch (error) {
+                faults.push(`The address contains “formula=${field.formula}”: ${(error as Error).message}`);
+            }
+        }
+        for (const line of lines) {
+            try {
+                const { revision } = await this.client.request({ type: "command", line });
+                this.actions.viewShown(revision);
+            } catch (error) {
+                faults.push(`The address contains “${line}”: ${(error as Error).message}`);
+            }
+        }
+        this.actions.tell(faults);
+    }
+
+    private join(credentials: Credentials): void {
+        this.clearView(); // another session's view does not apply to this one
+        this.lostState = undefined;
+        this.actions.joined();
+        this.client.credentials = credentials;
+        this.client.connect();
+    }
+
+    private clearView(): void {
+        Object.assign(this.view, { lines: [], faults: [] });
+        delete this.view.field;
+    }
+
+    /** Restores a view. Omits its polytope if it is not available, for example a file that another page has loaded. */
+    private async restore(lost: State): Promise<void> {
+        try {
+            await this.actions.reloadFile(lost.polytope.name);
+            await this.client.request({ ...lost, type: "set", turning: false });
+        } catch (error) {
+            if ((error as RequestError).code === "not_connected") throw error;
+            this.actions.tell([(error as Error).message]);
+            const { polytope, slices, point, hidden, faded, levels, inside, fog, ...rest } = lost;
+            await this.client.request({ ...rest, type: "set", turning: false });
+        }
+    }
+}

@@ -1,0 +1,42 @@
+// Who renders the pictures: this device from slices, or the server.
+
+import type { Mode, Stage } from "./picture/stage";
+import { readStored, writeStored } from "./storage";
+
+const kModeKey = "oval4d.mode"; // storage key
+const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
+
+export class RenderingMode {
+    private chosen = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
+
+    constructor(
+        private readonly stage: Stage,
+        private readonly actions: { changed: (mode: Mode) => void; tell: (message: string) => void },
+    ) {}
+
+    /** Sets the mode for the first pictures. */
+    start(): void {
+        this.stage.mode = this.stage.canDrawGeometry ? this.chosen : "frames";
+    }
+
+    /** Sets the mode that the user chose. */
+    choose(mode: Mode): void {
+        if (mode === "geometry" && !this.stage.canDrawGeometry) return this.actions.tell(kNoGraphics);
+        this.chosen = mode;
+        writeStored(kModeKey, mode);
+        this.set(mode);
+        return undefined;
+    }
+
+    /** Shows the server's pictures while the WebGL context is lost, if this device is chosen to render them. */
+    graphicsChanged(isAvailable: boolean): void {
+        if (this.chosen === "frames") return;
+        this.actions.tell(isAvailable ? "This device renders the pictures again." : kNoGraphics);
+        this.set(isAvailable ? "geometry" : "frames");
+    }
+
+    private set(mode: Mode): void {
+        this.stage.mode = mode;
+        this.actions.changed(mode);
+    }
+}
