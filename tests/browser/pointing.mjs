@@ -286,9 +286,11 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     await page.waitForSelector("#export[open]");
     assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "highlight");
     assert.equal(await page.locator("#export-highlight").textContent(), `cell ${cell}`);
-    await page.keyboard.press("Escape");
-    await page.waitForSelector("#drawing:focus");
-    await page.keyboard.press("x");
+    await page.evaluate(() => {
+        document.getElementById("export").close();
+        const key = new KeyboardEvent("keydown", { key: "x", code: "KeyX", bubbles: true, cancelable: true });
+        document.activeElement.dispatchEvent(key); // in the same task, and thus before the event of the closing
+    });
     await page.waitForSelector("#export[open]");
     assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "focus", "the usual choice is back");
     await page.keyboard.press("Escape");

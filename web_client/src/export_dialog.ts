@@ -30,7 +30,7 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private bodyOfOthers: string | undefined; // the chosen body, while an element without a volume is to be exported
+    private bodyToRestore: string | undefined; // the chosen body, while that of an element without a volume replaces it
     private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
@@ -47,11 +47,12 @@ export class ExportDialog {
             event.preventDefault();
             void this.downloadFile();
         });
-        byId("export").addEventListener("close", () => this.closed());
+        byId("export").addEventListener("close", () => this.dialog.isOpen || this.closed());
     }
 
     /** Opens the dialog; with `of`, that is chosen as the contents of the file until the dialog closes. */
     open(state: State, of?: string): void {
+        this.closed(); // the event of the last closing comes later than the focus returns
         this.isForElement = of !== undefined;
         if (of !== undefined) {
             const format = this.format.of.includes(of) ? this.format : kAllFormats.find((one) => one.of.includes(of));
@@ -153,15 +154,16 @@ export class ExportDialog {
     private storeChoices(): void {
         const choices = this.formValues();
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
-        else if (this.bodyOfOthers !== undefined) choices["body"] = this.bodyOfOthers;
+        else if (this.bodyToRestore !== undefined) choices["body"] = this.bodyToRestore;
         writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...choices });
     }
 
     private closed(): void {
         this.abandonRequest();
         if (!this.isForElement) return;
+        this.isForElement = false;
         this.form.reset();
-        this.bodyOfOthers = undefined;
+        this.bodyToRestore = undefined;
         this.restoreChoices();
     }
 
@@ -212,11 +214,11 @@ export class ExportDialog {
         const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
         const body = this.field("body");
         if (isFlat) {
-            this.bodyOfOthers ??= body.value;
+            this.bodyToRestore ??= body.value;
             body.value = "skeleton";
-        } else if (this.bodyOfOthers !== undefined) {
-            body.value = this.bodyOfOthers;
-            this.bodyOfOthers = undefined;
+        } else if (this.bodyToRestore !== undefined) {
+            body.value = this.bodyToRestore;
+            this.bodyToRestore = undefined;
         }
         const solid = this.form.querySelector<HTMLInputElement>('[name=body][value="solid"]')!;
         solid.disabled = solid.parentElement!.hidden = isFlat;
