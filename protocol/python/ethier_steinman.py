@@ -7,13 +7,14 @@ Numerical Methods in Fluids 19 (1994), 369–375. Needs python3-numpy, and pytho
 import numpy
 from oval4d_client import connect
 
-A, D = numpy.pi / 4, numpy.pi / 2
+A, D = numpy.pi / 4, numpy.pi / 2  # the parameters a and d of the paper
 FILE = "ethier_steinman.nc"
-SIZE, MOMENTS, DURATION = 48, 24, 0.6
+SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; moments; the last moment
 
 
 def velocity(x, y, z, t):
-    """Returns the three components at unit viscosity, on the cube from −1 to 1."""
+    """Returns the three components of the velocity at (x, y, z), from −1 to 1 along each axis, at the time t. The
+    viscosity is 1."""
     def component(p, q, r):
         return -A * (numpy.exp(A * p) * numpy.sin(A * q + D * r) + numpy.exp(A * r) * numpy.cos(A * p + D * q))
 
@@ -22,7 +23,8 @@ def velocity(x, y, z, t):
 
 
 def create(path):
-    """Opens a new NetCDF file with either library; the returned function adds a variable."""
+    """Opens a new NetCDF file with the library that is installed. Returns the file, and a function that adds a
+    variable."""
     try:
         from netCDF4 import Dataset
         file = Dataset(path, "w", format="NETCDF3_64BIT_OFFSET")

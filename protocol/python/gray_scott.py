@@ -7,12 +7,12 @@ import numpy
 from oval4d_client import connect
 
 URL = "http://127.0.0.1:8080/"
-SIZE, MOMENTS, STEPS = 64, 100, 40  # the samples along each axis; the moments, and the steps of time between them
+SIZE, MOMENTS, STEPS = 64, 100, 40  # samples along each axis; moments; steps of time from one moment to the next
 DIFFUSION_U, DIFFUSION_V, FEED, KILL = 0.16, 0.08, 0.035, 0.060
 
 
 def laplacian(values):
-    """The differences from the six neighbors, in a cube whose opposite sides are joined."""
+    """Returns the sum of the six neighbors minus six times the value. Opposite sides of the cube are joined."""
     return sum(numpy.roll(values, step, axis) for axis in range(3) for step in (1, -1)) - 6 * values
 
 

@@ -14,11 +14,12 @@ import numpy
 import zarr
 
 CHUNK = (1, 128, 128, 128)  # t z y x, 8 MB; a chunk is read as a whole
-SMALLEST = 1 << 24          # samples below which there is no coarser level
+SMALLEST = 1 << 24          # a level with at most so many samples has no coarser one
 
 
 def source_of(name):
-    """Returns the source as a lazy array t z y x of 32-bit floats. Other sources: dask.array.from_array(h5py_dataset)."""
+    """Returns the source as a lazy array t z y x of 32-bit floats. To read another format, such as HDF5, return
+    dask.array.from_array(h5py_dataset) instead."""
     path, _, variable = name.partition("::")
     if path.endswith(".npy"):
         array = dask.array.from_array(numpy.load(path, mmap_mode="r"), chunks=CHUNK)
@@ -29,14 +30,15 @@ def source_of(name):
 
 
 def coarser(array):
-    """Returns the means of 2 × 2 × 2 × 2 samples; an odd sample at the end of an axis is left out."""
+    """Returns the means of 2 × 2 × 2 × 2 samples. An axis with one sample stays; an odd sample at the end of an axis is
+    left out."""
     axes = {axis: 2 for axis, size in enumerate(array.shape) if size > 1}
     return dask.array.coarsen(numpy.mean, array, axes, trim_excess=True).astype("<f4")
 
 
 def write_levels(array, folder):
-    """Writes each level from the one before, so that the source is read once."""
-    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # a folder for each index of the chunks
+    """Writes each level from the level before it, so that the source is read only once."""
+    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # chunk t/z/y/x: one folder per index
     first, levels, steps = numpy.zeros(4), [], numpy.ones(4)
     while True:
         path = str(len(levels))
@@ -49,7 +51,7 @@ def write_levels(array, folder):
         if array.size <= SMALLEST:
             break
         halved = numpy.array([2 if size > 1 else 1 for size in array.shape])
-        first, steps = first + steps * (halved - 1) / 2, steps * halved  # a mean lies between its samples
+        first, steps = first + steps * (halved - 1) / 2, steps * halved  # a mean lies in the middle of its samples
         array = coarser(dask.array.from_array(level, chunks=chunk))
     group.attrs["multiscales"] = [{"version": "0.4", "axes": [
         {"name": "t", "type": "time"}, *({"name": name, "type": "space"} for name in "zyx")], "datasets": levels}]

@@ -7,8 +7,9 @@
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
 ../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
-slices in CBOR; with python3-numpy, arrays can be shown as fields, and surfaces are its arrays. A separate thread handles the socket.
-Therefore any thread may call the client, and the connection stays open while a script is idle.
+slices in CBOR. With python3-numpy, arrays can be shown as fields, and the surfaces in slices are numpy arrays. A
+separate thread handles the socket. Therefore any thread may call the client, and the connection stays open while a
+script is idle.
 
 It is one file, although it is long, so that a project can copy it.
 """
@@ -42,14 +43,15 @@ except ImportError:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
+# The numpy types of the arrays of a surface.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
-MAX_DATA = 1 << 20  # bytes of a file that is sent in a message; a larger one is uploaded by HTTP
-RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the client reconnects to its session
+MAX_DATA = 1 << 20  # bytes: a larger file is uploaded by HTTP instead of sent in a message
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the client reconnects; None: it broke
 
 
 class Refused(Exception):
-    """The server answered with an error; `code` is one of ../errors.json."""
+    """The server refused a request; `code` is one of ../errors.json or, after an upload, an HTTP status."""
 
     def __init__(self, code, message):
         super().__init__(f"{code}: {message}")
@@ -67,13 +69,13 @@ class Closed(Exception):
 
 
 def _json(message):
-    """Returns a message as JSON."""
+    """Returns a message as JSON. Raises TypeError or ValueError if JSON cannot contain it."""
     def plain(value):
         if hasattr(value, "tolist"):  # numpy's numbers and arrays
             listed = value.tolist()
             if not hasattr(listed, "tolist"):
                 return listed
-            if hasattr(listed, "is_integer"):  # numpy.longdouble, which is no number of Python
+            if hasattr(listed, "is_integer"):  # numpy.longdouble: tolist() does not convert it
                 return float(listed)
         raise TypeError(f"a message cannot contain {value!r}")
 
@@ -89,23 +91,24 @@ def _json(message):
 
 
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
-    """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens a new session, or the
-    session with the name `session`, or that of a link that the page's button Share has copied; hello() sends the token of
-    such a link. In a new session, hello() shows the view of the query of `url`, such as "?polytope=24-cell". The options
-    are those of Client. Raises ValueError if the link is damaged."""
+    """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens the session with the name
+    `session`. Without a name, `url` may be a link that the page's button Share has copied: it names a session, and
+    hello() sends its token. Otherwise opens a new session, in which hello() shows the view of the query of `url`, such
+    as "?polytope=24-cell". The options are those of Client. Raises ValueError if the link is damaged."""
     shared = dict(parse_qsl(urlsplit(url).fragment, keep_blank_values=True))
     if shared and not (shared.get("session") and shared.get("token")):
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
     session = session or shared.get("session")
     parts = urlsplit(url)
-    access = [part for part in parts.query.split("&") if part.startswith("token=")]  # the server's own token
+    access = [part for part in parts.query.split("&") if part.startswith("token=")]  # the server's, not a session's
     has_view = not session and len(access) < len([part for part in parts.query.split("&") if part])
     address = socket_url(urlunsplit(parts._replace(query="&".join(access))), session)
     return Client(address, token=shared.get("token"), view=parts.query if has_view else "", **options)
 
 
 def socket_url(url, session=None):
-    """Returns the WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
+    """Returns the WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query. With a
+    session, its path ends in /ws/session."""
     parts = urlsplit(url)
     scheme = {"http": "ws", "https": "wss"}.get(parts.scheme, parts.scheme)
     path = parts.path.rstrip("/") + "/ws" + (f"/{quote(session, safe='')}" if session else "")
@@ -114,8 +117,9 @@ def socket_url(url, session=None):
 
 class Client:
     """A connection to one session. `timeout` (seconds) applies to every call. If `show` is true, pictures of the stream
-    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection. `token` is
-    that of an existing session. `view` is the query of an address, whose view the first hello() shows.
+    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection. `token`
+    is the token of an existing session. `view` is the query of an address; the first hello() shows the view that it
+    describes.
 
     If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
     with growing pauses, for `timeout` seconds. Calls wait in the meantime. A call that was in progress raises Closed,
@@ -131,18 +135,18 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        self.welcome = None  # the newest message of each kind, None before the first
+        self.welcome = None  # this and the next three: the newest message of each kind, None before the first
         self.newest_state = None
         self.newest_slices = None
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
-        self._live = None  # called with each picture of the stream
-        self._held = None  # a picture that may be the answer to a request, or one of the stream
+        self._live = None  # a function that live() sets, called with each frame of the stream
+        self._held = None  # a frame that is the answer to a request or part of the stream; the next message tells which
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
-        self._waiting = {}  # for the id of each call in progress: its answer, None until it arrives
-        self._wants_bytes = set()  # ids of calls that are answered by a binary message, which precedes their done
-        self._binary = None
+        self._waiting = {}  # for the id of each call in progress: its answer, or None until the answer arrives
+        self._wants_bytes = set()  # ids of calls that a binary message answers; their done follows it
+        self._binary = None  # the newest frame or file, whose done may follow
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -157,7 +161,7 @@ class Client:
     # Messages
 
     def hello(self, stream="none", **members):
-        """Sends the first message. `stream` is "geometry", "frames" or "none"; the other members are width, height,
+        """Sends the first message. `stream` is "geometry", "frames" or "none"; `members` may be width, height,
         encoding, scheme and token. Then shows the view of the address given to connect(), if there is one."""
         welcome = self.request("hello", stream=stream, **self._token | members)
         view, self._view = self._view, ""
@@ -173,7 +177,8 @@ class Client:
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
     def toward(self, element, number=None, immediately=False):
-        """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number, or else the closest one."""
+        """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number or, if it is None, the closest
+        one; if that is already there, the next one."""
         chosen = {} if number is None else {"number": number}
         return self.request("toward", element=element, immediately=immediately, **chosen)
 
@@ -181,8 +186,8 @@ class Client:
         return self.request("set", **settings)
 
     def restore(self, source):
-        """Shows the state in a picture that oval4d has made, without turning. `source` is the path of a PNG file or of a
-        state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it contains no state."""
+        """Shows the state in a picture that oval4d has made, but does not start turning. `source` is the path of a PNG
+        file or of a state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it has no state."""
         if isinstance(source, (str, os.PathLike)):
             with open(source, "rb") as file:
                 source = file.read()
@@ -207,44 +212,45 @@ class Client:
         return self.request("command", line=line)
 
     def load(self, name, data, format="off", box=None, **members):
-        """Loads an object from the text of a file, or a formula, and shows it. `box` is that of formula(); the other
-        members are those of `load`, such as axes."""
+        """Loads an object and shows it. `data` is the text of a file, or a formula. `box` is as in formula(); the other
+        members are those of the message `load`, such as axes."""
         domain = {} if box is None else {"box": [[float(low), float(high)] for low, high in box]}
         return self.request("load", name=name, data=data, format=format, **domain, **members)
 
     def formula(self, formula, box=None, levels=None, inside=None, name="formula", values=None):
         """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain, four
         pairs of numbers; without it, all coordinates are from -2 to 2. `levels` are up to four values at which surfaces
-        are shown, at first only 0; `inside` is "below" (at first) or "above". The surfaces are colored by `values`, a
-        formula such as "a*x", if it is given. All of it is one step of undo. If the levels are refused, the field is
-        shown without them."""
+        are shown; without them, 0. `inside` is "below" or "above"; without it, "below". If `values` is given, a formula
+        such as "a*x", its values color the surfaces. All this is one step of undo. If the levels are refused, the field
+        is shown without them."""
         colored = {} if values is None else {"values": values}
         return self._show(self.load(name, formula, "formula", box, **colored), levels, inside)
 
     def field(self, name, array, axes=None, spacing=None, origin=None, levels=None, inside=None, values=None):
-        """Shows a numpy array of 1 to 4 dimensions as a field. `axes` are those of its indices, "tzyx" or the last of
-        these if it is None; t means w. `spacing` (a number, or four along x, y, z and w) is the distance between samples,
-        and `origin` (four numbers) the place of the first one; without both, the server chooses them. `levels` and
-        `inside` are those of formula(), but at first the level is in the middle of the values, and the inside above. The
-        surfaces are colored by `values`, another array of the same shape, or a formula of x, y, z and w in the units of
-        the box."""
+        """Shows a numpy array of 1 to 4 dimensions as a field. `axes` names the axis of each index; t means w. If it is
+        None, it is "tzyx" or, with fewer dimensions, the end of this. `spacing` (a number, or four along x, y, z and w)
+        is the distance between samples, and `origin` (four numbers) the place of the first one; without both, the
+        server chooses them. `levels` and `inside` are as in formula(), but without them, the level is in the middle of
+        the values, and the inside is above. If `values` is given, its values color the surfaces: another array of the
+        same shape, or a formula of x, y, z and w in the units of the box."""
         samples = _samples(array)
         axes = axes or "tzyx"[-samples.ndim :]
         box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
         return self._show(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
 
     def append(self, name, array, axes=None, values=None):
-        """Adds a moment, a numpy array with the axes "zyx", or several, "tzyx", at the end of w of the field `name`, for
-        example while a simulation runs. A field with an array of `values` needs those of the moment. The settings stay
-        the same. It is no step of undo."""
+        """Adds moments at the end of w of the field `name`, for example while a simulation runs. The numpy array is one
+        moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the moments
+        need one, too. The settings stay the same. There is no step of undo."""
         samples = _samples(array)
         return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
 
     def upload(self, name, data, format=None, axes=None, box=None, variable=None, append=False, values=None,
                values_variable=None):
-        """Loads the bytes of an array's file, or a file that is open in binary mode, by HTTP. `format` is "npy",
-        "netcdf", "hdf5" or "nifti"; the server detects it if it is None. `box` is that of formula(). The surfaces are
-        colored by the formula `values`, or by the array `values_variable` of the same file."""
+        """Uploads the file of an array by HTTP, and shows it as a field. `data` is its bytes, or a file that is open in
+        binary mode. `format` is "npy", "netcdf", "hdf5" or "nifti"; if it is None, the server detects it. `box` is as
+        in formula(). The formula `values`, or the array `values_variable` of the same file, colors the surfaces. If
+        `append` is true, adds the moments in the file, as append() does."""
         flat = None if box is None else ",".join(repr(float(end)) for side in box for end in side)
         query = {"format": format, "axes": axes, "box": flat, "variable": variable, "values": values,
                  "values_variable": values_variable}
@@ -253,7 +259,7 @@ class Client:
         path += "/fields/" + quote(name, safe="") + ("/moments" if append else "")
         query = "&".join(filter(None, [parts.query, urlencode({k: v for k, v in query.items() if v}, quote_via=quote)]))
         size = len(data) if isinstance(data, (bytes, bytearray, memoryview)) else data.seek(0, io.SEEK_END)
-        if size > self.welcome["limits"]["upload"]:  # the server would close the connection before it has read the file
+        if size > self.welcome["limits"]["upload"]:  # the server would close the connection while it receives the file
             raise Refused("too_large", f"the server accepts files of at most {self.welcome['limits']['upload']} bytes")
         if hasattr(data, "seek"):
             data.seek(0)
@@ -308,16 +314,17 @@ class Client:
         return self.get("state")
 
     def slices(self, width=None, height=None, background=None):
-        """Returns a slices message. A slice of a field has a "surface" if its hyperplane meets one. Its "points",
-        "normals" and "triangles" are numpy arrays of shape (n, 3), and its "level", "cap", "colors" and "cap_colors" of
-        shape (n,); without numpy, they are lists. The triangles, which are triples of points, are counterclockwise as seen from
-        outside, and those of each level form a closed surface. If the field has fog, the slice has a "fog": its "values"
-        are a numpy array with the indices z, y, x; without numpy, they are bytes, x fastest."""
+        """Returns a slices message. A slice of a field has a "surface" if its hyperplane meets one. In the surface,
+        "points", "normals" and "triangles" are numpy arrays of shape (n, 3), and "level", "cap", "colors" and
+        "cap_colors" are numpy arrays of shape (n,); without numpy, all are lists. The triangles are triples of points,
+        counterclockwise as seen from outside; the triangles of each level form a closed surface. If the field has fog,
+        the slice has a "fog": its "values" are a numpy array with the indices z, y, x; without numpy, they are bytes
+        with x fastest."""
         return self.get("slices", width, height, background)
 
     def frame(self, width=None, height=None, background=None):
-        """Returns a picture as the bytes of a PNG file. `background` is "dark", "light", "white" or "transparent"; if it
-        is None, that of the session."""
+        """Returns a picture as the bytes of a PNG file. `background` is "dark", "light", "white" or "transparent"; if
+        it is None, the background of the session applies."""
         return self.get("frame", width, height, background)
 
     def _repr_png_(self):
@@ -325,8 +332,8 @@ class Client:
         return self.frame(960, 540)
 
     def live(self, width=960, height=540):
-        """Shows the picture in a notebook, and renews it after every change of the session: by this script, on the page,
-        or by other clients. The stream is then "frames". Needs IPython, which every notebook has."""
+        """Shows the picture in a notebook, and renews it after every change of the session: by this script, on the
+        page, or by other clients. The stream is then "frames". Needs IPython, which every notebook has."""
         from IPython.display import Image, display
 
         def picture(png):
@@ -341,19 +348,19 @@ class Client:
         self._live = lambda png: handle.update(picture(png))
 
     def at(self, x, y, width=None, height=None):
-        """Returns what the picture shows at a point, in pixels from the upper left corner."""
+        """Returns what the picture shows at the point (x, y), in pixels from the upper left corner."""
         size = {} if width is None else {"width": width, "height": height}
         return self.request("get", what="at", x=x, y=y, **size)
 
     def file(self, format, **members):
-        """Returns the bytes of an exported file. `format` is "stl", "3mf", …; the other members are of, body, size, label,
-        at and fit, as in `get`. Issues a UserWarning for what the file lacks, such as slices that are empty."""
+        """Returns the bytes of an exported file. `format` is "stl", "3mf", …; `members` may be of, body, size, label,
+        at and fit, as in the message `get`. Issues a UserWarning for what the file lacks, such as empty slices."""
         return self.request("get", what="file", format=format, **members)
 
     def critical(self):
-        """Returns the critical message: where the section by the hyperplane w changes its type. Its "sections", in the
-        order of w, have "w" and "change"; those of a field also "level", and "components", "cavities" and "euler" of
-        the body below and above w. Finding those of a field may take seconds."""
+        """Returns the critical message: the values of w at which the section by the hyperplane w changes its type. Its
+        "sections", in the order of w, have "w" and "change"; those of a field also have "level", and "components",
+        "cavities" and "euler" of the body below and above w. For a field, the search may take seconds."""
         return self.get("critical")
 
     def catalogue(self):
@@ -385,7 +392,8 @@ class Client:
     # Transport
 
     def request(self, type, **members):
-        """Sends a message with an id and returns the answer; raises Refused if the answer is an error."""
+        """Sends a message with an id, and returns the answer. Raises Refused if the answer is an error, Closed if the
+        connection ends, and TimeoutError if no answer arrives."""
         if type == "hello":
             self._stream = members.get("stream", "none")
             self._hello = members
@@ -409,13 +417,13 @@ class Client:
         if isinstance(answer, tuple):
             answer, lacks = answer
             for text in lacks:
-                warnings.warn(text, stacklevel=3)  # at the caller of file()
+                warnings.warn(text, stacklevel=3)  # names the line that called file()
         return answer
 
     def send(self, message):
-        """Sends a message without an id, and does not wait: a dict as JSON, in which numpy's numbers and arrays may stand
-        for numbers and lists; text and bytes unchanged. Raises ValueError if JSON cannot contain the dict: numbers that
-        are not finite, and text that is not Unicode."""
+        """Sends a message without an id, and does not wait for an answer. A dict is sent as JSON, in which numpy's
+        numbers and arrays become numbers and lists; text and bytes are sent unchanged. Raises ValueError if JSON cannot
+        contain the dict, because it has numbers that are not finite or text that is not Unicode."""
         if isinstance(message, dict):
             message = _json(message)
         self._wait_for(lambda: not self._reconnecting, None, "the server")
@@ -524,8 +532,8 @@ class Client:
         return picture
 
     def _follow(self, message, is_picture):
-        """Shows a picture of the stream by live(). One that arrives while a frame is asked for may be the answer: if so, a
-        done comes next."""
+        """Passes the frames of the stream to the function that live() has set. A frame that arrives while a call waits
+        for one may be its answer; then a done comes next, and the frame is not passed on."""
         held, self._held = self._held, None
         shown = [] if held is None or (isinstance(message, str) and '"type":"done"' in message[:100]) else [held]
         if is_picture and isinstance(message, bytes) and message.startswith(PNG):
@@ -561,7 +569,7 @@ class Client:
 
 
 def _samples(values):
-    """Returns an array without the digits that the server does not keep: it computes with float32."""
+    """Returns a numpy array, in which long floats are shortened to float32, with which the server computes."""
     if numpy is None:
         raise ImportError("arrays need python3-numpy")
     values = numpy.asarray(values)
@@ -569,7 +577,8 @@ def _samples(values):
 
 
 def _netcdf(arrays):
-    """Returns a NetCDF file (classic, with 64-bit offsets) with these arrays of one shape, as float32."""
+    """Returns a NetCDF file (classic, with 64-bit offsets) that contains these arrays as float32. `arrays` is a dict of
+    numpy arrays by name, all of the same shape."""
     shape = next(iter(arrays.values())).shape
     if any(values.shape != shape for values in arrays.values()):
         raise ValueError("the arrays must have the same shape")
@@ -581,7 +590,7 @@ def _netcdf(arrays):
         return struct.pack(">ii", tag, len(items)) + b"".join(items)
 
     data = [values.astype(">f4").tobytes() for values in arrays.values()]
-    absent, number, dimension, variable = bytes(8), 5, 10, 11  # tags of the format
+    absent, number, dimension, variable = bytes(8), 5, 10, 11  # an empty list, and tags of the format
 
     def header(begin):
         dimensions = [text(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
@@ -597,7 +606,8 @@ def _netcdf(arrays):
 
 
 def _box(shape, axes, spacing, origin):
-    """Returns the box of an array; an axis that the array does not have gets no extent."""
+    """Returns the box of an array, a pair of ends for each of x, y, z and w. Both ends are equal along an axis that the
+    array does not have."""
     spacing = (1 if spacing is None else spacing,) * 4 if spacing is None or numpy.isscalar(spacing) else spacing
     sizes = dict(zip(axes.replace("t", "w"), shape))
     lows = origin or (0, 0, 0, 0)
@@ -624,7 +634,7 @@ def png_state(png):
 
 
 def from_json(text):
-    """Returns a message in JSON as a dict. The surfaces of a slices message have the form that slices() describes."""
+    """Returns a JSON message as a dict. The surfaces of a slices message have the form that slices() describes."""
     message = json.loads(text)
     if isinstance(message, dict) and message.get("type") == "slices":
         for piece in message["slices"]:
@@ -638,9 +648,8 @@ def from_json(text):
 
 
 def from_cbor(data):
-    """Returns a slices message that is encoded in CBOR as a dict, with one dict per slice. Typed arrays become
-    array.array of floats or integers; surfaces have the form that slices() describes. Raises ValueError if the bytes
-    are not such a message."""
+    """Decodes a slices message in CBOR to a dict, with one dict per slice. Typed arrays become array.array of floats or
+    integers; surfaces have the form that slices() describes. Raises ValueError if the bytes are not such a message."""
     if cbor2 is None:
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
@@ -667,8 +676,8 @@ def _rows(flat, sizes, width=1):
 
 
 def _elements_of(columns):
-    """Returns one dict per slice, or per part of the projection, with its elements. `columns` has one array per property,
-    with the values of all slices."""
+    """Returns one dict per slice, or per part of the projection, with its elements. `columns` has one array per
+    property, with the values of all slices."""
     counts = columns["counts"]
 
     def of_each(lists):
@@ -732,7 +741,7 @@ def _fogs_of(columns):
 
 
 def _lattice(values, size):
-    """Returns the values of fog, x fastest, as slices() describes them."""
+    """Returns the values of fog, whose x varies fastest, in the form that slices() describes."""
     if numpy is not None:
         return numpy.frombuffer(bytearray(values), numpy.uint8).reshape(tuple(reversed(size)))
     return bytes(values)

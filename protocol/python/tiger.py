@@ -8,7 +8,8 @@ A, B, TUBE = 1, 0.8, 0.3  # the radii of the circles and of the tube
 
 
 def volume(surface):
-    """Returns the volume that a closed surface of triangles bounds: the sum of tetrahedra with a corner at the origin."""
+    """Returns the volume inside a closed surface of triangles: the sum of the signed volumes of the tetrahedra between
+    the triangles and the origin."""
     points, total = surface["points"], 0
     for a, b, c in surface["triangles"]:
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = points[a], points[b], points[c]

@@ -1,7 +1,7 @@
-// Memory for the typed arrays of one message, which is reused for the next message. Its size is a power of two, so
-// messages of about the same size do not allocate memory.
+// Memory for the typed arrays of one message; the arrays of the next message take the same memory. Its size is a power
+// of two, so that messages of about the same size need no new memory.
 
-/** The class of a typed array. */
+/** The class of a typed array, such as Float32Array. */
 export type Numbers<T> = { new (memory: ArrayBuffer, offset: number, length: number): T; BYTES_PER_ELEMENT: number };
 
 export class Arena {
@@ -14,7 +14,7 @@ export class Arena {
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
     }
 
-    /** Returns an array of numbers with these little-endian bytes; undefined if there is not enough memory. */
+    /** Copies little-endian bytes into an array of numbers, and returns it; undefined if there is not enough memory. */
     take<T>(bytes: Uint8Array, numbers: Numbers<T>): T | undefined {
         const room = this.room(bytes.length / numbers.BYTES_PER_ELEMENT, numbers);
         if (room) new Uint8Array(this.memory, this.used - bytes.length, bytes.length).set(bytes);

@@ -1,5 +1,5 @@
-// Builds the npm package: dist/index.js, and the types beside it. npm runs this when it installs the folder, without the
-// packages that only the build needs; these are installed first.
+// Builds the npm package: dist/index.js, and the types beside it. npm runs this script when it installs the folder, but
+// does not install the packages that only the build needs. Therefore the script installs them first.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { rm } from "node:fs/promises";

@@ -1,5 +1,5 @@
-// A connection to one session. If it breaks, the client reconnects automatically and uses the token to return to the
-// session. The client reports the status of the connection.
+// A connection to one session. If it breaks, the client reconnects automatically, and uses the token to return to the
+// session. It reports the status of the connection.
 
 import { Arena } from "./arena.js";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
@@ -15,22 +15,25 @@ export interface Credentials {
 }
 
 export type Status =
-    | { kind: "connecting"; isBlocked?: true } // isBlocked: the server answers, but no WebSocket opens
+    | { kind: "connecting"; isBlocked?: true } // isBlocked: the server answers over HTTP, but no WebSocket opens
     | { kind: "open" }
-    | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true } // `seconds` until the next attempt
+    | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true } // `seconds`: until the next attempt
     | { kind: "closed"; reason: string };
 
 export interface Options {
-    /** The address of the service, as typed into a browser, including a path prefix. */
+    /** The address of the service, as typed into a browser, including its path prefix if there is one. */
     url: string | URL;
+    /** "none" if absent. */
     stream?: Stream;
+    /** "json" if absent. */
     encoding?: Encoding;
+    /** The size of pictures; if absent, the server's default. */
     viewport?: Viewport;
-    /** The scheme of pictures whose background is `auto`. */
+    /** The scheme of pictures whose background is `auto`; "dark" if absent. */
     scheme?: Scheme;
     /** The session to open. If absent, a new session is created. */
     credentials?: Credentials;
-    /** If true, the arrays passed to `onSlices` are valid only until the next message, which avoids allocations. */
+    /** If true, the arrays passed to `onSlices` are valid only until the next message, which reuses their memory. */
     transient?: boolean;
     /** The WebSocket class to use, for runtimes that do not have a built-in one. */
     webSocket?: new (url: string, protocols: string) => WebSocket;
@@ -42,7 +45,7 @@ export interface Options {
     onSlices?(slices: Slices): void;
     /** Called with each picture of a frame stream, a PNG file. Call `shown` once the picture is presented. */
     onFrame?(png: Uint8Array): unknown;
-    /** Called with the answer to come of each request, including those that the client makes itself. */
+    /** Called for each request, also those that the client makes itself, with a promise of the answer. */
     onRequest?(answer: Promise<unknown>): void;
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
@@ -50,7 +53,7 @@ export interface Options {
     onLost?(reason: string): void;
 }
 
-/** The error of a request that failed: an error message from the server, or "not_connected". */
+/** The reason why a request failed: `code` is that of the server's error message, or "not_connected". */
 export class RequestError extends Error {
     constructor(
         readonly code: string,
@@ -61,7 +64,7 @@ export class RequestError extends Error {
     }
 }
 
-/** The answers to the requests of type "get". */
+/** The answers to the requests of type "get", by their member `what`. */
 interface GetAnswers extends Record<GetRequest["what"], unknown> {
     state: State;
     slices: Slices;
@@ -75,6 +78,7 @@ interface GetAnswers extends Record<GetRequest["what"], unknown> {
 }
 
 interface PendingRequest {
+    /** The kind of message that answers the request; a frame or a file arrives before its `done`. */
     wants: "frame" | "file" | "slices" | "message";
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
@@ -82,14 +86,14 @@ interface PendingRequest {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kReconnectDelay = 0.1; // seconds after an open connection ended; short, since another server may be available
-const kFirstRetryDelay = 0.5; // seconds after the first failed attempt, doubled at each further failure
-const kMaxRetryDelay = 15; // seconds
+const kReconnectDelay = 0.1; // seconds after an open connection ended; short, because another server may answer
+const kFirstRetryDelay = 0.5; // seconds from the first failed attempt to the next, doubled after each further failure
+const kMaxRetryDelay = 15; // seconds: the longest delay between two attempts
 const kOpeningTimeout = 5; // seconds within which a WebSocket must open
-const kProbeTimeout = 3; // seconds within which the server must answer when no WebSocket opens
+const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // the same while a file is exported: the server answers only when it is complete
+const kFileTestTimeout = 300; // the same while a file is requested: the answer to the test follows the file
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -118,7 +122,7 @@ export class Client {
         };
     }
 
-    /** Connects at once, without waiting for the reconnection delay. */
+    /** Connects at once, without waiting for the reconnection delay. Ends a connection that exists. */
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
@@ -133,11 +137,11 @@ export class Client {
         socket.binaryType = "arraybuffer";
         socket.onopen = () => {
             clearTimeout(this.timer);
-            this.hello({}).catch(() => {}); // after a refusal the socket closes; onclose handles it
+            this.hello({}).catch(() => {}); // after a refusal, the socket closes and onclose handles this
         };
         socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(event.code, event.reason);
-        socket.onerror = () => {}; // onclose follows
+        socket.onerror = () => {}; // the event `close` follows each `error`
         this.socket = socket;
         this.timer = setTimeout(() => this.closed(1006, ""), kOpeningTimeout * 1000);
     }
@@ -154,11 +158,12 @@ export class Client {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        // A scheme is sent only if it is "light": servers of earlier versions know none, and draw dark pictures.
+        // A scheme is sent only if it is "light": servers of earlier versions do not know it, and draw dark pictures.
         const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
         return this.request({ type: "hello", stream, encoding, ...own });
     }
 
+    /** Sends a request; resolves to its answer. Rejects with RequestError if it is refused, or without a connection. */
     request(message: HelloRequest): Promise<Welcome>;
     request(message: PingRequest): Promise<Pong>;
     request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswers[What]>;
@@ -179,12 +184,12 @@ export class Client {
         return answer;
     }
 
-    /** The number of bytes that are queued to be sent to the server. */
+    /** The number of bytes that wait to be sent to the server. */
     get unsent(): number {
         return this.socket?.bufferedAmount ?? 0;
     }
 
-    /** Tells the server that a picture has been presented, so that it sends the next one. */
+    /** Tells the server that a picture has been presented, so that the server sends the next one. */
     shown(revision: number): void {
         this.send({ type: "shown", revision });
     }
@@ -244,7 +249,7 @@ export class Client {
         return [...this.pending.values()].some(({ wants }) => wants === what);
     }
 
-    /** Passes the held frame, if any, to `onFrame`: it belongs to the stream, because no `done` followed it. */
+    /** Passes the held frame, if any, to `onFrame`: no `done` has followed the frame, so it belongs to the stream. */
     private passFrame(): void {
         const frame = this.heldFrame;
         this.heldFrame = undefined;
@@ -264,22 +269,22 @@ export class Client {
         this.options.onWelcome?.(welcome);
     }
 
-    /** Schedules a test of the connection for when it is idle, because a broken network is not reported by an event. */
+    /** Schedules a test of the connection after a time without messages, because no event reports a broken network. */
     private watch(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
-        (this.timer as { unref?(): void }).unref?.(); // so that the timer does not keep a script running
+        (this.timer as { unref?(): void }).unref?.(); // in Node, so that the timer does not keep a script running
     }
 
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsent } = this; // without the test itself, whose sending is no sign of a working connection
+        const { unsent } = this; // bytes without the test, because sending the test is no sign of a connection
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitAnswer(unsent);
     }
 
-    /** Waits for the answer to a test. It cannot come before all data are sent, so sending data extends the wait. */
+    /** Waits for the answer to a test. While queued data are still being sent, the wait begins again. */
     private awaitAnswer(unsent: number): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(
@@ -310,7 +315,10 @@ export class Client {
         if (!opened && closeReason === "") void this.findWhetherBlocked();
     }
 
-    /** Reports if the server answers although no WebSocket opens, as behind a proxy that does not pass the headers on. */
+    /**
+     * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
+     * pass on the headers of WebSocket requests.
+     */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
         const signal = AbortSignal.timeout(kProbeTimeout * 1000);

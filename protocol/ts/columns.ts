@@ -1,5 +1,5 @@
-// The slices of a CBOR message, which has one array per property with the values of all slices. The parts of the
-// projection have the same columns for their elements.
+// Converts the slices of a CBOR message to objects. The message has one array (a column) per property, with the values
+// of all slices in turn. The parts of the projection have the same columns for their elements.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
@@ -7,14 +7,17 @@ import type { Vector } from "./types.js";
 /** A value for each kind of element of a slice. */
 type PerElementKind<T> = Record<"vertices" | "edges" | "faces", T>;
 
-/** The elements of all slices, or of all parts of the projection. */
+/** The elements of all slices in turn, or of all parts of the projection. */
 interface ElementColumns {
     /** The number of elements in each slice or part. */
     counts: PerElementKind<Integers>;
+    /** x, y, z of each vertex. */
     vertices: Float32Array;
+    /** Two vertices of each edge, counted from the first vertex of the slice or part. */
     edges: Integers;
     /** The number of corners of each face. */
     sides: Integers;
+    /** The vertices of each face in turn, counted from the first vertex of the slice or part. */
     corners: Integers;
     of: PerElementKind<Integers>;
     tints?: Integers;
@@ -41,14 +44,14 @@ export interface Columns extends ElementColumns {
     };
     surface?: {
         counts: Record<"points" | "triangles", Integers>;
-        /** Of each slice. */
+        /** The color of the surfaces of each slice, 0xRRGGBB. */
         color?: Integers;
         points: Float32Array;
         normals: Float32Array;
         triangles: Integers;
         level: Uint8Array;
         cap: Uint8Array;
-        /** Of each point. */
+        /** The color of each point, 0xRRGGBB. */
         colors?: Integers;
         cap_colors?: Integers;
     };
@@ -67,12 +70,12 @@ export interface PartColumns extends ElementColumns {
     looks: ProjectionLook[];
 }
 
-/** Returns an array of `count` integers. */
+/** Returns an array of `count` integers, which may be uninitialized. */
 export type Room = (count: number) => Uint32Array;
 
 type Range = [begin: number, end: number];
 
-/** Returns consecutive ranges of these sizes. Throws RangeError if they are longer than `length` elements. */
+/** Returns consecutive ranges with these sizes, from index 0. Throws RangeError if they end beyond `length`. */
 function ranges(sizes: Integers, length: number): Range[] {
     let end = 0;
     const all = Array.from(sizes, (size): Range => [end, (end += size)]);
@@ -93,7 +96,7 @@ function widener(room: Room): (integers: Integers) => Uint32Array {
     };
 }
 
-/** Returns the elements of each slice or part. The arrays are views of the columns, or of arrays that `room` returned. */
+/** Returns the elements of each slice or part. The arrays are views of `columns`, or of arrays that `room` returned. */
 function elementsOf(columns: ElementColumns, room: Room): Elements[] {
     const wide = widener(room);
     const wideOfEach = (lists: PerElementKind<Integers>): PerElementKind<Uint32Array> => {

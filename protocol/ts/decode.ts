@@ -1,5 +1,5 @@
-// Decodes the server's text and binary messages. Slices have the same flat typed arrays in either encoding, JSON or
-// CBOR.
+// Decodes the server's text and binary messages. A decoded slices message has the same flat typed arrays, whether its
+// encoding was JSON or CBOR.
 
 import * as cborX from "cbor-x/decode-no-eval";
 
@@ -10,14 +10,14 @@ import type { Message } from "./types.js";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
-/** A function of cbor-x that its type declarations do not contain. */
+/** The function of cbor-x that limits the sizes of arrays and maps; its type declarations do not contain it. */
 const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
 let arena: Arena | undefined; // the memory for arrays of the message that is being decoded
 
-/** Registers a little-endian typed array of RFC 8746. Aligned data are used in place; other data are copied. */
+/** Registers a decoder for a tag of RFC 8746, a little-endian typed array. It copies only data that are not aligned. */
 function readTyped<T>(tag: number, numbers: Numbers<T>): void {
     const size = numbers.BYTES_PER_ELEMENT;
     const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
@@ -37,7 +37,7 @@ export function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
-/** Returns whether the bytes are an exported file. A file begins with an ASCII character; PNG and CBOR do not. */
+/** Returns whether the bytes are an exported file: it begins with an ASCII character, but PNG and CBOR do not. */
 export function isFile(bytes: Uint8Array): boolean {
     return bytes[0]! < 0x80;
 }
@@ -47,11 +47,11 @@ export function decodeText(text: string): Message {
 }
 
 /**
- * Decodes a CBOR message. Throws an Error if the bytes are not a CBOR message. If an arena is given, the arrays are
- * valid until the arena is used for another message.
+ * Decodes a CBOR message. Throws an Error if the bytes are not a CBOR message. If `within` is given, the arrays of the
+ * message are valid until this arena is used for another message.
  */
 export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
-    within?.begin(6 * bytes.length); // enough for arrays that are copied or widened from 1 byte to 4
+    within?.begin(6 * bytes.length); // enough for arrays that are copied, or converted from 1-byte to 4-byte integers
     arena = within;
     // Each item takes at least one byte. Without these limits, cbor-x reads beyond the end of a message that announces
     // more items than it has.
@@ -63,7 +63,7 @@ export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
     }
 }
 
-/** Returns the text of the iTXt chunk with this keyword; undefined if there is none or the PNG file is incomplete. */
+/** Returns the text of the uncompressed iTXt chunk with this keyword; undefined if the file has none or is cut off. */
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
     const utf8 = new TextDecoder();
@@ -87,7 +87,7 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** The elements of a slice as the JSON encoding has them, with nested arrays. */
+/** The elements of a slice in the JSON encoding, which has nested arrays. */
 interface JsonElements {
     vertices: number[][];
     edges: number[][];

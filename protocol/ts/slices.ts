@@ -1,21 +1,21 @@
-// Types for the slices message, as they are after decoding: arrays of numbers are typed arrays, whichever encoding the
-// message has. Angles are in radians. Lengths are in the polytope's units, except where world units are stated (in which
-// the polytope's circumradius is 1 if there are 21 slices).
+// Types of the slices message after decoding. Long arrays of numbers are typed arrays, both with JSON and with CBOR.
+// Angles are in radians. Lengths are in the polytope's units, except where world units are stated. In world units, the
+// polytope's circumradius is 1 if there are 21 slices, and less if there are more.
 
 import type { Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
 
-/** An array of integers. With CBOR, its width is the least that the largest value fits into. */
+/** An array of integers. With CBOR, it has the narrowest type that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
-/** How to draw the slices, so that the picture of every client is the same as a frame. */
+/** How to draw the slices. A client that follows it draws the same picture as the server's frame of this size. */
 export interface SceneDescription {
     view: View;
     shown: Parts;
     viewport: Viewport;
     /**
-     * Lengths are in world units. `fov` is vertical; `shift` moves the picture right and up by these fractions of the
-     * viewport's width and height.
+     * Lengths are in world units. `fov` is the vertical field of view. `shift` moves the picture right and up by these
+     * fractions of the viewport's width and height.
      */
     camera: {
         eye: Vector;
@@ -28,15 +28,18 @@ export interface SceneDescription {
     };
     /** World units per unit of the polytope. */
     scale: number;
+    /** In the polytope's units. */
     circumradius: number;
-    /** Radii in world units. */
+    /** The radii of balls and bars, in world units. */
     ball: number;
     bar: number;
+    /** The opacity of a face, from 0 to 1; 1 if faces may cross each other. */
     opacity: number;
-    /** The factor for the opacity of faded elements. */
+    /** The factor by which the opacity of a faded ball, bar or face is multiplied. */
     faded: number;
+    /** `direction` points toward the light, in camera coordinates: x to the right, y up, z toward the viewer. */
     light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
-    /** 0xRRGGBB. */
+    /** As 0xRRGGBB. `zero`: the zero lines of the parallel coordinates; `cells`: one color for each cell. */
     colors: {
         background: number;
         text: number;
@@ -48,15 +51,19 @@ export interface SceneDescription {
         axes: [number, number, number, number];
         cells: Uint32Array;
     };
-    /** How the surfaces of a field are drawn, from the innermost level to the outermost; absent for other objects. */
+    /** How to draw the surfaces of a field, from the innermost level to the outermost; absent if none are drawn. */
     surfaces?: SurfaceLevel[];
-    /** How fog is drawn: for each value of Fog.values, 0xAARRGGBB; absent without fog. */
+    /** The color of the fog for each value in Fog.values, 0xAARRGGBB; with JSON, a plain array. Absent without fog. */
     fog?: { table: Integers };
-    // All lengths below are fractions of the viewport's height.
+    // The lengths of the next three members are fractions of the viewport's height.
 
     /** The axes in the upper left corner: the distances of their center from the left and top edges; their length. */
     axes: { x: number; y: number; length: number };
-    /** The layout of the parallel coordinates, measured from the lower left corner. */
+    /**
+     * The layout of the parallel coordinates, measured from the lower left corner. Vertex i is in row i / per_row (from
+     * the top) and column i % per_row. `zero` is the height of the top row's zero line. A coordinate c is a line of the
+     * length c · amplitude / circumradius. `named`: whether names are written below the columns.
+     */
     coordinates: {
         rows: number;
         per_row: number;
@@ -68,18 +75,19 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
-        /** The number of columns of `density`; 0 if lines are drawn. */
+        /** The number of columns of `density`; 0 if each coordinate is drawn as a line instead. */
         columns: number;
-        /** The width of each of the four panels of a field's histogram; 0 if none is drawn. */
+        /** The width of each of the four panels of a field's histogram; 0 if no histogram is drawn. */
         panel: number;
     };
-    /** The height of labels. */
+    /** The font size of a label whose `label_size` is 1. */
     text: number;
 }
 
 /**
- * Triangles, which may cross each other, as triples of points. `tints` (the cell that colors the triangle) and `seen`
- * (1 faded, 2 full) have one value per triangle.
+ * Triangles that fill the faces of a slice; they may cross each other. `points` has x, y, z of each point, `triangles`
+ * three indices of points for each triangle. For each triangle, `tints` has the cell that colors it, and `seen` its
+ * visibility, as in Elements.
  */
 export interface Fill {
     points: Float32Array;
@@ -88,55 +96,63 @@ export interface Fill {
     seen?: Uint32Array;
 }
 
-/** The surfaces of a field in one slice. The arrays are flat. */
+/** The surfaces of a field in one slice. */
 export interface Surface {
-    /** The color of the surfaces in place of those of the levels; present only if the color is "w". */
+    /** The color of all surfaces of the slice, instead of the levels' colors; present only with the coloring "w". */
     color?: number;
+    /** x, y, z, x, y, z, … in the coordinates of the slice. */
     points: Float32Array;
-    /** The unit normal of the level set at each point, outward. Caps are flat. */
+    /** The outward unit normal of the level set at each point. Caps do not use it, because they are flat. */
     normals: Float32Array;
-    /** Triples of points, counterclockwise as seen from outside. */
+    /** Three indices of points for each triangle, counterclockwise as seen from outside. */
     triangles: Integers;
-    /** For each triangle: the index of its level, and 1 if it belongs to a cap. */
+    /** The index of the level of each triangle, in the `levels` of the state. */
     level: Uint8Array;
+    /** For each triangle: 1 if it belongs to a cap, which closes a surface at the boundary of the box; else 0. */
     cap: Uint8Array;
-    /** The color of each point, 0xRRGGBB; present only if the color is "growth" or "value". */
+    /** The color of each point, 0xRRGGBB; present only with the coloring "growth" or "value". */
     colors?: Uint32Array;
-    /** The color of each point as the corner of a cap; present only if the caps are colored by value. */
+    /** The color of each point where it is a corner of a cap; present only if the caps are colored by value. */
     cap_colors?: Uint32Array;
 }
 
-/** The values of a field on a lattice in one slice: at min + step · (i, j, k). */
+/** The values of a field in one slice, on a lattice whose point (i, j, k) lies at min + step · (i, j, k). */
 export interface Fog {
     /** The number of points along x, y and z. */
     size: Vector;
     min: Vector;
     step: number;
-    /** Planes n · p ≤ d at which the fog ends, as nx, ny, nz, d. */
+    /** The half-spaces n · p ≤ d that contain the fog, with unit vectors n: nx, ny, nz, d, nx, ny, nz, d, … */
     walls: Float32Array;
-    /** For each point, x fastest: 0 where the field has no value, else an entry of the scene's table. */
+    /** For each point, with x fastest: 0 where the field has no value, else an index into scene.fog.table. */
     values: Uint8Array;
 }
 
 /** How the surface of one level of a field is drawn. */
 export interface SurfaceLevel {
+    /** The index of the level in the `levels` of the state. */
     level: number;
     color: number;
     opacity: number;
+    /** Whether the caps of the level are drawn. */
     caps: boolean;
 }
 
-/** The elements of a slice, or of a part of the projection. The arrays are flat, whichever encoding the message has. */
+/** The vertices, edges and faces of a slice, or of a part of the projection. */
 export interface Elements {
     /** x, y, z, x, y, z, … */
     vertices: Float32Array;
-    /** Pairs of vertices. */
+    /** Two indices of vertices for each edge. */
     edges: Uint32Array;
-    /** Face f is the loop corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
+    /** Face f is the loop of vertices corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
-    /** The index of the 4-D edge, 2-face or cell that each vertex, edge or face was cut from. */
+    /**
+     * What each vertex, edge and face was cut from: the index of an edge, a 2-face or a cell of the 4-D polytope. An
+     * element of the polytope that lies in the hyperplane itself has the number edges + vertex, 2-faces + edge, or
+     * cells + 2-face.
+     */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The cell that determines the color of each face; absent if that is `of.faces`. */
+    /** The index of the cell that determines the color of each face; if absent, `of.faces` has these indices. */
     tints?: Uint32Array;
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
@@ -145,28 +161,31 @@ export interface Elements {
 }
 
 export interface Slice extends Elements {
+    /** n of the hyperplane w = offset + n · spacing; and this w, measured from the object's center. */
     index: number;
     w: number;
-    /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
+    /** The triangles to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
     fill?: Fill;
-    /** The surfaces of a field; absent if the hyperplane meets none, and for other objects. */
+    /** The surfaces of a field; absent for other objects, or if the hyperplane meets no surface. */
     surface?: Surface;
-    /** The fog of a field; absent if there is none. */
+    /** The fog of a field; absent if the slice has no fog. */
     fog?: Fog;
     /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
     position: Vector;
     label: string;
     /** The label is centered below this world position. */
     label_at: Vector;
-    /** The size of the label, as a fraction of the scene's `text`. */
+    /** The font size of the label, as a fraction of the scene's `text`. */
     label_size: number;
+    /** Whether this is the focus slice. */
     focus: boolean;
+    /** Whether the view shows this slice. */
     drawn: boolean;
 }
 
 /**
- * What shows the highlighted element: values of `of.vertices` and `of.edges`, in slices and in the projection; and its
- * vertices, as indices into `coordinates`.
+ * Where the picture shows the highlighted element. `vertices` and `edges` are values of `of.vertices` and `of.edges` in
+ * the slices and the projection. `own_vertices` are the numbers of the element's own vertices, as in `coordinates`.
  */
 export interface Highlight {
     vertices: ArrayLike<number> & Iterable<number>;
@@ -176,7 +195,7 @@ export interface Highlight {
 
 /** How a part of the projection is drawn. */
 export interface ProjectionLook {
-    /** The radii of balls and bars in world units; those with the radius 0 are not drawn. */
+    /** The radii of balls and bars, in world units. With the radius 0, they are not drawn. */
     ball: number;
     bar: number;
     ball_color: number;
@@ -190,63 +209,66 @@ export interface ObjectProjection {
     kind: Exclude<Projection, "off">;
     /** The w of the 4-D eye, in circumradii. */
     eye: number;
-    /** The world position of its center: a vertex p is drawn at position + scale · p. */
+    /** The world position of the center of the projection: a vertex p is drawn at position + scale · p. */
     position: Vector;
     scale: number;
-    /** The whole object, then the sections of hyperplanes. */
+    /** The whole object, then the section of the focus hyperplane or, with shown.sections, those of all hyperplanes. */
     parts: (Elements & ProjectionLook)[];
 }
 
 /** The section of the object by a plane that is parallel to two coordinate axes. */
 export interface PlanarSection {
-    /** 0 to 3 for x, y, z, w; the first is the smaller. */
+    /** 0 to 3 for x, y, z, w; the smaller number is first. */
     axes: [number, number];
     /** The points' coordinates along the two axes, in the polytope's units. */
     points: [number, number][];
+    /** Two indices of points for each edge. */
     edges: [number, number][];
-    /** The points in the order in which they bound the section; empty if the edges do not form one closed polygon. */
+    /** The points in the order in which they bound the section; empty if the edges are not one closed polygon. */
     boundary: number[];
     /**
-     * What each element was cut from. A point: the 2-face; or faces + e, if edge e was cut; or faces + edges + v, if
-     * vertex v lies in the plane. An edge: the cell; or cells + f, if 2-face f was cut along the plane.
+     * The number of the element that each point and edge was cut from. For a point, it is that of a 2-face, or
+     * faces + e if edge e was cut, or faces + edges + v if vertex v lies in the plane. For an edge, that of a cell, or
+     * cells + f if 2-face f was cut along the plane.
      */
     of: { points: number[]; edges: number[] };
-    /** The cell that determines the color of each edge. */
+    /** The index of the cell that determines the color of each edge. */
     tints: number[];
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { points: number[]; edges: number[] };
+    /** The radius of each point, relative to SectionMatrix.ball, and its opacity; absent if all are 1. */
     balls?: { scale: number[]; opacity: number[] };
 }
 
 /**
- * The matrix of planar sections. The panel in row i and column j, from the upper left, shows the section by the plane of
- * the axes i and j: axis j to the right, axis i upward. Lengths are fractions of the viewport's height, measured from its
- * lower left corner.
+ * The matrix of planar sections. The panel in row i and column j, from the upper left, shows the section by the plane
+ * through the focus point that is parallel to the axes i and j: axis j to the right, axis i upward. Lengths are
+ * fractions of the viewport's height, measured from the viewport's lower left corner.
  */
 export interface SectionMatrix {
     left: number;
     bottom: number;
-    /** The side of a panel, and the distance from a panel to the next. */
+    /** The side of a panel, and the distance from the left edge of a panel to that of the next. */
     panel: number;
     step: number;
     line_width: number;
     /** The radius of points. */
     ball: number;
-    /** From the center of a panel, which is the origin, to its sides, in the polytope's units. */
+    /** The distance from the center of a panel, which shows the origin, to the sides of the panel, in object units. */
     reach: number;
     /** The focus point x, y, z, w, through which all planes pass. */
     point: [number, number, number, number];
-    /** By the planes xy, xz, yz, xw, yw and zw. */
+    /** The sections by the planes xy, xz, yz, xw, yw and zw, in this order. */
     sections: PlanarSection[];
 }
 
 /** The scales of the histogram of a field. */
 export interface Histogram {
-    /** How far the panels of x, y, z and w reach on both sides of their middles, in the object's units. */
+    /** The coordinates at the right edges of the panels of x, y, z and w; those at the left edges are the negatives. */
     reach: [number, number, number, number];
-    /** The values at the lower and the upper edge. */
+    /** The values of the field at the lower and the upper edge of the panels. */
     range: [number, number];
-    /** The levels that are drawn as lines. */
+    /** The levels that are drawn as lines, with colors 0xRRGGBB. */
     levels: { value: number; color: number }[];
 }
 
@@ -254,21 +276,21 @@ export interface Slices {
     type: "slices";
     id?: number;
     revision: number;
-    /** Present if the surfaces of a field are coarser than usual; a finer picture of the same revision follows. */
+    /** Present if the surfaces of a field are coarser than usual. A finer picture of this revision follows later. */
     draft?: true;
     scene: SceneDescription;
-    /** x, y, z, w of each vertex of the rotated polytope; empty if they are not shown, and for fields. */
+    /** x, y, z, w of each vertex of the rotated polytope; empty for fields, or if the coordinates are not shown. */
     coordinates: Float32Array;
-    /** The density of the lines (0 … 255), row by row from the top, or the histogram of a field; else empty. */
+    /** The density strip or the histogram, if one is drawn: values 0 … 255, row by row from the top; else empty. */
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */
     histogram?: Histogram;
-    /** The names of the focus slice; see State. */
+    /** The names of the focus slice and of the hull of the polytope's vertices in it; see `section` in State. */
     section: { name: string; vertices: string };
-    /** What shows the highlighted element; absent if there is none. */
+    /** Where the picture shows the highlighted element; absent if no element is highlighted. */
     highlight?: Highlight;
     slices: Slice[];
-    /** Absent if it is not shown. */
+    /** The projection of the whole object; absent if it is not shown. */
     projection?: ObjectProjection;
     /** Present only in the matrix view. */
     matrix?: SectionMatrix;

@@ -9,6 +9,7 @@ export type Message = Answer | Slices;
 /** A request that may change the session. The server answers it with `done`. */
 export type Command = Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>;
 
+/** x, y and z. */
 export type Vector = [number, number, number];
 /** A size in pixels. */
 export interface Viewport {
@@ -16,17 +17,18 @@ export interface Viewport {
     height: number;
 }
 
-/** The members of `set`. Absent settings keep their values. */
+/** The settings that a `set` changes. Absent ones keep their values. */
 export type Settings = Omit<SetRequest, "type" | "id" | "continues" | "revision" | "draft" | "moving" | "section">;
 /** Which parts of the picture are drawn. */
 export type Parts = State["shown"];
 /** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
 export type Orbit = State["camera"];
+/** The number of slices, the distance between them, and their position along w. */
 export type SliceSettings = State["slices"];
 /** An element of a polytope, numbered from 0 among those of its kind. */
 export type PolytopeElement = NonNullable<State["highlight"]>;
 
-/** The options of an exported file. */
+/** The options of an exported file, as in the message `get`. */
 export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "at" | "fit"> & { format: string };
 /** An exported file. */
 export interface ExportedFile {

@@ -39,8 +39,8 @@ session::QueryParameters queryOf(const std::vector<std::string>& words) {
 
 namespace {
 
-/// Removes an entry from a query, and returns its value; nothing if there is no such entry. Throws std::runtime_error
-/// if there are several.
+/// Removes an entry from a query, and returns its value; an empty optional if there is no such entry. Throws
+/// std::runtime_error if there are several.
 std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
     const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
     if (found == query.end()) return {};
@@ -55,11 +55,11 @@ bool isArray(const fields::FileContents& file) {
     return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
 }
 
-/// Reads the object in a file. An array may be larger than the main memory. Removes the options of the object's kind
-/// from the query.
+/// Reads the object in a file. An array may be larger than the main memory. Removes the options that say how to read
+/// such an object from the query.
 Result<session::LoadedObject> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
-    const std::string name = session::nameForFile(fileName, session::Limits{});
+    const std::string name = session::objectNameFor(fileName, session::Limits{});
     if (name != fileName)
         std::cerr << "oval4d: " << path << ": the object is called " << text::inQuotes(name)
                   << " in pictures and files\n";
@@ -89,7 +89,8 @@ Result<session::LoadedObject> readFile(const std::string& path, session::QueryPa
     return session::readObject(load, session::Limits{});
 }
 
-/// Returns the state in a picture that oval4d has made, or in a JSON file; nothing if the file is of another kind.
+/// Returns the state in a picture that oval4d has made, or in a JSON file; an empty optional if the file is of another
+/// kind.
 std::optional<session::State> readState(const std::string& path, session::ObjectLoader& loader) {
     if (std::filesystem::is_directory(path)) return {};
     const auto file = fields::FileContents::map(std::filesystem::path(path));
@@ -130,7 +131,8 @@ constexpr auto kReadingOptions = std::to_array<ReadingOption>({
     {"center", "polytopes and points"},
 });
 
-/// Refuses the options for files of another kind, which reading has left in the query. Throws std::runtime_error.
+/// Throws std::runtime_error if the query still contains an option that says how to read a file. Such an option is for
+/// files of another kind, because reading has removed those that apply.
 void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
     for (const ReadingOption& option : kReadingOptions) {
         if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())

@@ -15,7 +15,7 @@ double gapFor(double size) { return std::max(size / 12, 2.0); }
 
 Box boxOf(const SliceBodies& group) {
     Box box;
-    for (const NamedMesh& solid : group.solids) {
+    for (const PlacedMesh& solid : group.bodies) {
         const Box own = exports::boxOf(solid.mesh);
         box.include(own.min + solid.at);
         box.include(own.max + solid.at);
@@ -24,7 +24,7 @@ Box boxOf(const SliceBodies& group) {
 }
 
 void move(SliceBodies& group, const glm::dvec3& by, const Grid& grid) {
-    for (NamedMesh& solid : group.solids) solid.at += grid.snap(by);
+    for (PlacedMesh& solid : group.bodies) solid.at += grid.snap(by);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Grid& g
 }
 
 void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, double size, const Grid& grid) {
-    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimeters
+    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimeters per world unit
     std::vector<glm::dvec3> places;
     std::vector<double> radii;
     for (const SliceBodies& group : groups) {

@@ -12,7 +12,7 @@ namespace oval4d::exports {
 /// the label if the label is separate.
 struct SliceBodies {
     int slice = 0;  ///< index in the slice set
-    std::vector<NamedMesh> solids;
+    std::vector<PlacedMesh> bodies;
 };
 
 /// Moves the groups to places for a 3-D printer: on the plane z = 0, in rows from the origin in the directions +x and

@@ -13,8 +13,8 @@ namespace oval4d::exports {
 
 /// The limits of one export.
 struct ExportLimits {
-    std::size_t triangles = 5'000'000;       ///< of all bodies together
-    std::size_t bytes = 512U << 20U;         ///< of the file
+    std::size_t triangles = 5'000'000;       ///< maximum for all bodies together
+    std::size_t bytes = 512U << 20U;         ///< maximum size of the file
     std::chrono::duration<double> time{20};  ///< from the construction of the Budget to the end of the export
     /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
     /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
@@ -39,7 +39,7 @@ struct ExportRefused {
     ExportError error;
 };
 
-/// Checks one export against its limits. Its construction starts the time of the export.
+/// Checks one export against its limits. The time of the export counts from the construction of this object.
 class Budget {
   public:
     Budget(const ExportLimits& limits, std::stop_token stop)
@@ -60,19 +60,19 @@ class Budget {
                                                    " s; export only the focus slice, or a solid body"}};
         }
     }
-    /// Throws ExportRefused if `count`, the triangles of all bodies together, exceeds ExportLimits::triangles, or if
-    /// ExportLimits::reserve refuses their memory.
-    void checkTriangles(std::size_t count) const {
-        if (count > limits_.triangles) {
+    /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
+    /// ExportLimits::triangles, or if ExportLimits::reserve refuses the memory for them.
+    void checkTriangles(std::size_t total) const {
+        if (total > limits_.triangles) {
             throw ExportRefused{
-                {ExportError::Cause::too_large, "the file would have about " + std::to_string(count) +
+                {ExportError::Cause::too_large, "the file would have about " + std::to_string(total) +
                                                     " triangles; at most " + std::to_string(limits_.triangles) +
                                                     " are allowed; export only the focus slice, or a solid body"}};
         }
-        checkRoom(kBytesOfTriangle * count);
+        checkRoom(kBytesOfTriangle * total);
     }
     /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if ExportLimits::reserve
-    /// refuses this number.
+    /// refuses this number of bytes.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
             throw ExportRefused{{ExportError::Cause::too_large,

@@ -66,7 +66,7 @@ class Exporter {
         refuseOtherObjects();
         if (format.writeScene != nullptr)
             return format.writeScene({scene_, object_, orientation_, request_.contents, budget_, warnings_});
-        const std::vector<NamedMesh> solids = bodies();
+        const std::vector<PlacedMesh> solids = bodies();
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
     }
 
@@ -90,7 +90,7 @@ class Exporter {
         return drawn;
     }
 
-    std::vector<NamedMesh> bodies() {
+    std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
         std::vector<int> empty, thin;  // the slices that are left out
         const scene::Color color = request_.body == Body::skeleton ? scene::style().bar : colorOfSolids();
@@ -98,7 +98,7 @@ class Exporter {
         if (request_.body == Body::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTime();
-            std::vector<NamedMesh> solids;
+            std::vector<PlacedMesh> solids;
             if (hasSurfaces_) {
                 solids = surfaceBodies(i);
             } else {
@@ -111,7 +111,7 @@ class Exporter {
                 (isEmpty(i) ? empty : thin).push_back(i);
                 continue;
             }
-            for (const NamedMesh& solid : solids) triangles += solid.mesh.triangles.size();
+            for (const PlacedMesh& solid : solids) triangles += solid.mesh.triangles.size();
             budget_.checkTriangles(triangles);
             groups.push_back({i, std::move(solids)});
         }
@@ -125,8 +125,8 @@ class Exporter {
         } else if (request_.contents == ExportContents::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
-        std::vector<NamedMesh> solids;
-        for (SliceBodies& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
+        std::vector<PlacedMesh> solids;
+        for (SliceBodies& group : groups) std::ranges::move(group.bodies, std::back_inserter(solids));
         return solids;
     }
 
@@ -144,10 +144,10 @@ class Exporter {
 
     /// Returns the bodies of one slice of a field, from the outermost level to the innermost. A printer gets only the
     /// outermost, which contains the others.
-    std::vector<NamedMesh> surfaceBodies(int i) const {
+    std::vector<PlacedMesh> surfaceBodies(int i) const {
         const auto& levels = scene_.surfaces.levels;
         const bool single = request_.format->arrangement == Format::Arrangement::plate;
-        std::vector<NamedMesh> solids;
+        std::vector<PlacedMesh> solids;
         for (std::size_t level = levels.size(); level-- > 0;) {
             std::string name = nameOf(i);
             if (levels.size() > 1) append(name += ", level ", scene_.look.field.levels[levels[level].index]);
@@ -169,12 +169,12 @@ class Exporter {
             budget_.checkTime();
             const LabelText text(scene_.title, wOf(group.slice));
             if (request_.label == Label::engraved) {
-                done += text.engrave(group.solids.front().mesh, request_.size, grid_) ? 1 : 0;
+                done += text.engrave(group.bodies.front().mesh, request_.size, grid_) ? 1 : 0;
                 continue;
             }
-            const Box box = boxOf(group.solids.front().mesh);
+            const Box box = boxOf(group.bodies.front().mesh);
             const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
-            group.solids.push_back({group.solids.front().name + " (label)", text.plate(request_.size, grid_),
+            group.bodies.push_back({group.bodies.front().name + " (label)", text.plate(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
             ++done;
         }

@@ -20,7 +20,7 @@ enum class Body : std::uint8_t { solid, skeleton };
 enum class Label : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
-    {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame": the former name
+    {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame" is a former name
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
     {{"none", Label::none}, {"engraved", Label::engraved}, {"separate", Label::separate}});
 
@@ -33,14 +33,14 @@ struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
     ExportContents contents = ExportContents::focus;
     Body body = Body::solid;
-    /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, its width or height,
-    /// whichever is larger.
+    /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, the larger of its width and
+    /// height.
     double size = 60;
     Label label = Label::none;
-    /// The slices of ExportContents::oval, if they are not those of the session: at these values of w, in the
-    /// coordinates of the object's file (see ObjectInfo::originInFile) and in this order; or `fit` slices at the
-    /// middles of as many equal parts of the object's extent along w, of which none is empty if the object is a convex
-    /// polytope. At most one of the two is given.
+    /// Other slices for ExportContents::oval than those of the session. `at`: slices at these values of w, in the
+    /// coordinates of the object's file (see ObjectInfo::originInFile) and in this order. `fit`: this number of slices,
+    /// one in the middle of each of as many equal parts of the object's extent along w; none of them is empty if the
+    /// object is a convex polytope. At most one of `at` and `fit` is given.
     std::vector<double> at = {};
     std::optional<int> fit = {};
 

@@ -27,19 +27,20 @@ class ArrayFunction;
 struct SecondFunction {
     std::shared_ptr<const ScalarFunction> function;
     std::string formula = {};                         ///< the text of the formula; empty if the function is an array
-    std::shared_ptr<const ArrayFunction> array = {};  ///< the function if it is an array; else null
+    std::shared_ptr<const ArrayFunction> array = {};  ///< the same function if it is an array; else null
     std::string variable = {};                        ///< the name of the array in its file; empty if it has none
 };
 
 /// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
-/// it. The members are those of session::LoadObject.
+/// it. Each member has the meaning of the member of session::LoadObject with the same name.
 struct FileSource {
     std::string path, format, axes, variable, values, valuesVariable;
     std::optional<Box> box;
 };
 
-/// A 4-D scalar field: a function on a box. As a 4-D object, it is centered at the origin: the function's coordinates
-/// of the object's point p are center + toFunction · p. Made by makeField() or imageOf(); not changed afterward.
+/// A 4-D scalar field: a function on a box. As a 4-D object, it is centered at the origin: the object's point p has the
+/// function's coordinates center + toFunction · p. Made by makeField() or imageOf(); setSecondFunction() can add a
+/// second function.
 struct Field : geometry::ObjectInfo {
     std::shared_ptr<const ScalarFunction> function;
     Box box;               ///< the domain, in the function's coordinates
@@ -51,15 +52,15 @@ struct Field : geometry::ObjectInfo {
                                                         ///< of the original
     double level = 0;                                   ///< the initial level
     Inside inside = Inside::below;                      ///< which side of the levels is inside initially
-    std::string formula;                                ///< the text of the formula; empty if the function is not one
-    std::shared_ptr<const ArrayFunction> array;         ///< the function if it is an array; else null
+    std::string formula;                                ///< the text of the formula; empty if the function is none
+    std::shared_ptr<const ArrayFunction> array;         ///< the same function if it is an array; else null
     std::shared_ptr<const SecondFunction> second;       ///< null if there is none
-    /// The range on the box of coloringFunction().
+    /// The range of the values of coloringFunction() on the box.
     std::shared_ptr<const RangeOnBox> coloringRange;
-    bool shared = false;                       ///< whether sessions share it, so that it does not count as their memory
-    std::shared_ptr<const FileSource> source;  ///< null if the samples are in memory
+    bool shared = false;                       ///< whether sessions share it; it then is not a part of their memory
+    std::shared_ptr<const FileSource> source;  ///< see FileSource; null for all other fields
 
-    /// Returns whether its samples are in a mapped file that can no longer be read.
+    /// Returns whether samples of the field or of its second array are in a mapped file that can no longer be read.
     bool isLost() const;
 
     /// Returns the function whose values color the surfaces if the coloring is scene::Coloring::value: the second
@@ -69,8 +70,8 @@ struct Field : geometry::ObjectInfo {
     }
 };
 
-/// Makes a field from a function and its domain. For each axis, `scale` is the length in the object of one unit of the
-/// function's coordinate; it must be greater than 0. Throws std::invalid_argument with the reason if the box is not
+/// Makes a field from a function and its domain. For each axis, `scale` is the length, in the object, of one unit of
+/// the function's coordinate; it must be greater than 0. Throws std::invalid_argument with the reason if the box is not
 /// within ±1e30, or if its extent along an axis is 0 or too small for 32-bit floats.
 Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function, const Box& box,
                 const glm::dvec4& scale = glm::dvec4(1));
@@ -78,8 +79,8 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 /// Sets the second function of the field. Both functions use the same coordinates.
 void setSecondFunction(Field& field, SecondFunction second);
 
-/// Returns the field in the frame of reference `frame`, with this serial number. It has the same functions on the same
-/// box; only its coordinates as a 4-D object differ.
+/// Returns the image of the field in the frame of reference `frame`, with the serial number `serial`. The image has the
+/// same functions on the same box; only its coordinates as a 4-D object differ.
 Field imageOf(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::fields

@@ -12,10 +12,10 @@ namespace oval4d::fields {
 /// The default domain of a formula.
 inline constexpr Box kFormulaBox{glm::dvec4(-2), glm::dvec4(2)};
 
-/// Makes a field from a formula (see parseFormula() for the syntax). `second` is the formula of the second function,
-/// which may use the names that `text` defines; empty for none. Errors: `bad_expression`, with the position of the
-/// mistake (the message begins with "values: " if the mistake is in `second`); `out_of_range` if makeField() rejects
-/// the box.
+/// Makes a field from a formula (see parseFormula() for the syntax). If `second` is not empty, it is the formula of the
+/// field's second function (see SecondFunction), and may use the names that `text` defines. Errors: `bad_expression`,
+/// with the position of the mistake (the message begins with "values: " if the mistake is in `second`); `out_of_range`
+/// if makeField() rejects the box.
 Result<Field> fieldFromFormula(std::string name, std::string_view text, const Box& box = kFormulaBox,
                                std::string_view second = {});
 

@@ -1,5 +1,6 @@
 #pragma once
-// The interface of 4-D scalar functions f(x, y, z, w). Formulas and arrays implement it; slicing uses nothing else.
+// The interface of 4-D scalar functions f(x, y, z, w). Formulas and arrays implement it; slicing uses only this
+// interface.
 
 #include <cstddef>
 #include <limits>
@@ -22,24 +23,25 @@ struct Bounds {
     double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
     bool total = true;  ///< false if the function may have no value (NaN) somewhere in the region
 
-    /// Returns whether f − level may change its sign in the region, or f may have no value somewhere in it.
+    /// Returns whether the function may take the value `level`, or may have no value, somewhere in the region.
     bool mayCross(double level) const { return !total || (min <= level && level <= max); }
 };
 
-/// Points as a structure of arrays. All arrays must have the same size.
+/// Points as a structure of arrays: point i is (x[i], y[i], z[i], w[i]). All arrays must have the same size.
 struct PointBatch {
     std::span<const float> x, y, z, w;
 
     std::size_t size() const { return x.size(); }
 };
 
-/// Gradients as a structure of arrays, to be written. All arrays must have the same size.
+/// Memory for gradients, as a structure of arrays: `x` holds the derivatives with respect to x, and so on. All arrays
+/// must have the same size.
 struct GradientBatch {
     std::span<float> x, y, z, w;
 };
 
-/// The estimated times of evaluations in nanoseconds, on one core of a processor from 2020. They depend only on the
-/// function, not on the machine.
+/// Estimated times of evaluations in nanoseconds, on one core of a processor from 2020. The estimates depend only on
+/// the function, not on the machine on which the program runs.
 struct EvaluationCost {
     double value = 1, gradient = 5;  ///< for each point
     double bounds = 100;             ///< for each region
@@ -68,8 +70,8 @@ class ScalarFunction {
     /// not be tight.
     virtual Bounds boundsIn(const Box& region) const = 0;
 
-    /// Returns a function for sampling on lattices, which may be faster to evaluate: this function, or a coarser
-    /// version of it that lives as long as this object. `steps` are the vectors between neighboring points of the
+    /// Returns the function to sample on lattices with these steps: this function, or a coarser version of it that is
+    /// faster to evaluate and lives as long as this object. `steps` are the vectors between neighboring points of the
     /// lattices, in the function's coordinates. A coarser version may lack details that are smaller than the steps.
     virtual const ScalarFunction& forSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
 

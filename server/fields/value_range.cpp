@@ -7,8 +7,9 @@
 
 namespace oval4d::fields {
 
-// The points are u_n = (1/2 + n a) mod 1, where a_j = g^−(j+1) and g⁵ = g + 1. The numbers are stored as multiples of
-// 2⁻³² in 32-bit integers, so that overflow computes them modulo 1.
+// The points are u_n = (1/2 + n a) mod 1. The vector a has the components a_j = g^−(j+1) for j = 0 … 3, and g is the
+// real root of g⁵ = g + 1. The coordinates are stored as multiples of 2⁻³² in 32-bit integers, so that integer overflow
+// computes them modulo 1.
 void writeUnitPoints(std::size_t first, UnitPoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;
@@ -23,7 +24,8 @@ void writeUnitPoints(std::size_t first, UnitPoints& out) {
 
 namespace {
 
-// The typical range is that of the middle 98 % of the values, extended at both ends by `margin` times its length.
+// Returns both ranges. The typical one is the range of the middle 98 % of the values, extended at both ends by `margin`
+// times its length, but not beyond the full range.
 FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
     std::vector<float> found;
     found.reserve(values.size());
@@ -49,16 +51,17 @@ FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(
 const ValueRange& RangeOnBox::get() const {
     std::call_once(measured_, [&] {
         // Slow functions are evaluated at fewer points.
-        constexpr double kTime = 1e6;  // nanoseconds
+        constexpr double kTime = 1e6;  // nanoseconds, for all points
         constexpr std::size_t kMaxBatches = 8, kCorners = 81;
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kUnitPoints);
-        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});  // in memory
+        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});  // samples in memory
         UnitPoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
             writeUnitPoints(batch * kUnitPoints, points);
-            // The first points are the corners of the box, and the middles of its edges, faces and cells.
+            // The first 81 points are the corners of the box and the midpoints of its edges, faces, cells and of the
+            // box.
             for (std::size_t i = 0; batch == 0 && i < kCorners; ++i)
                 for (std::size_t axis = 0, rest = i; axis < 4; ++axis, rest /= 3)
                     points[axis][i] = 0.5F * static_cast<float>(rest % 3);
@@ -70,7 +73,7 @@ const ValueRange& RangeOnBox::get() const {
             function.evaluate({points[0], points[1], points[2], points[3]},
                               std::span(values).subspan(batch * kUnitPoints, kUnitPoints));
         }
-        constexpr double kMargin = 0.5;  // the ends of a color scale should be the least and greatest value if they can
+        constexpr double kMargin = 0.5;  // large: the ends of a color scale should be the extreme values if possible
         range_ = rangesWith(values, kMargin).typical;
     });
     return range_;

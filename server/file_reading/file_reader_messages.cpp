@@ -19,7 +19,7 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings from a reader process. Those of session::readObject() stay below these limits.
+// Limits on the errors and warnings from a reader process. Those that session::readObject() returns stay below them.
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 
@@ -50,7 +50,7 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Returns the size of the samples that are written themselves.
+/// Returns the size in bytes of those samples that the outcome contains itself, not in a mapped file.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -99,7 +99,7 @@ void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& ou
         return;
     }
     out.reserve(
-        sampleBytes(outcome->object, maxInMemory));  // a large array would not fit into memory while it is copied
+        sampleBytes(outcome->object, maxInMemory));  // so that a large array is not copied while the string grows
     archive(Kind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);

@@ -16,7 +16,7 @@ namespace oval4d::file_reading {
 struct ReadRequest {
     session::LoadObject load;  ///< its open files and folder, `path`, `continues` and `append` are not sent
     std::size_t series = 0;    ///< the number of files of a series, whose descriptors follow in further messages
-    bool isFolder = false;     ///< whether it is a Zarr folder, whose files the reader process asks for
+    bool isFolder = false;     ///< whether a Zarr folder is read; the reader process asks the server for its files
     bool mayMap = false;       ///< whether the samples of large arrays may stay in the file or go to a new one
     session::Limits limits;    ///< only maxVertices, maxHullCells and maxFieldBytes are sent
 };

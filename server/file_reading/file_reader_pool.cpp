@@ -98,7 +98,7 @@ class Conversation {
   public:
     Conversation(const session::LoadObject& load, const FileAllocator& allocate) : load_(load), allocate_(allocate) {}
 
-    TransferResult hold(const Channel& channel, const std::string& file, std::size_t maxBytes, Deadline deadline) {
+    TransferResult run(const Channel& channel, const std::string& file, std::size_t maxBytes, Deadline deadline) {
         TransferResult transfer = channel.send(MessageType::file, file, descriptorOf(load_.file), deadline);
         for (const auto& part : load_.series) {
             if (transfer != TransferResult::complete) return transfer;
@@ -138,7 +138,7 @@ class Conversation {
     }
 
     std::string outcome;
-    std::optional<Error> refused;  // why there was no new file
+    std::optional<Error> refused;  // why a new file was refused
 
   private:
     static int descriptorOf(const std::shared_ptr<const fields::FileHandle>& file) {
@@ -146,7 +146,7 @@ class Conversation {
     }
 
     int makeFile(Deadline& deadline) {
-        constexpr std::size_t kMaxFiles = 4;  // of two arrays, each decompressed and converted
+        constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
             throw std::runtime_error("a reader process asked for a file that it does not need");
@@ -183,7 +183,7 @@ Result<session::LoadedObject> FileReaderPool::read(const session::LoadObject& lo
         try {
             lease.process->converse(
                 [&](const Channel& channel, const Deadline& deadline) {
-                    return conversation.emplace(load, allocate).hold(channel, file, maxBytes, deadline);
+                    return conversation.emplace(load, allocate).run(channel, file, maxBytes, deadline);
                 },
                 stop);
         } catch (const process::ProcessLost& lost) {

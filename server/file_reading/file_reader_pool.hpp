@@ -30,12 +30,13 @@ struct FileReaderOptions {
 };
 
 /// Makes a new file of this size in bytes, with its space reserved on the disk, to which a reader process may write
-/// samples. Called on the thread that reads. Errors: `too_large` and `too_many` if there is no room for it.
+/// samples. Called on the thread that calls FileReaderPool::read(). Errors: `too_large` and `too_many` if there is no
+/// room for it.
 using FileAllocator = std::function<Result<std::shared_ptr<const fields::FileHandle>>(std::size_t bytes)>;
 
 /// A pool of processes that read files. Each process reads a single file and ends, so that a malicious file cannot
-/// affect the next one. It is replaced in advance by a process that waits for the next file. A waiting process ends if
-/// no file comes within FileReaderOptions::idle. Thread-safe.
+/// affect the reading of the next one. A new process then replaces it, and waits for the next file. A waiting process
+/// ends if no file comes within FileReaderOptions::idle. Thread-safe.
 class FileReaderPool {
   public:
     explicit FileReaderPool(FileReaderOptions options);

@@ -33,7 +33,7 @@ int receiveDescriptor(const Channel& channel) {
     return descriptor;
 }
 
-// Receives and maps the files of a series. They are closed at once, since a process may open only a few files.
+// Receives and maps the files of a series. Closes each file after it is mapped, because a process may open only a few.
 Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, std::size_t count) {
     std::vector<fields::FileContents> files;
     std::optional<Error> fault;  // the other files must be received, too
@@ -49,7 +49,7 @@ Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, 
 
 const Error kLost{ErrorCode::bad_field, "the file was shortened, or cannot be read any more, while it was being read"};
 
-// The reading of one file: what it came with, and the files that it gets from the server.
+// Reads the file, the series or the folder of one request. Gets further files from the server.
 class Reading {
   public:
     Reading(const Channel& channel, ReadRequest request) : channel_(channel), request_(std::move(request)) {}
@@ -96,7 +96,7 @@ class Reading {
         return file;
     }
 
-    // Gets a file of the folder from the server; nothing if there is none.
+    // Gets a file of the folder from the server; an empty optional if there is no such file.
     Result<std::optional<fields::FileContents>> openFile(const std::string& path) {
         channel_.send(MessageType::open_file, path);
         const fields::FileHandle file(receiveDescriptor(channel_));
@@ -109,7 +109,7 @@ class Reading {
     const Channel& channel_;
     const ReadRequest request_;
     std::vector<fields::FileContents> sources_;
-    slicing::MappedFiles mapped_;  // in the order in which the server knows them
+    slicing::MappedFiles mapped_;  // in the order of the server's list of mapped files
 };
 
 // Replaces `body`, the `file` message, with the body of the `outcome` message. `descriptor`: the open file that came

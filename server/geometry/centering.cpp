@@ -10,10 +10,11 @@ namespace oval4d::geometry {
 
 namespace {
 
-constexpr double kFar = 3;         // extents from the origin
-constexpr int kBitsOfCenter = 36;  // to which it is rounded, relative to the extent
+constexpr double kFar = 3;         // an object is far if its center is farther than this from the origin, in extents
+constexpr int kBitsOfCenter = 36;  // the center is rounded to this many bits below the leading bit of the extent
 
-// Returns the mean of points, computed from their differences, which are exact even if the points are far away.
+// Returns the mean of points. Computes it from their differences from the first point, because these are exact if the
+// points are far from the origin and close together.
 glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
     glm::dvec4 sum(0);
     for (const glm::dvec4& p : points) sum += p - points.front();
@@ -31,7 +32,7 @@ glm::dvec4 centerFor(const Centering& centering, std::span<const glm::dvec4> poi
     const bool isFar = extent > 0 && glm::length(center) > kFar * extent;
     if (centering.kind == Centering::Kind::automatic && !isFar) return glm::dvec4(0);
     if (!(extent > 0)) return center;
-    // Rounding removes the errors of the mean: a center such as (10, 10, 0, 0) is exact.
+    // Rounding removes the errors of the mean: a center such as (10, 10, 0, 0) becomes exact.
     const double unit = std::ldexp(1.0, std::ilogb(extent) - kBitsOfCenter);
     return glm::round(center / unit) * unit + 0.0;  // no −0
 }

@@ -12,20 +12,21 @@ namespace oval4d::geometry {
 /// is measured from there, and its slices lie around it.
 struct Centering {
     enum class Kind : std::uint8_t {
-        automatic,  ///< the center of an object that is far from the origin of the file; else this origin
+        automatic,  ///< like `object` if the object is far from the origin of the file (see centerFor()); else `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
         point,      ///< `place`
     };
     Kind kind = Kind::automatic;
-    glm::dvec4 place{0};
+    glm::dvec4 place{0};  ///< used only by the kind `point`, in the coordinates of the file
     bool operator==(const Centering&) const = default;
 };
 
-/// Returns the point that becomes the origin of an object with these vertices or points. The center of the object is
-/// their mean, rounded to about 11 digits of the object's size. The object is far away if the distance of its center
-/// from the origin of the file is more than three times the largest distance of a point from the center, and this is
-/// not 0. Returns 0 for the kind `object` if there are no points.
+/// Returns the point that becomes the origin of an object with these vertices or points, in the coordinates of the
+/// file. The center of the object is the mean of the points, rounded to about 11 digits of the object's size. The
+/// object is far from the origin of the file if the distance of its center from this origin is more than three times
+/// the largest distance of a point from the center, and this largest distance is not 0. If there are no points, returns
+/// the zero vector for every kind.
 glm::dvec4 centerFor(const Centering& centering, std::span<const glm::dvec4> points);
 
 }  // namespace oval4d::geometry

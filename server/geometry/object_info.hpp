@@ -25,7 +25,7 @@ struct ObjectInfo {
                                        ///< the object was moved when it was loaded (see Centering)
     bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: the faces of
                                        ///< its slices may cross each other; true for every point cloud and field
-    bool rebuildableFromName = false;  ///< whether the name determines the object; the name is then all that is stored
+    bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
 

@@ -14,13 +14,13 @@ namespace oval4d::geometry {
 /// afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
-    std::vector<double> radii;  ///< of each point's ball, in the units of the points; 0: the default radius
+    std::vector<double> radii;  ///< the radius of each point's ball, in the units of the points; 0: the default radius
 };
 
 /// Makes a cloud from points and the radius of each point's ball (see PointCloud::radii). Throws std::invalid_argument
 /// with the reason if `radii` and `points` differ in size, if a point's distance from the origin or a radius is not
-/// finite, if a radius is negative, or if there are no points. The circumradius of points that are all at the origin is
-/// the largest radius, or 1.
+/// finite, if a radius is negative, or if there are no points. If all points are at the origin, the circumradius is the
+/// largest radius or, if all radii are 0, it is 1.
 PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std::vector<double> radii);
 
 /// Returns the cloud in the coordinates of `frame`, with the serial number `serial`. The radii of the balls do not

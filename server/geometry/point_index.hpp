@@ -15,9 +15,9 @@ namespace oval4d::geometry {
 /// Finds equal points despite rounding errors. Points count as equal if they are less than `grid` / 4 apart, where
 /// `grid` is the edge length of the cells of a spatial hash.
 ///
-/// The hash stores only the first point of each cell. Therefore points that are not equal should be more than 2 ·
-/// `grid`, the diagonal of a cell, apart. If two of them lie in one cell, later lookups of the second one fail, and
-/// append it again.
+/// The hash stores only the first point of each cell. Therefore points that are not equal should be farther apart than
+/// 2~·~`grid`, the diagonal of a cell. If two unequal points lie in one cell, add() does not find the second one when
+/// it is added again, and appends it again.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
@@ -37,9 +37,10 @@ class PointIndex {
     }
 
   private:
-    // Returns the hash of a cell. If corner = 0xff, this is the cell that contains p. Otherwise it is the cell that
-    // contains p moved by grid / 4 along every axis: forward along axis i if bit i of `corner` is set, else backward.
-    // The cells of the corners 0 … 15 include all that may contain a point equal to p.
+    // Returns the hash of a cell. If corner = 0xff, this is the cell that contains p. Otherwise p is moved by grid / 4
+    // along every axis, and this is the cell that contains the moved point; the move along axis i is forward if bit i
+    // of `corner` is set, else backward. The cells of the corners 0 … 15 include every cell that may contain a point
+    // equal to p.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {

@@ -9,8 +9,9 @@
 
 namespace oval4d::geometry {
 
-/// Returns the Galilean transformation x' = x − v w, w' = w, which brings to rest what moves with the velocity v, in
-/// units of x, y and z per unit of w. Its determinant is 1, and its inverse is galileanTransformation(−v).
+/// Returns the Galilean transformation r' = r − v w, w' = w, where r is (x, y, z). After it, an object that had the
+/// velocity v is at rest. The unit of v is one unit of x, y and z per unit of w. The determinant of the map is 1, and
+/// its inverse is galileanTransformation(−v).
 glm::dmat4 galileanTransformation(const glm::dvec3& velocity);
 
 /// Returns the Lorentz boost to the rest frame of an observer with the velocity v (Jackson, Classical Electrodynamics,
@@ -19,7 +20,7 @@ glm::dmat4 galileanTransformation(const glm::dvec3& velocity);
 glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 
 /// A frame of reference for objects whose axis w is time. It applies three maps in this order: a Galilean
-/// transformation, which brings to rest what moves with the velocity `follow`; a scaling of w, which turns one unit of
+/// transformation, after which an object with the velocity `follow` is at rest; a scaling of w, which turns one unit of
 /// time into `pace` units of length; and the Lorentz boost with the velocity `boost`. The default frame maps every
 /// point to itself.
 struct ReferenceFrame {

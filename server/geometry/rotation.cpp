@@ -14,9 +14,9 @@ constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// A pair of perpendicular planes: the one without the w axis and the one with it. The pairs belong to the imaginary
-// units i, j and k in this order (see Rotation(Turn)). R_xz turns x toward z, but the cycle of the units is i → j → k →
-// i, in which z turns toward x; hence the sign.
+// A pair of perpendicular planes: the one without the w axis and the one with it. The elements of kPairs belong to the
+// imaginary units i, j and k in this order (see Rotation(Turn)). The sign of the pair xz, yw is −1 because R_xz turns x
+// toward z, but in the cycle of the units, i → j → k → i, z turns toward x.
 struct PlanePair {
     Plane spatial, withW;
     double sign;
@@ -39,7 +39,8 @@ glm::dvec3 logarithm(const glm::dquat& q) {
     return imaginary * (std::atan2(sine, q.w) / sine);
 }
 
-// Returns the unit quaternion q to the power `fraction`: exp(u θ) becomes exp(u θ · fraction), for θ from 0 to π.
+// Returns the unit quaternion q to the power `fraction`: exp(u θ) becomes exp(u θ · fraction), for an imaginary unit u
+// and θ from 0 to π.
 glm::dquat powerOf(const glm::dquat& q, double fraction) {
     const glm::dvec3 imaginary(q.x, q.y, q.z);
     const double sine = glm::length(imaginary);
@@ -151,8 +152,9 @@ Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
 
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
 
-// λ and ρ are the half angles of the unit quaternions l and r; the rotation angles are λ + ρ and λ − ρ. (l, r) and
-// (−l, −r) give the same rotation; choose the pair with l.w + r.w ≥ 0, which has the smaller angles.
+// The half angles λ and ρ of the unit quaternions l and r are those with l = exp(u λ) and r = exp(u' ρ) for imaginary
+// units u and u'; the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) give the same rotation; choose the pair
+// with l.w + r.w ≥ 0, which has the smaller angles.
 Rotation Rotation::power(double fraction) const {
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};
@@ -176,8 +178,9 @@ glm::dmat4 Rotation::matrix() const {
     return m;
 }
 
-// The sixteen maps v ↦ e_i·v·e_j form an orthogonal basis of the 4×4 matrices, each with the squared norm 4. In this
-// basis a rotation has the coordinates l_i r_j, which form a matrix of rank one.
+// The sixteen maps v ↦ e_i·v·e_j, where e_0 … e_3 are 1, i, j and k, form an orthogonal basis of the 4×4 matrices, each
+// with the squared norm 4. In this basis a rotation has the coordinates l_i r_j, which form a matrix of rank one.
+// Therefore a column of this matrix is a multiple of l, and a row is a multiple of r.
 std::optional<Rotation> Rotation::fromMatrix(const glm::dmat4& matrix, double tolerance) {
     const std::array<glm::dquat, 4> units{glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0), glm::dquat(0, 0, 1, 0),
                                           glm::dquat(0, 0, 0, 1)};

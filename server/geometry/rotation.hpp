@@ -14,7 +14,8 @@
 namespace oval4d::geometry {
 
 /// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The
-/// enumerators are in the order of the number keys 2 … 7 that select the planes. Stored sessions contain their numbers.
+/// enumerators are in the order of the number keys 2 … 7 that select the planes. Stored sessions contain the numbers of
+/// the enumerators.
 enum class Plane : std::uint8_t { xy = 0, xz = 1, xw = 2, yz = 3, yw = 4, zw = 5 };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
@@ -28,9 +29,9 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name ("xy" … "zw"), or std::nullopt if there is none.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A rotation as angles in coordinate planes, in radians, through which it turns at the same time: exp(Σ θ_ab G_ab),
-/// where exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation, and
-/// angles in planes that share an axis a rotation in oblique planes.
+/// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time:
+/// exp(Σ θ_ab G_ab), where exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double
+/// rotation. Angles in planes that share an axis give a rotation in oblique planes.
 class Turn {
   public:
     /// No rotation: no plane has an angle.
@@ -39,7 +40,7 @@ class Turn {
     /// perpendicular plane by beta.
     Turn(Plane plane, double alpha, std::optional<double> beta = {});
 
-    /// Returns the angle in a plane; nothing if the turn does not name this plane.
+    /// Returns the angle in a plane, in radians; std::nullopt if the turn has no angle in this plane.
     const std::optional<double>& operator[](Plane plane) const { return angles_[static_cast<std::size_t>(plane)]; }
     std::optional<double>& operator[](Plane plane) { return angles_[static_cast<std::size_t>(plane)]; }
 
@@ -49,7 +50,8 @@ class Turn {
     Turn inverse() const;
     /// Returns the turn with all angles multiplied by `factor`.
     Turn scaled(double factor) const;
-    /// Returns the turn with the sums of the angles of both.
+    /// Returns the turn whose angle in each plane is the sum of the angles of a and b. In general, this turn is not the
+    /// composition of the two rotations.
     friend Turn operator+(const Turn& a, const Turn& b);
     bool operator==(const Turn&) const = default;
 
@@ -69,16 +71,17 @@ class Rotation {
     /// The rotation exp(Σ θ_ab G_ab) of a turn.
     explicit Rotation(const Turn& turn);
 
-    /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as
-    /// one if each of its entries differs by at most `tolerance` from that of the rotation that is computed from M.
+    /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as a
+    /// rotation matrix if each of its entries differs by at most `tolerance` from the entry of the rotation that is
+    /// computed from M.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
-    /// Returns the rotation with exactly these quaternions. Does not normalize them again, so that a stored rotation is
-    /// restored bit by bit. Returns std::nullopt if the length of one of them differs from 1 by 1e-10 or more.
+    /// Returns the rotation with exactly these quaternions. Does not normalize them again; therefore a stored rotation
+    /// is restored bit by bit. Returns std::nullopt if the length of one of them differs from 1 by 1e-10 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     /// Returns the simple rotation by the smallest angle that takes the direction of `from` to the direction of `to`.
-    /// If the directions are opposite, many rotations do; returns one of them. Neither vector may be 0.
+    /// If the directions are opposite, many rotations do this; returns one of them. Neither vector may be 0.
     static Rotation between(const glm::dvec4& from, const glm::dvec4& to);
 
     /// Returns the rotation that undoes this one.
@@ -89,9 +92,9 @@ class Rotation {
     Rotation power(double fraction) const;
     /// Returns the larger of the two rotation angles, in radians from 0 to π.
     double angle() const;
-    /// Returns the turn with the smallest angles whose rotation this is. It names the planes whose angles are not 0 but
-    /// for rounding errors, and none for the identity. The rotation v ↦ −v is returned as one of the turns that make
-    /// it.
+    /// Returns the turn with the smallest angles that gives this rotation. It has no angle in planes whose angle would
+    /// be 0 except for rounding errors; for the identity, it has none at all. Several turns give the rotation v ↦ −v;
+    /// returns one of them.
     Turn turn() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;

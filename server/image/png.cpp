@@ -16,8 +16,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kSignature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-// The start of an iTXt chunk: the keyword and a zero, no compression, compression method 0, then an empty language tag
-// and an empty translated keyword, each with a terminating zero.
+// The start of the data of an iTXt chunk: the keyword and a zero, no compression, compression method 0, then an empty
+// language tag and an empty translated keyword, each with a terminating zero.
 constexpr char kStateHeader[] = "oval4d\0\0\0\0";
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
 constexpr int kLevel = 1;
@@ -52,7 +52,7 @@ void endChunk(Bytes& out, std::size_t start) {
 }
 
 /// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says that no other piece
-/// follows.
+/// follows. `levelBuffer` is working memory.
 void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     isal_zstream stream;
     isal_deflate_init(&stream);

@@ -97,7 +97,8 @@ void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     }
 }
 
-/// Transparent pictures are not part of a stream that must be fast, so this does not process several pixels at a time.
+/// Does the work of makeFilteredRows() for an image with alpha. Such images are not part of a stream that must be fast,
+/// so this does not process several pixels at a time.
 void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
     const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
     out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
@@ -108,7 +109,7 @@ void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std:
         divideByAlpha(rowOf(image, y), row);
         *at++ = y == 0 ? kSub : kPaeth;
         for (std::size_t i = 0; i < bytes; ++i) {
-            // Above the first row, there are zeros, for which both filters are the same.
+            // The row above the first one counts as zeros. Then Paeth predicts the left neighbor, as Sub does.
             const int left = i < 4 ? 0 : row[i - 4], upperLeft = i < 4 ? 0 : above[i - 4];
             *at++ = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], upperLeft));
         }

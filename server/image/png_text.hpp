@@ -1,17 +1,18 @@
 #pragma once
-// Finds the state in PNG files.
+// Finds the text that PngEncoder stores in PNG files.
 
 #include <optional>
 #include <string_view>
 
 namespace oval4d::image {
 
-/// Returns whether the bytes start as a PNG file does.
+/// Returns whether the bytes start with the signature of PNG files.
 bool isPng(std::string_view file);
 
-/// Returns the text that PngEncoder::encode() stored in the file: that of the first uncompressed iTXt chunk with the
-/// keyword "oval4d" (PNG specification, section 11.3.3.4). Returns nothing if there is none, if the file ends before
-/// it, or if the bytes are not a PNG file. Ignores the checksums.
+/// Returns the text that PngEncoder::encode() stored in the file, as a part of `file`: the text of the first
+/// uncompressed iTXt chunk with the keyword "oval4d" (PNG specification, section 11.3.3.4). Returns an empty optional
+/// if there is no such chunk, if the file ends before its end, or if the bytes are not a PNG file. Ignores the
+/// checksums.
 std::optional<std::string_view> stateIn(std::string_view file);
 
 }  // namespace oval4d::image

@@ -44,7 +44,7 @@ class ByteBudget {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}
 
-        /// Reserves bytes. Returns nothing if that would exceed the limit of the client or of the budget.
+        /// Reserves bytes. Returns an empty optional if that would exceed the limit of the client or of the budget.
         std::optional<Reservation> reserve(std::size_t bytes);
         /// Reserves bytes without checking the limits, for data that cannot be refused.
         Reservation forceReserve(std::size_t bytes);

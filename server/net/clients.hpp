@@ -31,8 +31,8 @@ struct ClientLimits {
 };
 
 /// A client: everybody at one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one
-/// customer). Holds the client's rate limits, its byte account, and its lanes in the worker pools. Every function may
-/// be called from any thread.
+/// customer). Holds the client's rate limits, its byte account, and its lanes in the worker pools (see
+/// parallel::FairQueue). Every function may be called from any thread.
 class Client {
   public:
     using Clock = TokenBucket::Clock;
@@ -51,18 +51,19 @@ class Client {
     /// which the caller must refuse even correct tokens.
     bool mayTryToken(Clock::time_point now) const;
 
-    /// Counts a message or an HTTP request against the rate limits, and returns how long to delay it.
+    /// Counts a message or an HTTP request of `bytes` bytes against the rate limits, and returns how long to delay it.
     std::chrono::duration<double> countMessage(std::size_t bytes, Clock::time_point now);
 
-    /// Counts one part of a request body against the rate limit of bytes, and returns how long to wait before reading
-    /// the next part.
+    /// Counts one part of a request body against the limit of bytes per second, and returns how long to wait before
+    /// reading the next part.
     std::chrono::duration<double> countBytes(std::size_t bytes, Clock::time_point now);
 
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return the client's share of a worker pool: pictureFlow() of the picture workers, exportFlow()
-    /// of the export workers. A session creates its lanes for the client's jobs from these shares.
+    /// These functions return the client's flows, its shares of the worker pools (see parallel::FairQueue):
+    /// pictureFlow() is for the picture workers, exportFlow() for the export workers. A session creates its lanes for
+    /// the client's jobs in these flows.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
     /// These functions return the client's lane for jobs that belong to no session: pictureLane() in the pool of
@@ -72,8 +73,8 @@ class Client {
     /// Returns the client's lane in the pool of load workers (see Services::loadWorkers).
     const parallel::WorkerPool::LanePtr& loadLane() const { return loadLane_; }
 
-    /// Returns whether all rate limits have fully recovered. Deleting the client and creating it again would then
-    /// change nothing.
+    /// Returns whether all rate limits have fully recovered. If so, it makes no difference to the client whether this
+    /// object is deleted and created again.
     bool hasFullRateLimits(Clock::time_point now) const;
 
   private:
@@ -137,7 +138,7 @@ class Clients {
     ByteBudget budget_;
     mutable std::mutex mutex_;
     std::map<std::string, ClientPtr, std::less<>> clients_;  // guarded by mutex_
-    std::size_t sweepAt_;  // remove idle clients when there are this many; guarded by mutex_
+    std::size_t sweepAt_;  // number of clients at which idle ones are removed; guarded by mutex_
 };
 
 }  // namespace oval4d::net

@@ -10,19 +10,19 @@ using process::SandboxMode;
 // received over the channel, and those that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
-/// Returns an upper bound of the memory that a rasterizer process needs for pictures within the limits, in bytes. Most
-/// of that memory is never touched.
+/// Returns `options.drawMemory` or, if this is 0, an upper bound of the memory that a rasterizer process needs for
+/// pictures within the limits, in bytes. Most of that memory is never touched.
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
-    // kOwn: bytes of llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes
-    // per pixel. kEachCut and kCuts bound the memory for the slices of the largest polytope: bytes per cut of an edge
-    // by a hyperplane, and cuts per vertex.
+    // kOwn: bytes of llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
+    // sixteen buffers of four bytes per pixel. The slices of the largest polytope need at most kEachCut bytes for each
+    // cut of an edge by a hyperplane, and have at most kCuts cuts for each vertex.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;
 }
 
-bool filtered(const Options& options) {
+bool filtersSystemCalls(const Options& options) {
     std::string why;
     return process::shouldSandbox(options.sandbox, why);
 }
@@ -40,12 +40,12 @@ std::vector<std::string> childEnvironment(const Options& options, std::size_t wo
 }
 
 process::Confinement rasterizerConfinement(const Options& options) {
-    // One file descriptor for the shared pixel buffer of each worker.
-    return {filtered(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
+    // In addition to kOwnFiles, a file descriptor for the shared pixel buffer of each worker.
+    return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 
 process::Confinement fileReaderConfinement(const Options& options) {
-    return {filtered(options), options.loadMemory, kOwnFiles};
+    return {filtersSystemCalls(options), options.loadMemory, kOwnFiles};
 }
 
 }  // namespace oval4d::net

@@ -16,11 +16,11 @@ namespace oval4d::net {
 /// or throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning);
 
-/// Returns the confinement that a rasterizer process applies to itself. `options` must come from the variables of
-/// childEnvironment().
+/// Returns the confinement that a rasterizer process applies to itself. `options` must have been read from the
+/// variables that childEnvironment() has returned.
 process::Confinement rasterizerConfinement(const Options& options);
-/// Returns the confinement that a file reader process applies to itself. `options` must come from the variables of
-/// childEnvironment().
+/// Returns the confinement that a file reader process applies to itself. `options` must have been read from the
+/// variables that childEnvironment() has returned.
 process::Confinement fileReaderConfinement(const Options& options);
 
 }  // namespace oval4d::net

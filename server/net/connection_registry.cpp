@@ -67,8 +67,8 @@ std::size_t ConnectionRegistry::countOf(const Client* client) const {
     return count == counts_.end() ? 0 : count->second;
 }
 
-/// Removes the oldest idle connection of this client, and returns the handler that ends it; null if no connection of
-/// the client is idle.
+/// Removes the oldest idle connection of this client, and returns the handler that ends it; an empty function if no
+/// connection of the client is idle.
 ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
@@ -93,7 +93,8 @@ ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const Client& cl
     };
     {
         const std::lock_guard lock(mutex_);
-        // Connections that were refused stay registered until they have ended, so more than one may be beyond a limit.
+        // Connections that were refused stay registered until they have ended, so a limit may be exceeded by more than
+        // one.
         while (admission == AdmissionDecision::admitted) {
             if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
                 evict(&client, AdmissionDecision::client_full);

@@ -32,7 +32,8 @@ class ConnectionRegistry {
         ~Registration();
 
         /// Sets the handler that ends the connection. It is called, on any thread, when the server stops or the
-        /// connection is evicted. If one of these has already happened, setEndHandler() itself calls the handler.
+        /// connection is evicted. If one of these events has already happened, setEndHandler() itself calls the
+        /// handler.
         void setEndHandler(EndHandler handler);
 
         /// Marks the connection as in use, which protects it from eviction, or as idle. A new connection is idle.

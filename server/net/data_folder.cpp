@@ -35,8 +35,8 @@ std::string versionOf(int file) {
            std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
 }
 
-/// Returns a text that changes when the metadata of a Zarr folder change, or files in the folder itself come and go;
-/// empty if it is not such a folder.
+/// Returns a string that changes when the metadata of a Zarr folder changes, or when files directly in it are added or
+/// removed; an empty string if `folder` is not a Zarr folder.
 std::string versionOfZarr(int folder) {
     std::string version;
     for (const std::string_view name : fields::kZarrFiles) {
@@ -80,8 +80,8 @@ std::string keyOf(const session::LoadObject& load, const std::string& version) {
     return key + '\0' + version;
 }
 
-/// Returns the field with the mark that its memory is counted by the cache and, if its samples are in a file, with its
-/// source.
+/// Returns the field with `shared` set, because the data folder counts its memory, and with `source` set if its samples
+/// are in a mapped file. Returns an error if the object is not an array.
 Result<session::LoadedObject> shared(session::LoadedObject loaded, const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
     if (field == nullptr || !field->array) return Error{ErrorCode::bad_field, "the file is not an array"};
@@ -145,7 +145,7 @@ std::vector<std::string> DataFolder::list() const {
     return found;
 }
 
-/// Opens a file, or the files of a series.
+/// Opens the file, the Zarr folder, or the files of the series with this name.
 Result<DataFolder::Opened> DataFolder::open(const std::string& name) const {
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
     if (folder_.empty()) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
@@ -188,7 +188,8 @@ std::string DataFolder::currentVersion(const Opened& opened) {
     return version;
 }
 
-/// Returns a field from the cache, and marks it as used; null if it is not there. Requires that mutex_ is held.
+/// Returns a field from the cache, and marks it as the most recently used one. Returns null if the cache does not have
+/// it, or if its file can no longer be read. Requires that mutex_ is held.
 const session::LoadedObject* DataFolder::find(const std::string& key) {
     const auto found = std::ranges::find(recent_, key, &Entry::key);
     if (found == recent_.end()) return nullptr;
@@ -201,8 +202,8 @@ const session::LoadedObject* DataFolder::find(const std::string& key) {
     return &recent_.front().loaded;
 }
 
-/// Drops the least recently used field that no session uses; with `onDisk`, only one with a file of the field cache.
-/// Returns whether there was one. Requires that mutex_ is held.
+/// Drops the least recently used field that no session uses; if `onDisk` is true, considers only the fields with a file
+/// in the field cache. Returns whether it has dropped a field. Requires that mutex_ is held.
 bool DataFolder::dropUnused(bool onDisk) {
     const auto isUnused = [&](const Entry& entry) {
         return std::get<slicing::FieldPtr>(entry.loaded.object).use_count() == 1 && (entry.onDisk || !onDisk);
@@ -214,7 +215,7 @@ bool DataFolder::dropUnused(bool onDisk) {
     return true;
 }
 
-/// Makes a file in the field cache.
+/// Makes a file of this size in the field cache. If there is no room, drops unused fields with such a file.
 Result<FieldCache::FilePtr> DataFolder::allocate(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
@@ -253,7 +254,7 @@ Result<session::LoadedObject> DataFolder::read(const session::LoadObject& load, 
     const std::string key = keyOf(load, opened->version);
     {
         std::unique_lock lock(mutex_);
-        read_.wait(lock, [&] { return !reading_.contains(key); });
+        readEnded_.wait(lock, [&] { return !reading_.contains(key); });
         if (const auto* known = find(key)) return *known;
         reading_.insert(key);
     }
@@ -263,7 +264,7 @@ Result<session::LoadedObject> DataFolder::read(const session::LoadObject& load, 
         ~Finally() {
             const std::lock_guard lock(folder.mutex_);
             folder.reading_.erase(key);
-            folder.read_.notify_all();
+            folder.readEnded_.notify_all();
         }
     } const finally{*this, key};
     return readNow(load, limits, std::move(*opened), reader, key);

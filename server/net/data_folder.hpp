@@ -22,15 +22,16 @@
 
 namespace oval4d::net {
 
-/// A folder of arrays: of files, of Zarr folders, and of folders that are series, whose files are the time steps of one
-/// array. Clients refer to them by name; names that begin with a dot or lead outside the folder are refused, and
-/// symbolic links are not followed. Sessions that open the same file in the same way share one copy, until the file
-/// changes. Fields that are larger than session::Limits::maxFieldBytes are mapped: as they are in the folder, or after
-/// they have been converted into a file of the field cache. Thread-safe.
+/// A folder of arrays. Each entry is a file, a Zarr folder, or a folder that is a series: its files are the time steps
+/// of one array. Clients refer to entries by name; names that begin with a dot or lead outside the folder are refused,
+/// and symbolic links are not followed. Sessions that open the same file in the same way share one copy, until the file
+/// changes. Fields that are larger than session::Limits::maxFieldBytes are mapped into memory: from the file in the
+/// folder or, if its samples must be converted, from a file of the field cache. Thread-safe.
 class DataFolder {
   public:
-    /// `folder`: empty if the server offers none. `bytes`: the maximum memory of fields from the folder, whether or not
-    /// sessions use them. `cache` must outlive the fields. Throws std::runtime_error if the folder cannot be read.
+    /// `folder`: empty if the server offers none. `bytes`: the maximum memory, in bytes, of the fields from the folder,
+    /// whether or not sessions use them. `cache` must outlive the fields. Throws std::runtime_error if the folder
+    /// cannot be read.
     DataFolder(const std::string& folder, std::size_t bytes, FieldCache& cache);
 
     /// Reads a file as FileReaderPool::read() does.
@@ -41,36 +42,39 @@ class DataFolder {
     /// unless knownNames() has the names, and blocks the calling thread meanwhile.
     std::vector<std::string> names() const;
     /// Returns the names that names() last read from the folder, if that reading began less than kListedFor ago;
-    /// otherwise nothing. Returns an empty list if there is no data folder.
+    /// otherwise an empty optional. Returns an empty list if there is no data folder.
     std::optional<std::vector<std::string>> knownNames() const;
 
-    /// Returns the field that `load.path` names, from memory or read by `reader`, which gets a copy of `load` with the
-    /// open files. Blocks the calling thread, also while another thread reads the same field. Errors: `not_found` if
-    /// the folder has no such file; `too_large` if the field takes more memory or disk space than the limits allow;
-    /// `too_many` if fields in use leave too little of it; `bad_field` if the file changes while it is converted; those
-    /// of `reader`.
+    /// Returns the field that `load.path` names. If it is not in memory, calls `reader` to read it, with a copy of
+    /// `load` that contains the open files. Blocks the calling thread, also while another thread reads the same field.
+    /// Errors: `not_found` if the folder has no such file; `too_large` if the field takes more memory or disk space
+    /// than the limits allow; `too_many` if fields in use leave too little memory or disk space; `bad_field` if the
+    /// file is not an array, or changes while it is read; those of `reader`.
     Result<session::LoadedObject> read(const session::LoadObject& load, const session::Limits& limits,
                                        const Reader& reader);
 
     /// Returns the memory, in bytes, of all fields from the folder.
     std::size_t bytes() const;
 
+    /// The maximum number of names that names() returns, and of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
     static constexpr std::chrono::seconds kListedFor{2};
 
   private:
     using Clock = std::chrono::steady_clock;
+    // A file, a Zarr folder or a series that open() has opened.
     struct Opened {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
         std::shared_ptr<const fields::FileHandle> folder;  // a Zarr folder, instead of files
         bool series = false;
-        std::string version;  // changes when a file changes
+        std::string version;  // a text that changes when a file changes
     };
+    // A field in memory.
     struct Entry {
         std::string key;
         session::LoadedObject loaded;
         std::size_t bytes = 0;
-        bool onDisk = false;  // whether it has a file of the field cache
+        bool onDisk = false;  // whether the field has a file in the field cache
     };
 
     std::vector<std::string> list() const;
@@ -89,10 +93,10 @@ class DataFolder {
     mutable std::mutex mutex_;  // guards the members below
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
-    std::list<Entry> recent_;        // the most recently used first
-    std::size_t bytes_ = 0;          // of the fields in `recent_`
-    std::set<std::string> reading_;  // the keys of what other threads read at this time
-    std::condition_variable read_;
+    std::list<Entry> recent_;            // the most recently used first
+    std::size_t bytes_ = 0;              // total memory of the fields in `recent_`, in bytes
+    std::set<std::string> reading_;      // the keys of the fields that threads are reading now
+    std::condition_variable readEnded_;  // notified when a key is removed from `reading_`
 };
 
 }  // namespace oval4d::net

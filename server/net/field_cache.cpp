@@ -13,12 +13,13 @@ namespace oval4d::net {
 
 namespace {
 
-/// Gives a file its size, with all blocks on the disk if the file system can do so. Returns 0 or an error number.
+/// Sets the size of a file, and reserves its blocks on the disk if the file system can do so. Returns 0 or an error
+/// number.
 int allocate(int file, std::size_t bytes) {
     const auto size = static_cast<off_t>(bytes);
     if (fallocate(file, 0, 0, size) == 0) return 0;
     if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
-    // Without blocks, a lack of room shows only while the file is written: the reader then reports a fault.
+    // Without reserved blocks, a lack of room shows only while the file is written: the reader then reports a fault.
     struct statvfs status{};
     if (fstatvfs(file, &status) != 0) return errno;
     if (status.f_bavail * status.f_frsize < bytes) return ENOSPC;

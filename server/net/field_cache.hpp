@@ -1,5 +1,5 @@
 #pragma once
-// Files of samples, for fields of the data folder that are larger than memory and cannot be mapped as they are.
+// Files of samples, for fields of the data folder that are too large for memory and cannot be mapped as they are.
 
 #include <atomic>
 #include <cstddef>
@@ -23,9 +23,9 @@ class FieldCache {
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
     /// Returns a new file of this size. Reserves its space on the disk if the file system can do so, so that writing to
-    /// it cannot fail for lack of space. Returns null if the other files leave too little of the limit for it. The
-    /// cache must outlive the file. Errors: `too_large` if the file is larger than the limit; `internal` if it cannot
-    /// be made; `too_many` if the disk is full.
+    /// it cannot fail for lack of space. Returns a null pointer if the file fits the limit alone, but not together with
+    /// the other files. The cache must outlive the file. Errors: `too_large` if the file is larger than the limit;
+    /// `internal` if it cannot be made; `too_many` if the disk is full.
     Result<FilePtr> make(std::size_t bytes);
 
     /// Returns the size of all files, in bytes.

@@ -12,8 +12,8 @@ namespace oval4d::net {
 
 namespace {
 
-// Removes ":port" from the end of the text. Returns whether the text is unchanged, or a port was removed.
-bool removePort(std::string_view& text, std::size_t hostLength) {
+// Shortens the text to the host, its first `hostLength` bytes. Returns whether the rest was empty or a valid ":port".
+bool cutToHost(std::string_view& text, std::size_t hostLength) {
     constexpr std::size_t kMaxDigits = 5;
     const std::string_view rest = text.substr(hostLength);
     text = text.substr(0, hostLength);
@@ -29,10 +29,10 @@ std::optional<boost::asio::ip::address> forwardedAddress(std::string_view entry)
     const bool hasBrackets = entry.starts_with('[');
     if (hasBrackets) {
         const std::size_t bracket = entry.find(']');
-        if (bracket == std::string_view::npos || !removePort(entry, bracket + 1)) return {};
+        if (bracket == std::string_view::npos || !cutToHost(entry, bracket + 1)) return {};
         entry = entry.substr(1, entry.size() - 2);
     } else if (std::ranges::count(entry, ':') == 1) {
-        if (!removePort(entry, entry.find(':'))) return {};
+        if (!cutToHost(entry, entry.find(':'))) return {};
     }
     boost::system::error_code fault;
     const auto address = boost::asio::ip::make_address(std::string(entry), fault);

@@ -52,7 +52,7 @@ struct Options {
     std::size_t maxBytes = 2U << 30U;          ///< maximum bytes held for all clients together (ByteBudget)
     std::size_t minReadRate = 32U << 10U;      ///< minimum bytes per second that a client must read or upload
     std::string spool;                         ///< folder for unread exports; empty: the system's temporary folder
-    int maxRequests = 2000;                    ///< messages per second from one connection
+    int maxRequests = 2000;                    ///< maximum messages per second from one connection
     parallel::FairQueue::Limits jobs;          ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;               ///< limits on the size of pictures
     std::size_t maxFill = pipeline::Pipeline::kFillSteps;  ///< maximum number of steps to fill faces in one picture
@@ -62,9 +62,9 @@ struct Options {
     std::size_t storeQuota = store::kDefaultQuota;    ///< maximum total bytes of the sessions in a file or in memory
     std::size_t keptUndo = 100;                       ///< maximum number of undo steps stored with a session
     std::string data;                                 ///< folder of arrays that clients may open; empty: none
-    std::size_t dataCache = 1024U << 20U;             ///< maximum total size of the fields from this folder
-    std::string fieldCacheFolder;                     ///< folder of files of samples; empty: /var/tmp
-    std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of these files
+    std::size_t dataCache = 1024U << 20U;             ///< maximum total memory of the fields from this folder
+    std::string fieldCacheFolder;                     ///< folder of the field cache (see FieldCache); empty: /var/tmp
+    std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of the files in the field cache
     std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of cached polytopes not in use
     std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached searches for critical values of w
 

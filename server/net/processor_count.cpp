@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Returns the CPU quota of a control group as a number of processors, such as 2 for the cpu.max "200000 100000".
-/// Returns nothing if there is no quota ("max 100000") or no such file.
+/// Returns an empty optional if there is no quota ("max 100000") or no such file.
 std::optional<double> quotaIn(const fs::path& group) {
     double quota = 0, period = 0;
     if (std::ifstream(group / "cpu.max") >> quota >> period && period > 0) return quota / period;
@@ -36,8 +36,8 @@ std::size_t processorCount(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
-        // In a container, this may be a path on the host, while only the container's own group is visible, at the root.
-        // Files that are not visible are skipped.
+        // In a container, the path may be that of the host, while only the container's own group is visible, at the
+        // root. Files that are not visible are skipped.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
             if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;

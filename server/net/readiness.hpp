@@ -8,8 +8,9 @@
 
 namespace oval4d::net {
 
-/// Tracks whether the server is ready: from the time when every picture worker has drawn a first picture, so that its
-/// shaders are compiled and the initial polytope is built, until the server begins to stop. Thread-safe.
+/// Tracks whether the server is ready. It becomes ready when every picture worker has drawn a first picture, because
+/// this compiles the worker's shaders and builds the initial polytope. It remains ready until it begins to stop.
+/// Thread-safe.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}

@@ -127,7 +127,7 @@ class Server {
 
     Options options_;
     Clients clients_;
-    FieldCache fieldCache_;           // outlives all fields, which handlers of io_ may hold
+    FieldCache fieldCache_;           // declared before io_, whose handlers may hold fields: it must outlive all fields
     ConnectionRegistry connections_;  // declared before io_, whose coroutines hold registrations
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;

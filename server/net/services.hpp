@@ -17,7 +17,7 @@
 
 namespace oval4d::net {
 
-/// The reply to a request that failed through no fault of the client.
+/// The reply to a request that failed because of a fault of the server.
 inline const Error kInternalError{ErrorCode::internal,
                                   "the server failed to carry out this request; the session is unchanged"};
 
@@ -40,14 +40,14 @@ struct Services {
     parallel::WorkerPool& exportWorkers;     ///< threads that make exported files (slower than pictures)
     Metrics& metrics;
     Clients& clients;
-    /// Threads for work that waits for files: uploads, arrays of the data folder, its listing, and stored sessions that
-    /// refer to such files.
+    /// Threads for work that waits for files: reading uploads, reading and listing arrays of the data folder, and
+    /// decoding stored sessions that refer to such arrays.
     parallel::WorkerPool& loadWorkers;
     file_reading::FileReaderPool& readers;  ///< the file reader processes
     polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
     DataFolder& data;                       ///< the arrays that the server offers
-    const FieldCache& fieldCache;           ///< files of samples of these arrays
-    slicing::CriticalCache& critical;       ///< the critical values of w of fields
+    const FieldCache& fieldCache;           ///< files with the samples of such arrays
+    slicing::CriticalCache& critical;       ///< cached results of searches for critical values of w
 };
 
 }  // namespace oval4d::net

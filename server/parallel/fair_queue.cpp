@@ -57,7 +57,7 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
     return true;
 }
 
-std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
+std::optional<FairQueue::DueJob> FairQueue::pop(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
     Class& schedulers = classes_[length];
@@ -75,10 +75,10 @@ std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
     client->lanes_[length].remove(lane->states_[length]);
     scheduleClient(client, length);
     if (!lane->jobs_.empty()) scheduleLane(lane);
-    return StartedJob{std::move(first.job), lane, first.estimate, first.cost, length};
+    return DueJob{std::move(first.job), lane, first.estimate, first.cost, length};
 }
 
-void FairQueue::finished(const StartedJob& started, Seconds took) {
+void FairQueue::finished(const DueJob& started, Seconds took) {
     Lane& lane = *started.lane;
     ClientFlow& client = *lane.client_;
     const JobLength length = started.length;
@@ -123,21 +123,22 @@ void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     }
 }
 
-/// Records that the lane queues a job of this length. Adds the lane to `active_`, unless it has queued a long job in
-/// the last kActive. While `active_` has lanes, no long job starts on a reserved thread, because only lanes with short
-/// jobs need these threads.
+/// Records that the lane queues a job of this length. Puts the lane at the end of `recentShortLanes_`, unless it has
+/// queued a long job within the last kActive. While `recentShortLanes_` is not empty, no long job starts on a reserved
+/// thread, so that these threads stay free for the short jobs of the lanes in `recentShortLanes_`.
 void FairQueue::updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;
     if (lane->lastLong_ && now - *lane->lastLong_ <= kActive) return;
-    if (const auto before = std::exchange(lane->activity_, active_.emplace(active_.end(), now, lane))) {
-        active_.erase(*before);
+    if (const auto before =
+            std::exchange(lane->activity_, recentShortLanes_.emplace(recentShortLanes_.end(), now, lane))) {
+        recentShortLanes_.erase(*before);
     }
 }
 
 void FairQueue::forgetInactive(Clock::time_point now) {
-    for (; !active_.empty(); active_.pop_front()) {
-        const auto& [last, weak] = active_.front();
+    for (; !recentShortLanes_.empty(); recentShortLanes_.pop_front()) {
+        const auto& [last, weak] = recentShortLanes_.front();
         const LanePtr lane = weak.lock();
         if (lane && now - last <= kActive) return;
         if (lane) lane->activity_.reset();
@@ -150,7 +151,7 @@ bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
     forgetInactive(now);
     const FairScheduler<ClientFlowPtr>& clients = classes_[long_job].clients;
-    return !active_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
+    return !recentShortLanes_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
 }
 
 bool FairQueue::hasStartableJob(Clock::time_point now) {

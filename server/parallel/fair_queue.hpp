@@ -20,8 +20,8 @@ namespace oval4d::parallel {
 /// weight, the caller divides the costs of its jobs by that weight. The next job of a flow has the virtual finish time
 /// F = max(V, F of the flow's previous job) + cost, and the flow with the smallest F is served next. A flow is active
 /// while it has waiting or running jobs. The virtual time V is the service that each active flow would have received if
-/// all were served simultaneously: each job that starts advances V by cost / number of active flows. V is never less
-/// than F − cost of that job, its virtual start time (J. Bennett, H. Zhang, 1996).
+/// all were served simultaneously: each job that starts advances V by cost / number of active flows. Before that, V is
+/// raised to the virtual start time of the job, which is F − cost, if V is less (J. Bennett, H. Zhang, 1996).
 /// - A flow that is new or was idle starts at V, so it gains no credit for idle time. Among flows that start at V, only
 ///   the costs of their jobs decide which one is served first.
 /// - V advances while a flow waits. Therefore each other flow gets ahead of the waiting flow by at most the cost of the
@@ -97,8 +97,8 @@ class FairScheduler {
 ///
 /// Jobs are not preempted, so long jobs could occupy all threads while short jobs wait. Therefore some threads are
 /// reserved: a quarter of them, rounded down, but at least one. If there is only one thread, it is not reserved. A
-/// reserved thread never starts a very long job (see kVeryLongJob). While a lane with short jobs is active (see
-/// kActive), it does not start a long job (see kLongJob) either.
+/// reserved thread never starts a very long job (see kVeryLongJob). It does not start a long job (see kLongJob) either
+/// while a lane with short jobs is active (see kActive).
 ///
 /// Short jobs and long jobs are two classes. Within each class, clients are scheduled fairly. The two classes share the
 /// time of the threads in proportion to the numbers of their active clients.
@@ -128,12 +128,12 @@ class FairQueue {
     /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
     /// jobs is active.
     static constexpr Seconds kVeryLongJob{0.25};
-    /// How long a lane stays active after it has queued a short job, unless it is destroyed. A lane does not become
-    /// active within this time after it has queued a long job.
+    /// How long a lane stays active after it has queued a short job, unless the lane is destroyed. Within this time
+    /// after the lane has queued a long job, its short jobs do not make it active.
     static constexpr std::chrono::seconds kActive{10};
 
     /// A job that pop() returned. The caller must run it at once and then call finished().
-    struct StartedJob {
+    struct DueJob {
         Job job;
         LanePtr lane;
         Seconds estimate, cost;  ///< the estimate given to push(), and that estimate corrected by measured times
@@ -150,12 +150,12 @@ class FairQueue {
     /// does not queue the job, if a limit is reached.
     [[nodiscard]] bool push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now);
 
-    /// Removes and returns the job to start now. Returns nothing if no job is waiting, or if only long jobs are waiting
-    /// and may not start yet.
-    std::optional<StartedJob> pop(Clock::time_point now);
+    /// Removes and returns the job to start now. Returns std::nullopt if no job is waiting, or if only long jobs are
+    /// waiting and may not start yet.
+    std::optional<DueJob> pop(Clock::time_point now);
 
     /// Records that the job ended. `took`: the measured running time.
-    void finished(const StartedJob& started, Seconds took);
+    void finished(const DueJob& started, Seconds took);
 
     /// Removes and returns all waiting jobs, so that the caller can choose when to destroy them.
     std::deque<Job> clear();
@@ -175,12 +175,12 @@ class FairQueue {
         void learn(Seconds estimate, Seconds took);
 
       private:
-        Seconds estimated_{0}, measured_{0};
+        Seconds estimated_{0}, measured_{0};  // weighted sums of the estimated and of the measured times
     };
 
     struct QueuedJob {
         Job job;
-        Seconds estimate, cost;
+        Seconds estimate, cost;  // as in DueJob
         JobLength length;
     };
 
@@ -204,18 +204,19 @@ class FairQueue {
 
     const std::size_t maxLongRunning_;  // number of threads that are not reserved
     const Limits limits_;
-    std::size_t waiting_ = 0, longRunning_ = 0;
+    std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
     PerClass<Class> classes_;
     FairScheduler<JobLength> scheduler_;  // decides which class is served next
     Correction correction_;               // from the jobs of all clients
-    RecentLanes active_;  // active lanes with short jobs, and when each last queued a job; the earliest first
+    RecentLanes recentShortLanes_;  // active lanes with short jobs, and when each last queued a job; the earliest first
 };
 
-/// The share of one client, such as all connections from one address. All of its jobs must be in the same queue.
+/// A client that shares the threads with other clients, such as all connections from one address. All of its jobs must
+/// be in the same queue.
 class FairQueue::ClientFlow {
     friend FairQueue;
-    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;
-    PerClass<FairScheduler<LanePtr>> lanes_;
+    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;  // the client as a flow of Class::clients
+    PerClass<FairScheduler<LanePtr>> lanes_;                    // the schedulers of the client's lanes
     std::size_t waiting_ = 0;
     Correction correction_;
 };
@@ -231,8 +232,9 @@ class FairQueue::Lane {
     PerClass<FairScheduler<LanePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
     Correction correction_;
-    std::optional<RecentLanes::iterator> activity_;  // position in FairQueue::active_; empty if the lane is not active
-    std::optional<Clock::time_point> lastLong_;      // when the last long job was queued; empty if there was none
+    std::optional<RecentLanes::iterator>
+        activity_;  // position in FairQueue::recentShortLanes_; empty if the lane is not active
+    std::optional<Clock::time_point> lastLong_;  // when the last long job was queued; empty if there was none
 };
 
 }  // namespace oval4d::parallel

@@ -48,7 +48,7 @@ class ForkJoin {
     std::condition_variable changed_;
     // The next three members are guarded by mutex_.
     const Job* job_ = nullptr;   // the job for the helper thread; null if there is none
-    std::exception_ptr thrown_;  // what this job threw; null if it threw nothing
+    std::exception_ptr thrown_;  // what the helper thread's last job threw; null if it threw nothing
     bool ending_ = false;
     std::thread thread_;  // the helper thread; assigned only by the constructor, so reading it needs no lock
 };

@@ -37,11 +37,11 @@ class WorkerPool {
 
     struct Options {
         std::size_t threads = 1;                 ///< number of worker threads
-        Limits limits = {};                      ///< on the numbers of waiting jobs
+        Limits limits = {};                      ///< limits on the numbers of waiting jobs
         Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
         /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
-        ForkJoin* forkJoin = nullptr;  ///< counts a processor as busy during each job; may be null
+        ForkJoin* forkJoin = nullptr;  ///< during each job, marks one of its processors as busy; may be null
         /// Returns the current time, by which jobs are scheduled and measured. Tests pass one that returns a virtual
         /// time.
         std::function<FairQueue::Clock::time_point()> now = FairQueue::Clock::now;

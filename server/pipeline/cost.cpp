@@ -17,17 +17,18 @@ double elements(const slicing::Object& object) {
 }
 
 /// Returns the approximate number of elements that a hyperplane cuts, out of n. The elements form a three-dimensional
-/// boundary, and the hyperplane cuts it in two dimensions: hence the exponent 2/3.
-double met(double n) { return std::pow(n, 2.0 / 3); }
+/// boundary, which the hyperplane cuts in a two-dimensional surface: hence the exponent 2/3.
+double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
 
-/// Returns the estimated time to extract the surfaces of a field, and to draw or write them; 0 for other objects.
-/// `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
+/// Returns the estimated time, in seconds, to extract the surfaces of a field, and to draw or write them; 0 for other
+/// objects. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
 double surfaces(const session::State& state, double slices, double cubes, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || !state.look.parts.faces) return 0;
     const slicing::SurfaceLimits limits = slicing::surfaceLimits(quality);
     const fields::EvaluationCost cost = field->function->cost();
-    // A surface crosses a few times as many lattice cubes as a plane, and the blocks that it crosses are sampled.
+    // Assumes that a surface crosses 1.5 times as many lattice cubes as a plane through the field, and has one point in
+    // each of them. About three lattice points are sampled for each of these points.
     const double points = 1.5 * slices * cubes * cubes * static_cast<double>(state.look.field.levels.size());
     const bool isColored = field->second != nullptr && scene::colorsByValue(state.look);
     const double coloring = isColored ? field->second->function->cost().value : 0;
@@ -35,12 +36,12 @@ double surfaces(const session::State& state, double slices, double cubes, slicin
     return 1e-9 * std::min(limits.time, extraction) + 1.5e-7 * std::min(points, static_cast<double>(limits.points));
 }
 
-/// Returns the estimated time to sample the fog of a field, and to draw it in this many pixels or to write it; 0
-/// without fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
+/// Returns the estimated time, in seconds, to sample the fog of a field, and to draw it in this many pixels or to write
+/// it; 0 without fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
 double fog(const session::State& state, double slices, double cubes, double pixels, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || state.look.field.fog.empty()) return 0;
-    // A box fills a third of its circumscribed sphere.
+    // The lattice in a slice is assumed to fill a third of the cube around the circumscribed sphere of the field.
     const double points = std::min(slices * std::pow(cubes, 3) / 3, static_cast<double>(maxFogPoints(quality)));
     const double sampling = std::min(points * (field->function->cost().value + 3), surfaceLimits(quality).time);
     return 1e-9 * sampling + 5e-9 * points + 5e-9 * pixels * std::min(cubes, std::cbrt(points / slices));
@@ -51,13 +52,14 @@ double fog(const session::State& state, double slices, double cubes, double pixe
 EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality) {
     const double n = elements(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
-    const double bodies = state.slices.count * (2e-5 + 1.2e-6 * met(n));
+    const double bodies = state.slices.count * (2e-5 + 1.2e-6 * elementsCut(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
-    // The focus slice takes up to half the picture's height. The others of the oval are smaller, and together have a
-    // few times as many pixels.
+    // The focus slice takes up to half the picture's height. The other slices of the oval are smaller, and together
+    // have a few times as many pixels. So all slices count as kSlices slices of the size of the focus slice.
     constexpr double kSlices = 4;
     const double cubes = state.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
-    // Lattices have at least cubesAcross(), also in small slices.
+    // In full quality, lattices have at least cubesAcross() cubes across the diameter of the field, also in small
+    // slices.
     const double field = std::max(surfaces(state, kSlices, cubes, quality),
                                   surfaces(state, state.slices.count, slicing::cubesAcross(quality), quality)) +
                          fog(state, kSlices, cubes, pixels / kSlices, quality);
@@ -69,7 +71,7 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
     const double cubes = slicing::cubesAcross(quality);
     const double field =
         surfaces(state, state.slices.count, cubes, quality) + fog(state, state.slices.count, 2 * cubes, 0, quality);
-    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n) + field);
+    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n) + field);
 }
 
 EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request) {
@@ -77,7 +79,7 @@ EstimatedSeconds exportCost(const session::State& state, const exports::ExportRe
     const int chosen = request.fit.value_or(static_cast<int>(request.at.size()));
     const int slices = request.choosesSlices() ? chosen : state.slices.count;
     const double field = surfaces(state, slices, slicing::cubesAcross(kQuality), kQuality);
-    return EstimatedSeconds(0.02 + 5e-6 * slices * met(elements(state.object)) + field);
+    return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elements(state.object)) + field);
 }
 
 }  // namespace oval4d::pipeline

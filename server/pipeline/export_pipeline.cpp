@@ -78,7 +78,8 @@ Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::opti
     return std::monostate{};
 }
 
-// Returns the hyperplanes at the values of w in ExportRequest::at, which are those that the labels of slices show.
+// Returns the hyperplanes at the values of w in ExportRequest::at. These are values in the coordinates of the object's
+// file, as in the labels of slices.
 Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
     const double origin = slicing::infoOf(state.object).originInFile.w;
     const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
@@ -98,8 +99,8 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
 }
 
-// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w. Those of a point
-// cloud are slightly larger, because its slices do not contain the points at their upper ends.
+// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w. For a point cloud,
+// these parts are slightly larger, because a slice does not contain the points at its upper end.
 geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
     const double larger = std::holds_alternative<slicing::CloudPtr>(state.object) ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
@@ -110,7 +111,7 @@ geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state)
 }
 
 // Returns the hyperplanes of the slices in the file. Errors: `bad_message` if the options contradict each other;
-// `out_of_range`.
+// `out_of_range` for too many slices, or for values of w that are too far away or equal.
 Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const session::State& state,
                                             int maxSlices) {
     const bool all = request.contents == exports::ExportContents::oval;
@@ -137,8 +138,8 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.at, state);
 }
 
-// Returns the projection of the whole object as a slice, which takes the place of the focus slice. Uses the perspective
-// projection if the picture shows none.
+// Returns the projection of the whole object in the form of a slice, which replaces the focus slice. Uses the
+// perspective projection if the picture shows no projection.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
     const scene::ProjectionSettings& settings = state.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
@@ -176,7 +177,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                                                   text::outsideBounds(least, most, " millimeters", request.size)};
     }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
-    std::optional<slicing::Element> element;  // that is exported alone
+    std::optional<slicing::Element> element;  // the highlighted element, if only this is exported
     if (request.contents == exports::ExportContents::highlight && request.format->canContain(request.contents)) {
         element = state.look.highlight;
         if (!element) {
@@ -223,12 +224,12 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(Pipeline::kFillSteps);
-    // A drawing of the focus slice is square, any other as wide as a picture of the usual size.
+    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size.
     const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;
     const scene::Viewport viewport = isSquare ? scene::Viewport{720, 720} : scene::Viewport{};
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
-    if (element) scene.look.highlight = element;  // set afterward, so that the element has its own color
+    if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportError>(&made)) {
         using Cause = exports::ExportError::Cause;

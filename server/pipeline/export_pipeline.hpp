@@ -13,15 +13,17 @@ namespace oval4d::pipeline {
 /// and the command line. Errors: `no_body` if there is nothing to export; `too_large` if the file exceeds a limit or
 /// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
 /// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
-/// `out_of_range` for values of w in `at` that are equal or farther from the object's center than session::kMaxOffset
-/// circumradii, for more slices than ExportLimits::slices, and for the size of a body or a drawing outside its bounds.
+/// `out_of_range` for values of w in `at` that are equal to each other, or farther from the w of the object's origin
+/// than session::kMaxOffset circumradii, for more slices than ExportLimits::slices, and for the size of a body or a
+/// drawing outside its bounds.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});
 
 /// Removes the parameters "of", "body", "size", "label", "at" and "fit" from `query`, and returns the export request
 /// that they describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval".
-/// Errors: `bad_message` for an unknown value; `out_of_range` for a size, or a number of slices, that is not allowed;
-/// at most `maxSlices` are; those of session::evaluateList(). The error messages list the allowed values.
+/// Errors: `bad_message` for an unknown value; `out_of_range` for a size that is not allowed, or if "fit" is not a
+/// whole number from 1 to `maxSlices`; for "at" and "fit", also the errors of session::evaluate(). The messages of all
+/// errors but these list the allowed values.
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices);
 

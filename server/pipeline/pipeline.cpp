@@ -10,11 +10,11 @@ namespace oval4d::pipeline {
 using raster::measureSeconds;
 
 Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, std::size_t fillSteps)
-    : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), memory_(forkJoin) {}
+    : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), workspace_(forkJoin) {}
 
 slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {
     const parallel::ExclusiveUse::Use use(inUse_);
-    return memory_.sectionNamer.names(state);
+    return workspace_.sectionNamer.names(state);
 }
 
 void Pipeline::slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out) {
@@ -23,10 +23,10 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
     times_.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
         const double circumradius = slicing::infoOf(state.object).circumradius;
-        slicing::setEvenDetail(circumradius, planes, quality, memory_.detail);
-        slicing::addEvenFog(circumradius, planes, memory_.detail);
-        memory_.detail.secondValues = scene::colorsByValue(state.look);
-        memory_.slicer.slice(state.object, state.orientation, planes, state.look.field, memory_.detail, out);
+        slicing::setEvenDetail(circumradius, planes, quality, workspace_.detail);
+        slicing::addEvenFog(circumradius, planes, workspace_.detail);
+        workspace_.detail.secondValues = scene::colorsByValue(state.look);
+        workspace_.slicer.slice(state.object, state.orientation, planes, state.look.field, workspace_.detail, out);
     });
 }
 
@@ -34,24 +34,24 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
                            std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
                            std::string& out, slicing::Quality quality) {
     const parallel::ExclusiveUse::Use use(inUse_);
-    memory_.composer.limitFill(fillSteps_);
+    workspace_.composer.limitFill(fillSteps_);
     times_.compose = measureSeconds([&] {
-        memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
-                                 memory_.scene);
+        workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
+                                    workspace_.scene);
     });
     times_.write =
-        measureSeconds([&] { memory_.slicesWriter.write(memory_.scene, revision, id, encoding, out, quality); });
+        measureSeconds([&] { workspace_.slicesWriter.write(workspace_.scene, revision, id, encoding, out, quality); });
 }
 
 std::string Pipeline::describePoint(const session::State& state, const slicing::SliceSet& slices,
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
     const parallel::ExclusiveUse::Use use(inUse_);
-    memory_.composer.limitFill(0);  // the triangles that fill faces are not needed
-    memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
-                             memory_.scene);
-    return wire::atMessage(scene::pickElement(memory_.scene, state.object, point),
-                           scene::matrixPointAt(memory_.scene, point), memory_.scene, state.object, revision, id);
+    workspace_.composer.limitFill(0);  // the triangles that fill faces are not needed
+    workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
+                                workspace_.scene);
+    return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
+                           scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, revision, id);
 }
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
@@ -61,12 +61,12 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
                                  state.look.background == scene::Background::transparent};
     if (drawn) drawn();
-    times_.encode = measureSeconds([&] { memory_.encoder.encode(image, stateText, out); });
+    times_.encode = measureSeconds([&] { workspace_.encoder.encode(image, stateText, out); });
 }
 
 void Pipeline::freeMemory() {
     const parallel::ExclusiveUse::Use use(inUse_);
-    memory_ = Memory(forkJoin_);
+    workspace_ = Workspace(forkJoin_);
     rasterizer_->freeMemory();
 }
 

@@ -47,14 +47,15 @@ class Pipeline {
     /// Slices the state's object. Overwrites `out` and reuses its memory.
     void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `id` is the
-    /// id of the request that the message answers; empty if there is none. Overwrites `out`.
+    /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `revision` is
+    /// Session::revision. `id` is the id of the request that the message answers; empty if there is none. Overwrites
+    /// `out`.
     void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                      std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out,
                      slicing::Quality quality = slicing::Quality::full);
 
-    /// Returns the `at` message, which says what the picture shows at `point` (see scene::pickElement()). `slices` must
-    /// have been cut from this state.
+    /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
+    /// (see scene::pickElement()). `slices` must have been cut from this state. `revision` and `id`: see writeSlices().
     std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 
@@ -77,8 +78,8 @@ class Pipeline {
 
   private:
     // Memory that the next call reuses.
-    struct Memory {
-        explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
+    struct Workspace {
+        explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;
         slicing::SurfaceDetail detail;
         FocusSectionNamer sectionNamer;
@@ -91,7 +92,7 @@ class Pipeline {
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;
     const std::size_t fillSteps_;
-    Memory memory_;
+    Workspace workspace_;
     PictureTimes times_;
     parallel::ExclusiveUse inUse_;
 };

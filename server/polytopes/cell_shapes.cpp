@@ -21,9 +21,9 @@ bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * 
 
 // The numbers of a cell's elements.
 struct Shape {
-    std::map<std::size_t, std::uint32_t> faces;               // by their numbers of sides
+    std::map<std::size_t, std::uint32_t> faces;               // by number of sides: the number of faces
     std::map<std::uint32_t, std::uint32_t> degrees;           // by vertex: the number of its edges
-    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // by degree
+    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // by degree: the number of vertices
 
     Shape(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {
@@ -36,7 +36,7 @@ struct Shape {
         const auto found = faces.find(sides);
         return found == faces.end() ? 0 : found->second;
     }
-    // Returns whether the cell has n vertices of one degree, and m of another one.
+    // Returns whether the cell has n vertices of `degree`, m vertices of `otherDegree`, and no others.
     bool has(std::uint32_t n, std::uint32_t degree, std::uint32_t m, std::uint32_t otherDegree) const {
         std::map<std::uint32_t, std::uint32_t> wanted;
         wanted[degree] += n;
@@ -98,12 +98,14 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
     return adjectiveOfBase(p, p.faces[others[0]]) + " prism";
 }
 
-// The names of cells with two apexes around which all other vertices lie.
+// Returns the name of a bipyramid or a trapezohedron, or an empty string. These cells have two apexes; the other
+// vertices lie around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const Shape& shape) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(shape.degrees.size());
     const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
-    // Any vertices of an octahedron that is not regular, and of a deformed cube, could be the apexes.
+    // An octahedron that is not regular (n = 4) and a deformed cube (n = 3) have no such name: any two opposite
+    // vertices of them could be the apexes.
     if (n != 4 && vertices == n + 2 && shape.facesWith(3) == 2 * n && shape.has(2, n, n, 4))
         return adjective + " bipyramid";
     if (n > 3 && vertices == 2 * n + 2 && shape.facesWith(4) == 2 * n && shape.has(2, n, 2 * n, 3))
@@ -111,8 +113,9 @@ std::string twoApexName(std::uint32_t faces, const Shape& shape) {
     return {};
 }
 
-// Compares the distances of the vertices from the center: Catalan solids with equal numbers of elements differ in them,
-// and so do other polyhedra with these numbers.
+// Returns whether the distances of the cell's vertices from their mean have the same ratios as the distances of the
+// solid's vertices from its center. Equal numbers of elements are not sufficient to recognize a Catalan solid, because
+// other polyhedra, among them other Catalan solids, may have the same numbers.
 bool hasRadiiOf(const Solid& solid, const Polytope& p, const Shape& shape) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own;

@@ -44,8 +44,9 @@ struct Measures {
     }
 };
 
-// Measures all cells in linear time. Each cell marks its vertices with a number of its own. The mark of a vertex shows,
-// without a search, whether the vertex has already been visited in this cell.
+// Measures cells; measuring all cells takes linear time. measure() marks the vertices of the cell with a number that no
+// other cell has. The mark of a vertex shows, without a search, whether the vertex has already been visited in this
+// cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
@@ -107,8 +108,9 @@ class Numbering {
 }  // namespace
 
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
-    // `polygons` numbers the combinations of a vertex count and a list of polygons. For each of these numbers, `seen`
-    // lists the types found so far, with their metric invariants.
+    // `polygons` numbers the combinations of a vertex count and a list of polygons (their numbers of sides). For each
+    // of these numbers, `seen` lists the types found so far, with their metric invariants. `sizes` numbers the
+    // combinations of a vertex count and a 2-face count.
     Numbering<std::vector<std::uint32_t>> polygons;
     Numbering<std::array<std::uint32_t, 2>> sizes;
     struct Seen {

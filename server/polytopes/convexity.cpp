@@ -12,7 +12,7 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kTolerance = 1e-9;                // relative to the extent
-constexpr double kMaxTurn = 3 * std::numbers::pi;  // a sum of angles is 2π (one turn) or at least 4π
+constexpr double kMaxTurn = 3 * std::numbers::pi;  // the angles around an edge or vertex add up to 2π or to at least 4π
 
 // Returns the component of v perpendicular to a unit vector.
 glm::dvec4 rejection(const glm::dvec4& v, const glm::dvec4& unit) { return v - glm::dot(v, unit) * unit; }
@@ -71,8 +71,8 @@ class ConvexityTest {
         return true;
     }
 
-    // Returns the point nearest to the origin in the flat of this dimension through points_, or nothing if the points
-    // span a lower dimension or the flat contains the origin. Overwrites points_.
+    // Returns the point nearest to the origin in the flat (affine subspace) of this dimension through points_. Returns
+    // std::nullopt if the points span a lower dimension or the flat contains the origin. Overwrites points_.
     std::optional<glm::dvec4> footOf(int dimension) {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
@@ -91,7 +91,7 @@ class ConvexityTest {
     }
 
     // Applies the test of isConvex() to each cell within its hyperplane: no edge may be reentrant, and the 2-faces
-    // around each vertex must make one full turn, seen from the mean of the cell's corners.
+    // around each vertex must make one full turn about the axis from the mean of the cell's corners to the vertex.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -124,7 +124,8 @@ class ConvexityTest {
         return true;
     }
 
-    // Adds to `turn`, for each vertex of a 2-face, the angle of the 2-face about the axis from `middle` to the vertex.
+    // Adds to `turn`, for each vertex of a 2-face, the angle in radians that the 2-face spans around the axis from
+    // `middle` to the vertex.
     void addTurns(std::span<const std::uint32_t> loop, const glm::dvec4& middle, std::vector<double>& turn) const {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const glm::dvec4& at = p_.vertices[loop[i]];
@@ -135,13 +136,13 @@ class ConvexityTest {
         }
     }
 
-    // Returns whether the flat whose point nearest to the origin is `foot` separates `point` from the origin.
+    // Returns whether a flat separates `point` from the origin; `foot` is the point of the flat nearest to the origin.
     bool isBeyond(const glm::dvec4& foot, const glm::dvec4& point) const {
         return glm::dot(point - foot, foot) > kTolerance * extent_ * glm::length(foot);
     }
 
-    // Returns whether no 2-face is reentrant: whether, at each 2-face, the center of each of the two cells lies on the
-    // inner side of the hyperplane of the other cell.
+    // Returns whether no 2-face is reentrant: at each 2-face, the center of each of the two cells must lie on the inner
+    // side of the hyperplane of the other cell, or in this hyperplane.
     bool isLocallyConvex() const {
         return std::none_of(p_.faceCells.begin(), p_.faceCells.end(), [&](const auto& pair) {
             return isBeyond(feet_[pair[0]], centers_[pair[1]]) || isBeyond(feet_[pair[1]], centers_[pair[0]]);
@@ -149,7 +150,8 @@ class ConvexityTest {
     }
 
     // Returns whether the cells around every edge make one full turn. In the plane perpendicular to the vectors from
-    // center_ to the ends of the edge, each of these cells is a sector.
+    // center_ to the ends of the edge, each of these cells projects to a sector; its sides are the projections of the
+    // cell's two 2-faces at the edge. The angles of the sectors must add up to 2π.
     bool coversOnce() const {
         const std::size_t edges = p_.edges.size();
         std::vector<double> turn(edges, 0.0), first(edges);
@@ -178,7 +180,8 @@ class ConvexityTest {
         return std::all_of(turn.begin(), turn.end(), [](double t) { return t < kMaxTurn; });
     }
 
-    // Returns an orthonormal basis of the plane perpendicular to a and b, or nothing if a and b are parallel.
+    // Returns an orthonormal basis of the plane perpendicular to a and b, or std::nullopt if a and b are parallel or a
+    // is 0.
     static std::optional<std::array<glm::dvec4, 2>> orthogonalPlane(const glm::dvec4& a, const glm::dvec4& b) {
         const double length = glm::length(a);
         if (!(length > 0)) return {};
@@ -207,7 +210,8 @@ class ConvexityTest {
     const Polytope& p_;
     double extent_;
     glm::dvec4 center_{0};                    // the mean of the vertices
-    std::vector<glm::dvec4> centers_, feet_;  // per cell, relative to center_
+    std::vector<glm::dvec4> centers_, feet_;  // per cell, relative to center_: the mean of its corners, and the foot of
+                                              // the perpendicular (see findHyperplanes())
     std::vector<glm::dvec4> points_;
 };
 

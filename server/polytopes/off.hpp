@@ -9,9 +9,9 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the polytope as the text of a 4OFF file (Geomview's OFF format in four dimensions). `vertices` replaces the
-/// polytope's own vertices, for example by rotated ones; it is parallel to polytope.vertices. Numbers are written such
-/// that reading them gives the same doubles. importPolytope() reads the file.
+/// Returns the polytope as the text of a 4OFF file (Geomview's OFF format in four dimensions). The file contains
+/// `vertices`, for example rotated ones, in place of polytope.vertices; both have the same order. Numbers are written
+/// such that reading them gives the same doubles. importPolytope() reads the file.
 std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vertices);
 
 }  // namespace oval4d::polytopes

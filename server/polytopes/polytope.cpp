@@ -189,19 +189,20 @@ class Orienter {
         }
     }
 
-    // Returns 24 times the signed hypervolume of the cone over the cell, as a sum over simplices: each 2-face is
-    // divided into a fan of triangles. The apex of the cone is a vertex of the polytope. If it were the origin,
-    // rounding errors would exceed the sum for a polytope that is far from the origin.
+    // Returns 24 times the signed hypervolume of the cone over the cell. The fromTipToCell of the cone, `tip`, is a
+    // vertex of the polytope: if it were the origin, rounding errors would exceed the sum for a polytope that is far
+    // from the origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`; `fromTipToCell`, a
+    // vertex of the cell; and the corners of a triangle from a fan into which a 2-face is divided.
     double coneOver(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
         const auto from = [&](std::uint32_t vertex) { return p_.vertices[vertex] - tip; };
-        const glm::dvec4 apex = from(p_.faces[p_.cells[cell][0]][0]);
+        const glm::dvec4 fromTipToCell = from(p_.faces[p_.cells[cell][0]][0]);
         for (std::uint32_t incidence = p_.cells.begin[cell]; incidence < p_.cells.begin[cell + 1]; ++incidence) {
             const auto loop = p_.faces[p_.cells.items[incidence]];
             for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
                 sum += p_.cellSigns[incidence] *
-                       glm::determinant(glm::dmat4(apex, from(loop[0]), from(loop[i]), from(loop[i + 1])));
+                       glm::determinant(glm::dmat4(fromTipToCell, from(loop[0]), from(loop[i]), from(loop[i + 1])));
             }
         }
         return sum;
@@ -259,17 +260,18 @@ void findFacesAtEdges(Polytope& p) {
             items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
         }
     }
-    std::vector<std::uint32_t> entering(p.cells.size());  // per cell: the position in `sides` of the 2-face after it
+    std::vector<std::uint32_t> sideAfterCell(
+        p.cells.size());  // per cell: the index in `sides` of the 2-face after the cell
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };
         const auto cellAfter = [&](std::uint32_t side) { return p.faceCells[side >> 1U][1 - (side & 1U)]; };
-        for (std::uint32_t i = 0; i < sides.size(); ++i) entering[cellBefore(sides[i])] = i;
+        for (std::uint32_t i = 0; i < sides.size(); ++i) sideAfterCell[cellBefore(sides[i])] = i;
         for (std::uint32_t i = 0; i + 1 < sides.size(); ++i) {
-            const std::uint32_t follower = entering[cellAfter(sides[i])];
+            const std::uint32_t follower = sideAfterCell[cellAfter(sides[i])];
             if (follower <= i) continue;  // the cycle is closed; another one begins
             std::swap(sides[i + 1], sides[follower]);
-            entering[cellBefore(sides[follower])] = follower;
+            sideAfterCell[cellBefore(sides[follower])] = follower;
         }
     }
 }

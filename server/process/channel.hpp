@@ -14,8 +14,8 @@ namespace oval4d::process {
 /// The types of messages; the comment on each describes the body. A child process first sends `ready` or `failed`. A
 /// rasterizer process replies to `draw` with `drawn` or `failed`; if it does not have the object, it first sends
 /// `object_missing`, and the server sends `object`, after a `file_part` for each mapped file to which the object
-/// refers. A file reader process replies to `file` with `outcome`; before, it may send `new_file` and `open_file`, to
-/// which the server replies with `file_part`, without a file descriptor if there is no such file.
+/// refers. A file reader process replies to `file` with `outcome`. Before that, it may send `new_file` and `open_file`;
+/// the server replies to each with `file_part`, which carries no file descriptor if there is no such file.
 enum class MessageType : std::uint32_t {
     ready,           ///< empty
     draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
@@ -24,7 +24,7 @@ enum class MessageType : std::uint32_t {
     drawn,           ///< raster::DrawTimes
     failed,          ///< the reason, as text
     file,            ///< file_reading::ReadRequest; may carry the file descriptor of the file
-    file_part,       ///< empty; carries a file descriptor: of a file of a series, after `file`; of a mapped file; of a
+    file_part,       ///< empty; carries a file descriptor: of a file of a series or folder, of a mapped file, or of a
                      ///< new file
     new_file,        ///< the size in bytes of a file that is needed, as std::size_t
     open_file,       ///< the path of a file in the folder that is read

@@ -31,7 +31,7 @@ struct ProcessLoss {
 struct ChildOptions {
     std::string command;                    ///< the subcommand of this program that the child runs
     std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or to converse has hung
+    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or to converse counts as hung
     bool repeatAfterHang = true;  ///< whether a conversation in which the child hung is repeated with a new child
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
@@ -42,7 +42,7 @@ struct ChildOptions {
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Returns whether the process hung during the conversation, which was therefore not repeated.
+    /// Returns whether the conversation was not repeated because the process hung.
     bool hung() const { return hung_; }
 
   private:

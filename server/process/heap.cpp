@@ -18,14 +18,14 @@ constexpr int kTrimThreshold = 2 * kMapThreshold;
 Heap::Heap() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
-    // A sanitizer's allocator replaces mallopt too, so glibc's own allocator is initialized by the first malloc_trim,
-    // which several threads must not call at once.
+    // In a build with a sanitizer, mallopt does not reach glibc's allocator, so the first malloc_trim initializes this
+    // allocator. Several threads must not do that at once, so it is done here.
     malloc_trim(0);
 }
 
-/// malloc_trim does not return the free memory at the end of a thread's arena, however large that is. glibc returns it
-/// when the thread frees a large block and the free memory exceeds the trim threshold: hence the temporary threshold of
-/// 0 and the large block.
+/// malloc_trim does not return the free memory at the end of a thread's arena, however much there is. glibc returns it
+/// when the thread frees a large block and the free memory exceeds the trim threshold. Therefore this function sets the
+/// threshold to 0 for a moment, and frees a large block.
 void Heap::returnFreeMemory() {
     mallopt(M_TRIM_THRESHOLD, 0);
     void* const volatile large = ::operator new(1U << 17U);

@@ -34,17 +34,18 @@ enum class Role : std::uint8_t {
 /// The restrictions that a child process applies to itself.
 struct Confinement {
     bool filtered = false;  ///< whether to allow only the system calls that the role needs
-    /// Maximum bytes of private memory beyond those already in use, touched or not; 0: no limit. Mapped files do not
-    /// count. Ignored in builds with a sanitizer.
+    /// The maximum number of bytes of private memory beyond that already in use, whether it is written or not; 0 means
+    /// no limit. Mapped files do not count. Ignored in builds with a sanitizer.
     std::size_t memory = 0;
-    /// Maximum number of open file descriptors, including those already open; 0: no limit. Ignored in builds with a
-    /// sanitizer.
+    /// The maximum number of open file descriptors, including those already open; 0 means no limit. Ignored in builds
+    /// with a sanitizer.
     std::size_t files = 0;
 };
 
-/// Confines this process and all its threads irrevocably. A forbidden system call fails with EPERM; a call that only an
-/// intruder would make (to start a program, open a socket or access another process) kills the process. Also disables
-/// core dumps, which would contain clients' data. Throws std::runtime_error if the filter cannot be set.
+/// Confines this process and all its threads irrevocably. A forbidden system call fails with an error, usually EPERM; a
+/// call that only an intruder would make (to start a program, open a socket or access another process) kills the
+/// process. Also disables core dumps, which would contain clients' data. Throws std::runtime_error if the filter cannot
+/// be set.
 void confine(Role role, const Confinement& confinement);
 
 }  // namespace oval4d::process

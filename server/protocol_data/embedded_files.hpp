@@ -7,7 +7,7 @@
 
 namespace oval4d::protocol_data {
 
-/// Returns the paths of all files.
+/// Returns the paths of all files, relative to protocol/.
 std::span<const std::string_view> embeddedPaths();
 
 /// Returns the text of a file by its path relative to protocol/, such as "keymap.json"; empty if there is no such file.

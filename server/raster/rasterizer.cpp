@@ -3,20 +3,20 @@
 namespace oval4d::raster {
 
 void LocalRasterizer::warmUp() {
-    if (!renderer_) renderer_.emplace(render::fontFile(), render::ShapeDrawing::fastest, forkJoin_);
+    if (!renderer_) renderer_.emplace(render::fontFile(), render::ShapeBackend::fastest, forkJoin_);
 }
 
 std::span<const std::uint8_t> LocalRasterizer::draw(const session::State& state, scene::Viewport viewport,
                                                     slicing::Quality quality, DrawTimes& times) {
-    memory_.pixels.resize(image::byteCount(viewport));
-    draw(state, viewport, quality, memory_.pixels, times);
-    return memory_.pixels;
+    workspace_.pixels.resize(image::byteCount(viewport));
+    draw(state, viewport, quality, workspace_.pixels, times);
+    return workspace_.pixels;
 }
 
 void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                            std::span<std::uint8_t> pixels, DrawTimes& times) {
     warmUp();
-    Memory& m = memory_;
+    Workspace& m = workspace_;
     m.composer.limitFill(fillSteps_);
     times.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
@@ -32,7 +32,7 @@ void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport
 }
 
 void LocalRasterizer::freeMemory() {
-    memory_ = Memory(forkJoin_);
+    workspace_ = Workspace(forkJoin_);
     if (renderer_) renderer_->freeMemory();
 }
 

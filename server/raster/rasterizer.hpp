@@ -43,7 +43,7 @@ class Rasterizer {
 class LocalRasterizer : public Rasterizer {
   public:
     /// If `forkJoin` is not null, slices and draws on two cores. `forkJoin` must outlive this object.
-    explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
+    explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), workspace_(forkJoin) {}
 
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
     /// slicing::FaceFiller::fill()).
@@ -63,8 +63,8 @@ class LocalRasterizer : public Rasterizer {
 
   private:
     // The memory that is kept for the next picture.
-    struct Memory {
-        explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
+    struct Workspace {
+        explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
         slicing::Slicer slicer;
         slicing::SurfaceDetail detail;
         slicing::SliceSet slices;
@@ -76,7 +76,7 @@ class LocalRasterizer : public Rasterizer {
     parallel::ForkJoin* forkJoin_;
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     std::optional<render::Renderer> renderer_;  // created on first use
-    Memory memory_;
+    Workspace workspace_;
 };
 
 /// Runs `work` and returns how many seconds it took. A template, because a std::function would allocate memory.

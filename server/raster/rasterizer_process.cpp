@@ -16,7 +16,7 @@ using process::TransferResult;
 
 namespace {
 
-// The maximum length of an answer in bytes; the longest one is the reason why a picture failed.
+// The maximum length of an answer in bytes. The longest answers say why a picture failed.
 constexpr std::size_t kMaxAnswer = 64U << 10U;
 
 process::ChildOptions childOptions(int threads, const RasterizerOptions& options) {
@@ -43,7 +43,7 @@ TransferResult RasterizerProcess::receiveAnswer(const session::State& state, con
             return transfer;
         if (answer_ != MessageType::object_missing || sent)
             throw std::runtime_error("a rasterizer process sent an unexpected message");
-        std::string object;  // not a member that keeps its memory, because it is large and rarely needed
+        std::string object;  // local, so that its memory is freed: the object is large and rarely sent
         slicing::MappedFiles files;
         slicing::encodeObject(state.source, object, files);
         for (const auto& file : files) {

@@ -24,11 +24,12 @@ using process::TransferResult;
 
 namespace {
 
-/// A cache of the most recently drawn objects, the latest first. Each is kept as it was loaded, and transformed to the
-/// frame of reference in which it was drawn last.
+/// A cache of the most recently drawn objects, the latest first. It keeps two forms of each object: as it was loaded
+/// (`source`), and in the frame of reference in which it was drawn last (`image`).
 class RecentObjects {
   public:
-    /// Returns the requested object in its frame of reference; null if the source object is not in the cache.
+    /// Returns the object of a request, in the request's frame of reference; null if its source object is not in the
+    /// cache.
     const slicing::Object* find(const DrawRequest& request) {
         const auto found = std::ranges::find(kept_, request.source,
                                              [](const Kept& kept) { return slicing::infoOf(kept.source).serial; });
@@ -42,10 +43,12 @@ class RecentObjects {
         }
         return &found->image;
     }
+    /// Adds an object as it was loaded, which takes this much memory. It becomes the latest object.
     void add(const slicing::Object& source, std::size_t bytes) {
         kept_.push_front({source, source, bytes});
         bytes_ += bytes;
     }
+    /// Removes the oldest objects until the cache takes at most this much memory, but keeps the latest object.
     void shrink(std::size_t bytes) {
         for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back())
             bytes_ -= kept_.back().bytes + kept_.back().imageBytes;
@@ -109,7 +112,7 @@ class Service {
     void takeFile(int descriptor) {
         const fields::FileHandle file(descriptor);  // not needed once it is mapped
         auto mapped = fields::MappedFile::map(file.descriptor());
-        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // it may have become empty
+        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null, for example if it has become empty
     }
 
     void takeObject() {
@@ -145,7 +148,7 @@ class Service {
     DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
     std::uint64_t currentFile_ = 0;                                      // the inode of the file to draw into
-    slicing::MappedFiles mapped_;                                        // to which the next object refers
+    slicing::MappedFiles mapped_;                                        // the files to which the next object refers
     std::string body_;
 };
 

@@ -30,7 +30,7 @@ class SharedRasterizerProcess {
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
     std::atomic<int> drawing_ = 0;                                   // the number of workers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when pictures were last concurrent
+    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when several pictures were last drawn or queued
     std::atomic<double> lastDrawSeconds_ = 0;                        // the drawing time of the last picture
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; empty on a single core

@@ -57,7 +57,7 @@ void Context::resize(int width, int height) {
     glBindTexture(GL_TEXTURE_2D, native_->color);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glBindRenderbuffer(GL_RENDERBUFFER, native_->depth);
-    // 16 bits suffice for a few hundred slices behind one another.
+    // 16 bits per depth suffice to order a few hundred slices behind one another.
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
 }
 
@@ -69,7 +69,7 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     makeCurrent();
     if (width != width_ || height != height_) resize(width, height);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        width_ = 0;  // try again with the next picture
+        width_ = 0;  // so that the next picture allocates the buffers again
         throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
                                  std::to_string(height) + " pixels");
     }

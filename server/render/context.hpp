@@ -21,7 +21,7 @@ class Context {
     /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Replaces the current picture by `pixels`, which have the layout in which finish() writes it.
+    /// Replaces the current picture by `pixels`, which have the same size and layout as the pixels given to begin().
     void load(const std::uint8_t* pixels);
 
     /// Lets the threads of the driver begin to rasterize everything drawn so far. Does not wait for them.
@@ -41,7 +41,7 @@ class Context {
     std::unique_ptr<Native> native_;
     int maxSize_ = 0;
     int width_ = 0, height_ = 0;
-    std::uint8_t* pixels_ = nullptr;  // of the current picture
+    std::uint8_t* pixels_ = nullptr;  // where finish() writes the current picture
 };
 
 }  // namespace oval4d::render

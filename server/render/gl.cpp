@@ -13,7 +13,7 @@ namespace oval4d::render {
 
 namespace {
 
-/// Returns what dlopen() or dlsym() has found. Throws std::runtime_error if it is nothing.
+/// Returns `found`, the result of dlopen() or dlsym(). Throws std::runtime_error if it is null.
 void* required(void* found) {
     if (found == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded: ") + dlerror());
     return found;

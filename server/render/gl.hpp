@@ -1,7 +1,7 @@
 #pragma once
-// The functions of OpenGL and OSMesa that the renderer calls, as pointers. The first Context loads their library and
-// sets the pointers. The program is not linked with the library, because to load it, with LLVM, its compiler of
-// shaders, takes several times as long as to start the rest of the program, and most processes draw nothing.
+// The functions of OpenGL and OSMesa that the renderer calls, as pointers. The first Context loads the OSMesa library
+// and sets the pointers. The program is not linked with this library, because most processes draw nothing, and loading
+// it takes several times as long as starting the rest of the program: it also loads LLVM, which compiles shaders.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
@@ -10,12 +10,13 @@
 
 namespace oval4d::render {
 
-// Within this namespace, the pointers hide the functions of the headers.
+// Within this namespace, each pointer hides the function with the same name that the headers above declare.
 #define OVAL4D_GL(function) extern decltype(&::function) function;  // NOLINT(bugprone-macro-parentheses): a name
 #include "render/gl_functions.inc"
 #undef OVAL4D_GL
 
-/// Loads OSMesa, unless it is loaded, and sets the pointers. Throws std::runtime_error if it cannot be loaded.
+/// Loads OSMesa and sets the pointers; does nothing if OSMesa is already loaded. Throws std::runtime_error if OSMesa or
+/// one of the functions cannot be loaded.
 void loadGl();
 
 }  // namespace oval4d::render

@@ -14,7 +14,7 @@ namespace oval4d::render {
 struct Projection {
     float width = 1, height = 1;   ///< the size of the picture in pixels
     float scaleX = 1, scaleY = 1;  ///< cotangents of half the horizontal and half the vertical field of view
-    float shiftX = 0, shiftY = 0;  ///< where the view axis meets the picture: −1 … 1; 0 is the center
+    float shiftX = 0, shiftY = 0;  ///< where the view axis meets the picture: 0 is its center, ±1 are its edges
 
     static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
@@ -26,12 +26,12 @@ struct Projection {
                 -projection[2][1]};
     }
 
-    /// Returns the clip coordinates x, y and w of a point.
+    /// Returns the clip coordinates x, y and w of a point v in view coordinates.
     glm::vec3 clip(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }
 
-    /// Returns the pixel coordinates of a point in front of the eye, from the lower left corner of the picture.
+    /// Returns the position in the picture of a point in front of the eye, in pixels from the lower left corner.
     glm::vec2 pixel(const glm::vec3& v) const {
         const glm::vec3 c = clip(v);
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};

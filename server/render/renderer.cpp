@@ -23,7 +23,7 @@
 #include "render/slices/convex_slices.hpp"
 #include "render/slices/fog_painter.hpp"
 #include "render/slices/nonconvex_slices.hpp"
-#include "render/slices/projection_painter.hpp"
+#include "render/slices/projection_shapes.hpp"
 #include "render/slices/shape_batch.hpp"
 #include "render/slices/shape_rasterizer.hpp"
 #include "render/slices/surface_batch.hpp"
@@ -38,29 +38,29 @@ std::string fontFile() {
 
 namespace {
 
-// The minimum number of patches of a batch. While the driver's threads rasterize one batch, this thread prepares the
-// next one.
+// Patches are drawn with OpenGL in batches of at least this many; the last batch may be smaller. While the threads of
+// the driver rasterize one batch, this thread prepares the next one.
 constexpr std::size_t kBatchPatches = 2'000;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
-/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced), which in Mesa 22.3 another thread
-/// may free at the same time.
+/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced). In Mesa 22.3, another thread may
+/// free these scenes at the same time.
 std::unique_lock<std::mutex> lockDriver() {
     static std::mutex driver;
     return std::unique_lock(driver);
 }
 
-/// Returns whether a picture may be drawn with several threads: LP_NUM_THREADS, which tells llvmpipe so, is valid for
-/// all drawing.
+/// Returns whether a picture may be drawn with several threads. The environment variable LP_NUM_THREADS sets the number
+/// of threads of llvmpipe; the values 0 and 1 also forbid a second thread for drawing without OpenGL.
 bool mayUseThreads() {
     const char* threads = std::getenv("LP_NUM_THREADS");
     return threads == nullptr || std::atoi(threads) > 1;
 }
 
-/// Returns whether only OpenGL can draw the slices: those with fog.
+/// Returns whether the slices can be drawn only with OpenGL, because they have fog.
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
-/// Returns the part of the picture that contains the projection of the whole object.
+/// Returns a rectangle of the picture that contains the projection of the whole object.
 PixelArea areaOfProjection(const scene::Scene& scene) {
     const glm::ivec2 size(scene.viewport.width, scene.viewport.height);
     const auto& [shown, position, radius] = scene.projectionPlacement;
@@ -74,15 +74,15 @@ PixelArea areaOfProjection(const scene::Scene& scene) {
             glm::ivec2(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), glm::vec2(size)))};
 }
 
-/// Sets the color with which OpenGL clears pictures to the background.
+/// Sets the color to which OpenGL clears pictures: the background, multiplied by its opacity.
 void setClearColor(const scene::Style& style) {
     const auto alpha = static_cast<float>(style.backgroundOpacity);
     const auto channel = [&](int shift) { return alpha * static_cast<float>(style.background >> shift & 255) / 255; };
     glClearColor(channel(16), channel(8), channel(0), alpha);
 }
 
-/// Clears the part of the picture that belongs to the parallel coordinates, if slices may extend into it, because the
-/// viewer has moved the camera.
+/// If the viewer has moved the camera, clears the part of the picture that belongs to the parallel coordinates, because
+/// slices may then extend into it.
 void clearCoordinates(const scene::Scene& scene) {
     if (!scene.clearsCoordinates()) return;
     glEnable(GL_SCISSOR_TEST);
@@ -104,8 +104,8 @@ void clearDepth(const PixelArea& area) {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const std::string& font, ShapeDrawing drawing, parallel::ForkJoin* forkJoinOrNull)
-        : shapesInMemory(drawing == ShapeDrawing::fastest && ShapeRasterizer::isSupported()),
+    Impl(const std::string& font, ShapeBackend drawing, parallel::ForkJoin* forkJoinOrNull)
+        : shapesInMemory(drawing == ShapeBackend::fastest && ShapeRasterizer::isSupported()),
           forkJoin(mayUseThreads() ? forkJoinOrNull : nullptr),
           patchDepthProgram(scene::style(), ShapeProgram::DepthSource::patch),
           surfaceDepthProgram(scene::style(), ShapeProgram::DepthSource::surface),
@@ -122,15 +122,15 @@ struct Renderer::Impl {
     void drawFogBehindFrame(const scene::Scene& scene);
     void drawFog(const scene::Scene& scene, DepthRange depths);
 
-    /// The nearer or the farther half of the surfaces that are drawn to the picture in memory.
+    /// The surfaces of the nearer or of the farther slices, for drawing without OpenGL.
     struct SurfacePass {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
     };
 
     parallel::ThreadOwned owner;
-    Context context;  // before the members that need a current context
-    const bool shapesInMemory;
+    Context context;                     // declared before the members that need a current context
+    const bool shapesInMemory;           // whether shapes are drawn without OpenGL where possible
     parallel::ForkJoin* const forkJoin;  // null if pictures are drawn with one thread
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
@@ -138,13 +138,13 @@ struct Renderer::Impl {
     DensityStrip densityStrip;
     Overlay overlay;
     ShapeBatch shapes;
-    ConvexSlicePainter convexPainter;
-    NonconvexSlicePainter crossingPainter;
-    NonconvexSlicePainter::Layers layers;
-    ProjectionPainter projectionPainter;
-    ProjectionPainter::Layers projectionLayers;
-    SurfaceBatch surfaces;                     // those that OpenGL draws
-    std::array<SurfacePass, 2> surfacePasses;  // the nearer and the farther slices
+    ConvexShapeCollector convexCollector;
+    NonconvexShapeCollector nonconvexCollector;
+    NonconvexShapeCollector::Layers layers;
+    ProjectionShapeCollector projectionCollector;
+    ProjectionShapeCollector::Layers projectionLayers;
+    SurfaceBatch surfaces;                     // for drawing with OpenGL
+    std::array<SurfacePass, 2> surfacePasses;  // the nearer slices; the farther slices
     std::optional<FogPainter> fogPainter;      // made for the first picture with fog
 };
 
@@ -161,29 +161,30 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
     };
     const auto paintProjection = [this, &scene] {
         flushShapes();
-        projectionPainter.paint(scene, projectionLayers);
+        projectionCollector.collect(scene, projectionLayers);
         glEnable(GL_DEPTH_TEST);
         // To clear all of the depth buffer would take longer than to draw the projection.
         clearDepth(areaOfProjection(scene));
         drawProjection(projectionLayers.depths);
         glDisable(GL_DEPTH_TEST);
     };
-    convexPainter.paint(scene, shapes, painted, paintProjection);
+    convexCollector.collect(scene, shapes, painted, paintProjection);
 }
 
-// Prepares convex slices and the projection of the whole object to be drawn to the picture in memory. Leaves shapes
-// that are nearer than the projection in `shapes`, from the returned index on.
+// Prepares convex slices and the projection of the whole object for drawing without OpenGL: adds the projection, and
+// the slices that are farther than it, to the rasterizer. The caller must add the rest of `shapes` later, from the
+// returned index on. If the projection is not shown, adds nothing and returns 0.
 std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     using Depth = ShapeRasterizer::Depth;
     std::size_t nearer = 0;
     const auto paintSlices = [&] {
-        convexPainter.paint(scene, shapes, [] {}, [&] { nearer = shapes.patches().size(); });
+        convexCollector.collect(scene, shapes, [] {}, [&] { nearer = shapes.patches().size(); });
     };
     if (!scene.projectionPlacement.shown) {
         paintSlices();
         return 0;
     }
-    const auto paintProjection = [&] { projectionPainter.paint(scene, projectionLayers); };
+    const auto paintProjection = [&] { projectionCollector.collect(scene, projectionLayers); };
     parallel::invoke(forkJoin, std::ref(paintSlices), std::ref(paintProjection));
     shapeRasterizer.setDepthArea(areaOfProjection(scene));
     shapeRasterizer.add(shapes, 0, nearer, Depth::unused);
@@ -193,24 +194,24 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     return nearer;
 }
 
-// Prepares slices that need not be convex, surfaces and the projection of the whole object to be drawn to the picture
-// in memory, in the order of drawLayers().
+// Prepares slices that need not be convex, surfaces and the projection of the whole object for drawing without OpenGL,
+// in the same order as drawLayers().
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using Depth = ShapeRasterizer::Depth;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfacePasses;
     const auto prepare = [&](SurfacePass& pass, SurfaceBatch::DepthHalf half) {
-        DepthRange depths;  // not needed here
+        DepthRange depths;  // needed only for OpenGL
         pass.batch.collect(scene, depths, half);
         pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
     };
     const auto prepareNear = [&] {
         prepare(near, SurfaceBatch::DepthHalf::near);
-        crossingPainter.paint(scene, layers);
+        nonconvexCollector.collect(scene, layers);
     };
     const auto prepareFar = [&] {
         prepare(far, SurfaceBatch::DepthHalf::far);
-        if (scene.projectionPlacement.shown) projectionPainter.paint(scene, projectionLayers);
+        if (scene.projectionPlacement.shown) projectionCollector.collect(scene, projectionLayers);
     };
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
@@ -234,12 +235,12 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     add(layers.faded, Depth::tested);
 }
 
-// Draws slices that need not be convex, and surfaces, with the projection of the whole object if it is shown.
+// Uses OpenGL to draw slices that may be nonconvex, surfaces, fog and, if shown, the projection of the whole object.
 void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     DepthRange depths = layers.depths;
     surfaces.collect(scene, depths);
     if (scene.projectionPlacement.shown) {
-        projectionPainter.paint(scene, projectionLayers);
+        projectionCollector.collect(scene, projectionLayers);
         const DepthRange more = projectionLayers.depths;
         depths = {std::min(depths.from, more.from), std::max(depths.to, more.to)};
     }
@@ -270,7 +271,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glDisable(GL_DEPTH_TEST);
 }
 
-// Finds the depths of balls and bars. Leaves the depth buffer cleared.
+// Begins drawing fog: gives the depths of opaque balls and bars to the fog painter. Leaves the depth buffer cleared.
 void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     if (!fogPainter) fogPainter.emplace();
     fogPainter->begin(scene, depths);
@@ -282,7 +283,7 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-// Draws the fog behind balls and bars. Must be called when only surfaces have been drawn.
+// Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
     for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::Part::behind);
@@ -309,12 +310,12 @@ void Renderer::Impl::drawProjection(DepthRange depths) {
     glDepthMask(GL_TRUE);
 }
 
-Renderer::Renderer(const std::string& font, ShapeDrawing drawing, parallel::ForkJoin* forkJoin) {
+Renderer::Renderer(const std::string& font, ShapeBackend drawing, parallel::ForkJoin* forkJoin) {
     {
         const auto lock = lockDriver();
         impl_ = std::make_unique<Impl>(font, drawing, forkJoin);
     }
-    // Mesa compiles a shader at its first draw call, so draw an empty scene now.
+    // Mesa finishes compiling a shader only at its first draw call. Therefore an empty scene is drawn now.
     image::Image image;
     scene::Scene scene;
     scene.viewport = {64, 64};
@@ -330,10 +331,10 @@ Renderer::~Renderer() {
 void Renderer::freeMemory() {
     impl_->shapes = {};
     impl_->shapeRasterizer.freeMemory();
-    impl_->convexPainter = {};
-    impl_->crossingPainter = {};
+    impl_->convexCollector = {};
+    impl_->nonconvexCollector = {};
     impl_->layers = {};
-    impl_->projectionPainter = {};
+    impl_->projectionCollector = {};
     impl_->projectionLayers = {};
     impl_->surfaces = {};
     impl_->surfacePasses = {};
@@ -360,10 +361,10 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     overlay.begin(scene.viewport);
     const bool inMemory =
         impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
-    std::size_t notAdded = 0;  // the first of the shapes that are yet to be added to the rasterizer
+    std::size_t notAdded = 0;  // the first patch of `shapes` that is not yet added to the rasterizer
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
-        if (scene.crossing) {
+        if (scene.isNonconvex) {
             impl_->addLayers(scene);
         } else {
             notAdded = impl_->addConvexSlices(scene);
@@ -373,9 +374,9 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         glClear(GL_COLOR_BUFFER_BIT);
     }
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // premultiplied alpha, for which blending is cheaper
-    if (scene.crossing && !inMemory) {
-        impl_->crossingPainter.paint(scene, impl_->layers);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colors are premultiplied by alpha, because blending is then cheaper
+    if (scene.isNonconvex && !inMemory) {
+        impl_->nonconvexCollector.collect(scene, impl_->layers);
         impl_->drawLayers(scene);
     } else if (!inMemory) {
         impl_->drawConvexSlices(scene);

@@ -18,9 +18,9 @@ namespace oval4d::render {
 std::string fontFile();
 
 /// How slices without fog, and the projection of the whole object that is shown with them, are drawn.
-enum class ShapeDrawing : std::uint8_t {
+enum class ShapeBackend : std::uint8_t {
     fastest,  ///< by a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
-    open_gl,
+    open_gl,  ///< always with OpenGL
 };
 
 /// Draws scenes with its own GL context. Only the thread that created a renderer may use and destroy it. Several
@@ -28,10 +28,11 @@ enum class ShapeDrawing : std::uint8_t {
 class Renderer {
   public:
     /// Creates the context and compiles all shaders. `font` is the path of a font file in any format that FreeType
-    /// reads. If `forkJoin` is not null, draws with two threads, unless the environment variable LP_NUM_THREADS, which
-    /// sets the number of threads of llvmpipe, is 0 or 1. `forkJoin` must outlive this object. Throws
-    /// std::runtime_error if no context can be created, a shader does not compile, or the font cannot be read.
-    explicit Renderer(const std::string& font = fontFile(), ShapeDrawing drawing = ShapeDrawing::fastest,
+    /// reads. If `forkJoin` is not null, shapes that are drawn without OpenGL are drawn with two threads, unless the
+    /// environment variable LP_NUM_THREADS (the number of threads of llvmpipe, the rasterizer of Mesa) is 0 or 1.
+    /// `forkJoin` must outlive this object. Throws std::runtime_error if no context can be created, a shader does not
+    /// compile, or the font cannot be read.
+    explicit Renderer(const std::string& font = fontFile(), ShapeBackend drawing = ShapeBackend::fastest,
                       parallel::ForkJoin* forkJoin = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;

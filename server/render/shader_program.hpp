@@ -10,9 +10,10 @@
 
 namespace oval4d::render {
 
-/// A vertex attribute; see glVertexAttribPointer(3G). Bytes are color channels: 0 … 255 becomes 0 … 1 in the shader.
+/// A vertex attribute; see glVertexAttribPointer(3G). Components of the type GL_UNSIGNED_BYTE are color channels: 0 …
+/// 255 becomes 0 … 1 in the shader.
 struct Attribute {
-    int components;
+    int components;      ///< the number of components: 1 … 4
     GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
     std::size_t offset;  ///< in the vertex structure, in bytes
 };
@@ -34,8 +35,8 @@ class ShaderProgram {
     GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws triangles, each given by three indices of vertices, in this order. `vertices` points to `vertexCount`
-    /// vertices of the size given to the constructor. The arguments are copied.
+    /// Draws triangles in order, each given by three successive entries of `indices`, which are indices of vertices.
+    /// `vertices` points to `vertexCount` vertices of the size given to the constructor. The arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
     /// Copies vertices and indices, as for draw(), for later calls of drawPart().

@@ -15,11 +15,11 @@ inline constexpr auto kSchemes =
 
 /// The background of a picture. Stored sessions contain the numbers of the enumerators.
 enum class Background : std::uint8_t {
-    automatic = 0,    ///< dark or light, as the viewer prefers; dark if the viewer has not said so; "auto" in messages
+    automatic = 0,    ///< dark or light, as the viewer prefers; dark if this is not known; "auto" in messages
     dark = 1,         ///< nearly black
     light = 2,        ///< nearly white, as the page in its light scheme
     white = 3,        ///< as paper
-    transparent = 4,  ///< none in PNG files; elsewhere white. The colors are those on white.
+    transparent = 4,  ///< none in PNG files, white elsewhere; the other colors are those for `white`
 };
 inline constexpr auto kBackgrounds =
     std::to_array<text::Choice<Background>>({{"auto", Background::automatic},

@@ -63,8 +63,8 @@ Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
 }
 
 // Colors up to kFew cells with well-separated hues. For more cells, the Hopf map takes the direction of each cell's
-// center to a point on the 2-sphere; its longitude determines the hue, and its latitude the lightness. The cells of a
-// ring along a Hopf fiber therefore have the same color.
+// center to a point on the 2-sphere; the longitude of this point determines the hue, and its latitude the lightness.
+// The cells of a ring along a Hopf fiber therefore have the same color.
 void paintByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
@@ -104,7 +104,7 @@ ColorScale divergingScale(Scheme scheme) {
     return scale;
 }
 
-// The scales for both schemes, by the numbers of their enumerators.
+// The scales for both schemes, indexed by the numbers of the enumerators of Scheme.
 using ScalePerScheme = std::array<ColorScale, kSchemes.size()>;
 ScalePerScheme scalesFor(ColorScale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
 const ColorScale& scaleOf(const ScalePerScheme& scales, Scheme scheme) {
@@ -116,8 +116,7 @@ const ScalePerScheme& divergingScales() {
     return kScales;
 }
 
-// The direction toward the light in four dimensions, after the rotation of the object: from the upper left, from the
-// front, and from the side of large w.
+// The direction toward the light, which does not turn with the object: to the upper left, to the front and to large w.
 const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
 // A scale of one hue for the cosine of the angle between a cell's normal and the light, from −1 (turned away) to 1. The

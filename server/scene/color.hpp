@@ -21,7 +21,7 @@ using Color = std::uint32_t;
 double contrast(Color a, Color b);
 
 // The colors below have the same hues for both schemes. Those for a light ground have a contrast to white of at least
-// 3.6; it is at least 3 where a light brightens them, also to a ground that is nearly white.
+// 3.6. Where a light brightens them, the contrast is at least 3, to white and to a nearly white ground.
 
 /// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
 /// of the object's cell types.

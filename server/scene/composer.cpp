@@ -53,7 +53,7 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     layOutIfChanged(object, planes, focus, scene);
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
-    const double unit = scene.camera.magnification() * viewport.height * scene.sliceRadius / scene.circumradius;
+    const double unit = scene.camera.sizeAtUnitDepth() * viewport.height * scene.sliceRadius / scene.circumradius;
     // On coarser lattices than those of messages, thin bodies in small slices would fall apart.
     const double coarsest = quality == slicing::Quality::full ? slicing::evenStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
@@ -78,8 +78,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.slices = &slices;
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
-    out.crossing = isField || !info.convex;
-    out.faceOpacity = out.crossing ? 1 : out.style().faceOpacity;
+    out.isNonconvex = isField || !info.convex;
+    out.faceOpacity = out.isNonconvex ? 1 : out.style().faceOpacity;
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
@@ -99,7 +99,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    if (out.crossing && !isField && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
+    if (out.isNonconvex && !isField && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
     out.patchCells.clear();
     for (const slicing::FilledFaces::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
@@ -124,15 +124,16 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     }
 }
 
-// Restores the color that highlight() replaced, because the cell painter expects its own colors.
+// Restores the color that highlight() replaced, because the cell painter does not write colors again that stay the
+// same.
 void Composer::removeHighlightColor(Scene& out) {
     if (!replacedColor_) return;
     const auto [cell, color] = *std::exchange(replacedColor_, {});
     if (cell < out.cellColors.size()) out.cellColors[cell] = color;
 }
 
-// Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the hull of the
-// polytope's vertices in the hyperplane, provided that it is a solid.
+// Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the convex hull of
+// the polytope's vertices in the hyperplane, provided that this hull is a solid.
 void Composer::nameSection(const Object& object, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
@@ -166,7 +167,7 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
-    // The projection has many more bars in less room than a slice.
+    // The projection has many more bars in less room than a slice, so its balls and bars are thinner.
     constexpr double kThickness = 0.55, kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
@@ -182,7 +183,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
 
-    // In perspective, points on the circumscribed sphere appear at most this much farther from the center.
+    // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
     const double magnification = perspective ? eye / std::sqrt(eye * eye - 1) : 1;
     const double radius = out.projectionPlacement.radius / (magnification + kThickness * ballRadius_);
     projection.scale = radius / out.circumradius;
@@ -197,7 +198,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const bool isFocus = i == focusSlice;
         const double thickness = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
-        const bool filled = isFocus && look.parts.faces && !out.crossing;
+        const bool filled = isFocus && look.parts.faces && !out.isNonconvex;
         const bool points = !slices.ballScale.empty();
         projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});
     }

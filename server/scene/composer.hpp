@@ -80,7 +80,7 @@ class Composer {
     slicing::SectionNamer sectionNamer_;
     LayoutInput layoutInput_;           // the input of the next layout; a member to reuse its memory
     LayoutInput laidOut_;               // the input of the layout that the scene has
-    const Scene* laidOutIn_ = nullptr;  // the scene that has this layout; null before the first layout
+    const Scene* laidOutIn_ = nullptr;  // the scene that has the layout of laidOut_; null before the first layout
     std::optional<slicing::Element> highlight_;
     slicing::ElementSources highlightSources_;  // the vertices and edges of slices that show highlight_
     // A cell that has the highlight color in the scene, and the color that this cell has otherwise.
@@ -89,8 +89,8 @@ class Composer {
     DensityPlot density_;
     slicing::CoordinateHistograms histogram_;
     std::uint64_t densityObject_ = 0;  // the serial number of the object whose density or histogram was measured last
-    geometry::Rotation densityTurn_;   // the orientation in this measurement
-    std::vector<double> histogramLevels_;  // the levels in this measurement
+    geometry::Rotation densityTurn_;   // the orientation at that measurement
+    std::vector<double> histogramLevels_;  // the levels at that measurement
 };
 
 }  // namespace oval4d::scene

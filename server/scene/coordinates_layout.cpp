@@ -11,11 +11,11 @@ namespace oval4d::scene {
 
 namespace {
 
-// Returns the width available between the margins, at least half the viewport's width.
+// Returns the width between the margins, in viewport heights; at least half the viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
 constexpr double kMaxAxisStep = 0.42;                            // between neighboring axes of a strip or histogram
-constexpr double kStripAmplitude = 0.056, kStripNameRoom = 1.1;  // the room in heights of text
+constexpr double kStripAmplitude = 0.056, kStripNameRoom = 1.1;  // the latter in heights of text
 
 void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kStripAmplitude};

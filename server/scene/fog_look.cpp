@@ -34,7 +34,7 @@ void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Sche
 
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out) {
     const glm::ivec3 blocks = glm::max((fog.size - 1 + kFogBlock - 1) / kFogBlock, 1);
-    // How many values below this one are not transparent.
+    // Entry v: how many of the values less than v are not transparent.
     std::array<std::uint16_t, kFogEntries + 1> visibleBelow{};
     for (std::size_t value = 0; value < kFogEntries; ++value)
         visibleBelow[value + 1] = static_cast<std::uint16_t>(visibleBelow[value] + (table[value] >> 24 != 0 ? 1 : 0));
@@ -42,7 +42,7 @@ glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, st
     for (glm::ivec3 b(0); b.z < blocks.z; ++b.z) {
         for (b.y = 0; b.y < blocks.y; ++b.y) {
             for (b.x = 0; b.x < blocks.x; ++b.x) {
-                // Interpolation leaves out points without a value, which is 0.
+                // Points without a value, which have the byte 0, are skipped, because interpolation leaves them out.
                 const glm::ivec3 first = b * kFogBlock, last = glm::min(first + kFogBlock, fog.size - 1);
                 std::uint8_t least = 255, greatest = 0;
                 for (int k = first.z; k <= last.z; ++k) {

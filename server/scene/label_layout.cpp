@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kLabelGap = 0.014;  // between a slice and its label, as a fraction of the viewport's height
 
-// Labels are placed in the direction away from the curve of the oval, and somewhat below it, by this part of a unit
-// vector. With more, they would cover the next slice; with less, those at the sides would leave less room for the
-// slices.
+// Labels are placed in the direction away from the curve of the oval, turned somewhat downward: a downward vector of
+// this length is added to the unit vector of the direction. With a longer vector, labels would cover the next slice;
+// with a shorter one, labels at the sides would leave less room for the slices.
 constexpr double kLabelDrop = 0.54;
 
 // The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
@@ -27,14 +27,14 @@ constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
 constexpr double kLeastStripLabel = 0.45;  // the least size of labels in the strip view
-constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to that of the focus slice, in heights of text
+constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to the focus slice's label, in heights of text
 
 }  // namespace
 
 LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double originW,
                          std::vector<SlicePlacement>& placements)
     : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
-    // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
+    // All labels have room for the longest number, with a sign. So the layout stays the same when the focus moves.
     double w = 0;
     for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
     const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
@@ -64,7 +64,7 @@ void LabelLayout::place(const Camera& camera) {
     const glm::dmat4 view = camera.view();
     const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
     const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
-    const double pixels = camera.magnification();
+    const double pixels = camera.sizeAtUnitDepth();
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         SlicePlacement& placement = placements_[i];
         const double depth = -(view * glm::dvec4(placement.position, 1)).z;
@@ -88,7 +88,7 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
 void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
     const auto count = static_cast<std::ptrdiff_t>(placements_.size());
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
-    const std::ptrdiff_t step = smallestStep(focus, camera.magnification());
+    const std::ptrdiff_t step = smallestStep(focus, camera.sizeAtUnitDepth());
     const glm::dmat4 toView = camera.view();
     const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
     const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
@@ -101,7 +101,8 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
         if (isMoved &&
             (box.center.y < bottom + box.half.y || overlap(box, axes) || isOverSlice(i, box, camera, toView, aspect)))
             return false;
-        // The labels between the focus slice and this one, and as many on the other side, have been decided on.
+        // At this point, it is decided which labels are kept between the focus slice and this one, and among as many
+        // slices on the other side.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;
@@ -158,7 +159,7 @@ Box LabelLayout::boxAt(std::size_t i, double scale) const {
 }
 
 glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
-    return glm::dvec2(p) * (camera.magnification() / -p.z) +
+    return glm::dvec2(p) * (camera.sizeAtUnitDepth() / -p.z) +
            glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
 }
 
@@ -168,7 +169,7 @@ bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& ca
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
         const double u = parameterOf(j, placements_.size());
-        const double radius = radius_ * oval_.reachAt(u) * camera.magnification() / -p.z;
+        const double radius = radius_ * oval_.reachAt(u) * camera.sizeAtUnitDepth() / -p.z;
         if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
     }
     return false;

@@ -19,11 +19,13 @@ namespace oval4d::scene {
 /// Decides where the labels are and which of them are shown.
 class LabelLayout {
   public:
-    /// `radius` is that of the slices with their balls.
+    /// `radius` is the radius of the slices with their balls, in world units. `decimals` is the number of decimals in
+    /// the labels. `originW`: see LayoutContent. `oval` and `placements` must outlive this object, which changes the
+    /// labels in `placements`.
     LabelLayout(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
-    /// Reduces the size of all labels but that of the focus slice so that they fit side by side in columns of this
-    /// width.
+    /// Reduces the size of all labels except that of the focus slice, so that they fit side by side in columns of this
+    /// width, in viewport heights. They keep a minimum size.
     void shrink(double columnWidth);
 
     /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds`: the bounds of
@@ -38,43 +40,49 @@ class LabelLayout {
     /// Appends the name of the section to the focus slice's label, if there is room for it in the picture.
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
-    /// Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
-    /// the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's, another
-    /// slice, or the box of the axes, or extend below `bottom`, where the coordinates are.
+    /// Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, at most every
+    /// k-th. Also removes labels that are behind the eye, extend beyond the picture, or overlap labels that are kept
+    /// nearer to the focus slice's. If the viewer has moved the camera (`isMoved`), also removes labels that overlap
+    /// another slice or the box of the axes, or extend below `bottom`, the upper edge of the coordinates.
     void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
 
   private:
+    // The font size of a label, in viewport heights.
     static double fontSize(const SlicePlacement& placement);
 
+    // Half the size of a label's text, in viewport heights, without the name of a section.
     glm::dvec2 halfText(const SlicePlacement& placement) const;
 
-    // Half the size of the plate behind a label.
+    // Half the size of the plate behind a label, in viewport heights, without the name of a section.
     glm::dvec2 halfPlate(const SlicePlacement& placement) const;
 
     // The center of the slice with the parameter u, on the plane at distance 1 from the eye.
     glm::dvec2 onPlane(double u) const;
 
-    // Returns how far the slice with the parameter u, a sphere, extends on the screen from its center in the direction
-    // of a unit vector; at its depth, a world unit appears as `scale` viewport heights. Away from the optical axis,
-    // perspective stretches the sphere: the planes through the eye that touch it, n · p = e d for points p on the
-    // screen and depths d, fulfill (n · c − e d)² = r² (1 + e²) for its center c.
+    // Returns how far the slice with the parameter u, regarded as a sphere, extends on the screen from its center in a
+    // direction, a unit vector. The result is in viewport heights; at the depth of the center, a world unit appears as
+    // `scale` viewport heights. Away from the optical axis, perspective stretches the image of the sphere. A plane
+    // through the eye that appears as a line perpendicular to the direction n has the equation n · p = e d for points p
+    // at the depth d. It touches the sphere with the center c at the depth d and the radius r if (n · c − e d)² = r² (1
+    // + e²).
     double extentOf(double u, const glm::dvec2& direction, double scale) const;
 
-    // Returns the vector on the screen from slice i to the center of its label; at the slice's depth, a world unit
-    // appears as `scale` viewport heights.
+    // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights; at
+    // the depth of the slice, a world unit appears as `scale` viewport heights.
     glm::dvec2 offsetOf(std::size_t i, double scale) const;
 
     // Returns the box of label i before the viewer moves the camera, measured from the center of the focus slice, if
     // one unit on the plane at distance 1 from the eye appears as `scale` viewport heights.
     Box boxAt(std::size_t i, double scale) const;
 
-    // Returns the place on the screen of a point in view coordinates.
+    // Returns the place on the screen of a point in view coordinates, in viewport heights from the lower left corner.
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
 
     // Returns whether the box of label i overlaps another slice than its own.
     bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
                      double aspect) const;
 
+    // Returns the box of a label, with the name of its section, as the camera sees it.
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
     // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
@@ -83,8 +91,8 @@ class LabelLayout {
 
     const Oval& oval_;
     ViewSpace space_;
-    double radius_, width_ = 0;
-    double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
+    double radius_, width_ = 0;  // width_: of the longest number, as a multiple of the font size
+    double nameWidth_ = 0;       // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;
 };
 

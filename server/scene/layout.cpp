@@ -40,7 +40,7 @@ Rect boundsOf(const std::vector<SlicePlacement>& placements, const Oval& oval, d
     return bounds;
 }
 
-// Extends `bounds` by the projection of the whole object.
+// Extends `bounds` so that it contains the projection of the whole object, on the plane at distance 1 from the eye.
 void include(const ProjectionPlacement& placement, const ViewSpace& space, Rect& bounds) {
     const double depth = space.depth(placement.position);
     const double x = placement.position.x / depth, y = space.up(placement.position) / depth;
@@ -56,17 +56,17 @@ ProjectionPlacement besideFocusSlice(double aspect, double reach) {
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
 }
 
-// Places the projection above the row of the strip view, whose half width is `halfWidth`, so that both fill a room with
-// this aspect ratio if the row leaves enough of it.
+// Places the projection above the row of the strip view, whose half width is `halfWidth`. If the row leaves enough
+// height in a room with this aspect ratio, both together fill the room.
 ProjectionPlacement aboveRow(double halfWidth, double aspect, double reach) {
     constexpr double kGap = 0.3, kShare = 0.9;
-    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves
+    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves, in world units
     const double radius = std::clamp(kShare * left / 2, reach, halfWidth);
     return {true, {0, reach + kGap + radius, 0}, radius};
 }
 
-// Places the projection in the middle of the oval, above the parabola's axis: where the largest circle on the screen
-// fits between the slices, and below `top`, a height on the plane at distance 1 from the eye.
+// Places the projection in the middle of the oval, on the parabola's axis: at the point where the largest circle on the
+// screen fits between the slices and below `top`, a height on the plane at distance 1 from the eye.
 ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius,
                                double top) {
     constexpr double kGap = 0.94;
@@ -104,13 +104,14 @@ ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, co
     return {true, position, kGap * std::max(radiusAt(-position.z), 0.0) * space.depth(position)};
 }
 
-// Returns the magnification at which `bounds` fills `room`.
+// Returns the greatest magnification at which `bounds` fits into `room`.
 double scaleFor(const Rect& bounds, const Rect& room) {
     return std::min((room.right - room.left) / (bounds.right - bounds.left),
                     (room.top - room.bottom) / (bounds.top - bounds.bottom));
 }
 
-// Sets the camera's field of view and shift so that `bounds`, magnified by `zoom`, fills `room`.
+// Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. `zoom` then
+// magnifies the picture about the view axis.
 void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
     const double scale = scaleFor(bounds, room);
     camera.fieldOfView = 2 * std::atan(0.5 / (scale * zoom));
@@ -155,18 +156,19 @@ void aim(const CameraOrbit& orbit, const Oval& oval, Camera& camera) {
     camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
 }
 
-// Returns the box of the symbol of the axes, which may point in any direction, with their names.
+// Returns the box of the axes symbol and the names of the axes. The axes may point in any direction.
 Box boxOf(const AxesLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
 }
 
-// Returns the part of `room` that is left for the slices if their labels also have room, but at least half of its width
-// and height.
+// Returns the part of `room` for the slices that leaves room for their labels, too. It has at least half the width and
+// height of `room`.
 Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
-    // The smaller the slices are, the farther their labels extend beyond them. A few steps suffice.
+    // How far labels extend beyond the slices depends on the scale, which depends on the room that the labels leave. A
+    // few steps of this iteration suffice.
     for (int step = 0; step < 4; ++step) {
         const Rect overhang = labels.overhang(bounds, scaleFor(bounds, inside));
         inside = {room.left + std::min(overhang.left, maxX), room.right - std::min(overhang.right, maxX),
@@ -186,8 +188,8 @@ Circle circleOf(const ProjectionPlacement& placement, const ViewSpace& space) {
     return {glm::dvec2(placement.position.x, space.up(placement.position)) / depth, placement.radius / depth};
 }
 
-// Returns the part of `room` for the slices as roomInside() does; if one of the circles would cover the axes, leaves
-// out the columns or the rows of the axes, whichever leaves more room.
+// Returns the part of `room` for the slices, like roomInside(). If a circle would cover the axes symbol, uses only the
+// part of the room to the right of the symbol or the part below it, whichever lets the slices be larger.
 Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, std::span<const Circle> circles,
                  const Box& axes) {
     const Rect inside = roomInside(room, bounds, labels);

@@ -60,8 +60,9 @@ inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
-/// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval
-/// or, if only the focus slice is drawn, beside it. Stored sessions contain the numbers of the enumerators.
+/// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval,
+/// above the row of the strip view or, if only the focus slice is drawn, beside this slice. Stored sessions contain the
+/// numbers of the enumerators.
 enum class ProjectionKind : std::uint8_t {
     off = 0,
     perspective = 1,  ///< from an eye on the positive w axis
@@ -87,8 +88,8 @@ struct CellTypeFilter {
     bool operator==(const CellTypeFilter&) const = default;
 };
 
-/// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; `zoom`
-/// multiplies the magnification. The defaults mean no change.
+/// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; positive
+/// values move it to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const CameraOrbit&) const = default;
@@ -103,8 +104,8 @@ struct Look {
     CellTypeFilter cellTypes = {};
     ProjectionSettings projection = {};
     std::optional<slicing::Element> highlight = {};  ///< the element that is drawn in another color
-    /// The x, y and z of the focus point, in the object's units; its w is that of the focus slice. The planes of the
-    /// matrix view pass through this point.
+    /// The x, y and z of the focus point, in the object's units, after the rotation; its w is that of the focus slice.
+    /// The planes of the matrix view pass through this point.
     glm::dvec3 focusPoint{0};
     slicing::FieldSettings field = {};  ///< for a field: the surfaces and the fog that are shown
     CapStyle caps = CapStyle::plain;

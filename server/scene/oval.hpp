@@ -14,8 +14,9 @@ namespace oval4d::scene {
 struct Oval {
     double halfWidth, depth, pitch, distance;
 
-    /// Returns the radius of the circle within which a slice is assumed to lie, relative to the circumradius. On the
-    /// curve, there is just room for slices that span the object.
+    /// Returns the radius of the circle within which a slice is assumed to lie, relative to the circumradius: 1 in a
+    /// row. On the curve, it is the radius of the slice of the circumscribed sphere if the first and the last slice
+    /// only touch this sphere; there is just enough room for such slices.
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
     /// Returns whether there are several slices in a straight row.
     bool isRow() const { return depth == 0 && halfWidth > 0; }
@@ -24,8 +25,8 @@ struct Oval {
 /// The number of slices for which the oval was designed.
 inline constexpr int kReferenceCount = 21;
 
-/// Returns the oval for a picture with this aspect ratio. Its numbers were found by a search for the largest focus
-/// slice at which neighboring slices hide little of each other; they differ for wide and tall windows.
+/// Returns the oval for a picture with this aspect ratio. The numbers of the oval differ for wide and tall pictures.
+/// They were found by a search for the largest focus slice at which neighboring slices hide little of each other.
 Oval ovalFor(double aspect);
 
 /// Returns the straight row of the strip view; `reach` is the radius of a slice with its balls.

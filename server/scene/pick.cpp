@@ -19,8 +19,8 @@ using slicing::Visibility;
 
 constexpr double kHitRadius = 3;  // pixels: the least radius within which a ball or a bar is hit
 
-// Returns the element with this source number (see SliceSet): an element of the kind `cut` or, for numbers from `count`
-// up, an element of the kind `contained`.
+// Returns the element with this source number (see SliceSet): for numbers less than `count`, an element of the kind
+// `cut`; for numbers from `count` on, an element of the kind `contained`.
 Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
     if (source < count) return {cut, source};
     return {contained, source - count};
@@ -122,7 +122,7 @@ class Picker {
         bool faces;
     };
 
-    // Returns the element with this source number of a point of a planar section (see PlanarSection).
+    // Returns the element from which a point of a planar section was cut, by its source number (see PlanarSection).
     Element elementOfPoint(std::uint32_t source) const {
         if (source < counts_[2]) return {ElementKind::face, source};
         return elementOf(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
@@ -137,7 +137,7 @@ class Picker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Tests the elements of slice or part `i`; `where` has the area and the slice to report for an element that is
+    // Tests the elements of slice or part `i` of the set. `where` has the area and the slice to report if an element is
     // found.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
               const PickedElement& where) {
@@ -187,8 +187,8 @@ class Picker {
         return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
     }
 
-    // Returns the depth at which the ray through the pixel meets the polygon, or an empty optional if it misses it. A
-    // point is inside if the winding number is not 0.
+    // Returns the depth at which the ray through the pixel meets the polygon, or an empty optional if the ray misses
+    // the polygon. A point is inside if the winding number is not 0.
     std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t f) const {
         const std::uint32_t begin = set.cornerBegin[f], end = set.cornerBegin[f + 1];
         int winding = 0;
@@ -216,7 +216,7 @@ class Picker {
     double focalLength_ = 0;
     glm::dvec3 ray_;
     std::vector<glm::dvec3> points_;
-    double nearest_ = std::numeric_limits<double>::max();
+    double nearest_ = std::numeric_limits<double>::max();  // the depth of picked_
     std::optional<PickedElement> picked_;
 };
 

@@ -91,9 +91,9 @@ struct Scene : Layout {
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
     /// instead of their loops. Also true for fields, of which no faces are drawn.
-    bool crossing = false;
+    bool isNonconvex = false;
     slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
-                                            ///< `crossing` is false
+                                            ///< `isNonconvex` is false
     SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty for objects other than fields
     FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
@@ -104,14 +104,14 @@ struct Scene : Layout {
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
-    /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates, into
-    /// which they extend only if the viewer has moved the camera.
+    /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. They
+    /// extend into this part only if the viewer has moved the camera.
     bool clearsCoordinates() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }
     /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];
     }
-    /// Returns whether the density strip is shown.
+    /// Returns whether the parallel coordinates are drawn as densities, because the vertices are too many for lines.
     bool showsDensity() const { return look.parts.coordinates && coordinates.density; }
     /// Returns whether the histogram of a field's values is shown.
     bool showsHistogram() const { return look.parts.coordinates && coordinates.panel > 0; }

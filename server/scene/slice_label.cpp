@@ -11,7 +11,7 @@ namespace oval4d::scene {
 
 namespace {
 
-// Returns the distance between neighboring hyperplanes, or the least of these distances.
+// Returns the distance between neighboring hyperplanes; if these distances differ, the least of them.
 double leastDistance(const geometry::Hyperplanes& planes) {
     if (planes.listed.size() < 2) return planes.spacing;
     std::vector<double> sorted = planes.listed;

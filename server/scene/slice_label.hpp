@@ -7,10 +7,11 @@
 
 namespace oval4d::scene {
 
-/// Returns the number of decimals, from 2 to 9, with which the values of w of neighboring hyperplanes are told apart.
+/// Returns the number of decimals, from 2 to 9, at which the values of w of neighboring hyperplanes differ.
 int labelDecimals(const geometry::Hyperplanes& planes);
 
-/// Returns w with this number of decimals and a minus sign (U+2212) if it is negative; "0" if all digits are 0.
+/// Returns w, rounded to this number of decimals, with a minus sign (U+2212) if it is negative; "0" if all digits are
+/// 0.
 std::string labelNumber(double w, int decimals);
 
 }  // namespace oval4d::scene

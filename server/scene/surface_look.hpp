@@ -77,8 +77,8 @@ struct SurfaceLook {
 /// SliceSurface::growth): amber where the body grows, blue where it shrinks, gray where it does not change.
 Color growthColor(float growth, Scheme scheme = Scheme::dark);
 
-/// Returns the color of level i of `count` levels for a coloring that does not depend on the slice or the point; for
-/// other colorings, plainColor(). It is that of `look`, which shows the level, on its background.
+/// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell, else
+/// plainColor(), also if the colors depend on the slice or the point.
 Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
 /// Chooses how the surfaces are drawn. The innermost level is opaque; the other levels are translucent, so that inner

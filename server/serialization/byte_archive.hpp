@@ -15,12 +15,12 @@
 
 namespace oval4d::serialization {
 
-/// Types whose values are copied byte by byte. Classes among them must not contain pointers or references, which the
-/// concept cannot check.
+/// Types whose values are copied byte by byte. Classes of this kind must not contain pointers or references; the
+/// concept cannot check this.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Other structs without constructors, of which each member is written.
+/// Other aggregates (structs without constructors). Their members are written one by one.
 template <typename T>
 concept Memberwise = std::is_aggregate_v<T> && !BytewiseCopyable<T>;
 
@@ -83,7 +83,7 @@ class ByteReader {
     }
     template <Memberwise T>
     void operator()(T& value) {
-        boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });  // it would copy *this
+        boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });  // pfr would copy *this itself
     }
 
   private:

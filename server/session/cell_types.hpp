@@ -21,8 +21,8 @@ Result<CellTypeList> parseCellTypes(std::string_view text);
 /// the object has no cell type with one of the numbers.
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
-/// These functions return `filter` changed so that the cell types in `changed`, which must be sorted, are hidden, faded
-/// or fully visible.
+/// hide(), fade() and reveal() return `filter`, changed so that the cell types in `changed` are hidden, faded or fully
+/// visible, respectively. `changed` must be sorted.
 scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed);

@@ -44,7 +44,7 @@ struct LoadObject {
     std::string name;        ///< the name to give to the object
     std::string format;      ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
     std::string data;        ///< the text of the file, or the formula
-    bool continues = false;  ///< as in Rotate. If a field replaces a field, also keeps FieldSettings
+    bool continues = false;  ///< as in Rotate. If true and a field replaces a field, keeps FieldSettings
                              ///< and, if the circumradius is the same, slices and focus point
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states.
@@ -108,14 +108,14 @@ struct Set {
 };
 struct Undo {};
 struct Redo {};
-/// Restores the initial orientation and focus, and stops continuous turning.
+/// Restores the initial orientation and focus, and ends all motion.
 struct Reset {};
 /// Applies a line of the page's command line; see parseCommandLine().
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-/// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are; an
-/// object or rotations begin in the initial orientation.
+/// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are.
+/// However, if the query contains an object or rotations, the orientation is first set back to the initial one.
 struct OpenAddress {
     std::string query;  ///< see parseQuery()
 };

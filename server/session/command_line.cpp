@@ -36,8 +36,8 @@ Words split(std::string_view line) {
 
 bool isUnit(std::string_view word) { return word == "°" || word == "deg" || word == "rad"; }
 
-// Joins the words that are written with blanks, but belong together: what follows a separator, and units, as in
-// "highlight=cell: 3" and "30 °". The words refer to one line.
+// Joins words that are separated by blanks, but belong together: words before and after a separator, and numbers and
+// units, as in "highlight=cell: 3" and "30 °". The words must be parts of one line.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {
@@ -68,7 +68,7 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
 Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty())
         return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
-    // This separator is unambiguous, because a formula never contains two words in a row.
+    // This separator is unambiguous, because in a formula only a unit (deg, rad) can follow a word.
     constexpr std::string_view kColoredBy = " colored by ";
     const std::size_t end = rest.find(kColoredBy);
     LoadObject load{std::string(kFormula), std::string(kFormula), std::string(rest.substr(0, end))};
@@ -163,8 +163,8 @@ Result<Command> boostLine(std::string_view rest, const Words& words, const State
     return oneSetting("boost", velocity);
 }
 
-// Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type; without
-// arguments, that of the highlighted cell.
+// Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type. Without
+// arguments, returns the type of the highlighted cell.
 Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state) {
     const auto& lit = state.look.highlight;
     if (rest.empty() && lit && lit->kind == slicing::ElementKind::cell)

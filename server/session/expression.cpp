@@ -43,22 +43,22 @@ using text::isLetter;
 
 // The value of a part of an expression, and what it says about units.
 struct ValueWithUnit {
-    double value = 0;          // without the unit
-    double plain = 0;          // the part of the value that consists of numbers without a unit
-    bool isPlain = false;      // whether this is all of it
-    bool hasUnit = false;      // whether a unit is in it
-    bool isInDegrees = false;  // whether this unit is degrees, and still to be applied
-    bool isInRadians = false;  // whether it is an angle without a unit, such as pi or atan(2)
-    bool isGroup = false;      // whether parentheses enclose it
-    std::size_t unitAt = 0;    // the position of the unit
+    double value = 0;               // in degrees if isInDegrees is true
+    double plain = 0;               // the part of the value that consists of numbers without a unit
+    bool isPlain = false;           // whether `plain` is the whole value
+    bool hasUnit = false;           // whether this part contains a unit
+    bool isInDegrees = false;       // whether the unit is degrees, and the value is not converted to radians yet
+    bool hasUnitlessAngle = false;  // whether it contains an angle without a unit, such as pi or atan(2)
+    bool isGroup = false;           // whether parentheses enclose it
+    std::size_t unitAt = 0;         // the position of the unit in the text
 };
 
 // A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
 // catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
 //   angle = atom [unit]
-// The unit of a factor or of an exponent is that of the whole product: people read 45/2° as 22.5°, not as 45 divided by
-// an angle. So a product has at most one unit. A unit is an error where `units` is false, but for the argument of a
+// The unit of a factor or of an exponent applies to the whole product: people read 45/2° as 22.5°, not as 45 divided by
+// an angle. So a product has at most one unit. If `units` is false, a unit is an error except in the argument of a
 // function.
 class Parser {
   public:
@@ -89,7 +89,7 @@ class Parser {
             total.plain += sign * term.plain;
             total.isPlain = total.isPlain && term.isPlain;
             total.hasUnit = total.hasUnit || term.hasUnit;
-            total.isInRadians = total.isInRadians || term.isInRadians;
+            total.hasUnitlessAngle = total.hasUnitlessAngle || term.hasUnitlessAngle;
         }
     }
     ValueWithUnit product() {
@@ -126,14 +126,14 @@ class Parser {
         result.value = value;
         result.isPlain = a.isPlain && b.isPlain;
         result.plain = result.isPlain ? value : 0;
-        result.isInRadians = a.isInRadians || b.isInRadians;
+        result.hasUnitlessAngle = a.hasUnitlessAngle || b.hasUnitlessAngle;
         result.isGroup = false;
         return result;
     }
-    // Applies the unit of a product.
+    // Converts the value of a product to radians if its unit is degrees.
     ValueWithUnit inRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
-        if (term.isInRadians) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
+        if (term.hasUnitlessAngle) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
         term.value *= std::numbers::pi / 180;
         term.isInDegrees = false;
         return term;
@@ -168,7 +168,7 @@ class Parser {
         if (at_ < text_.size() && isLetter(text_[at_])) return named();
         fail("a number, a name or '(' is expected");
     }
-    static ValueWithUnit pi() { return {.value = std::numbers::pi, .isInRadians = true}; }
+    static ValueWithUnit pi() { return {.value = std::numbers::pi, .hasUnitlessAngle = true}; }
     ValueWithUnit number() {
         double value = 0;
         const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
@@ -190,7 +190,7 @@ class Parser {
             const double value = function.call(sum().value);
             units_ = outside;
             if (!take(")")) fail("a ')' is missing");
-            return {.value = value, .isInRadians = function.givesAngle};
+            return {.value = value, .hasUnitlessAngle = function.givesAngle};
         }
         at_ = start;
         fail("nothing is called " + text::inQuotes(name) + text::didYouMean(name, kNames) + "; known names are " +
@@ -287,7 +287,7 @@ Result<double> evaluateAngle(std::string_view text) {
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
                                 std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
-    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // which is no plane
+    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // the empty name is no plane
     std::vector<geometry::Plane> named;
     for (const std::string_view written : names) {
         const std::string_view name = text::trimmed(written);

@@ -10,24 +10,24 @@
 namespace oval4d::session {
 
 /// Evaluates an expression that is not an angle. It may contain + − * / ^, parentheses, decimal numbers with or without
-/// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians), whose
-/// arguments may be angles with units. Error: `bad_expression`, with the position of a syntax error or of a unit; also
-/// if the value is not finite.
+/// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). The
+/// arguments of these functions may be angles with units. Error: `bad_expression` if the value is not finite, or, with
+/// the position, for a syntax error and for a unit outside the argument of a function.
 Result<double> evaluate(std::string_view text);
 
 /// Evaluates one or more expressions that are not angles, with commas between them. Errors: those of evaluate().
 Result<std::vector<double>> evaluateList(std::string_view text);
 
 /// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may
-/// follow a number, name or parenthesis. A unit is that of the whole product in which it stands: 45/2° is 22.5°.
+/// follow a number, name or parenthesis. A unit applies to the whole product in which it stands: 45/2° is 22.5°.
 /// Errors: those of evaluate(); `bad_expression` for a product with two units, and for degrees of an angle in radians,
-/// such as pi/8°; `out_of_range` if the expression consists of numbers without a unit, or adds them, and they exceed a
-/// full turn, since degrees are probably meant.
+/// such as pi/8°; `out_of_range` if the terms of the expression that are numbers without a unit add up to more than a
+/// full turn, because degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names different planes, such as "xw" or "xw,yz" (see geometry::Turn). `angles` must
-/// have one expression for each plane; see evaluateAngle(). `examples`, for error messages, are rotations as the user
-/// writes them. Errors: `bad_expression`; those of evaluateAngle().
+/// have one expression for each plane; see evaluateAngle(). `examples` shows how rotations are
+/// written; error messages quote it. Errors: `bad_expression`; those of evaluateAngle().
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
                                 std::string_view examples);
 

@@ -37,9 +37,9 @@ void addStep(Steps& steps, const State& state) {
     steps.push_back(state);
 }
 
-// Makes the last step of `from` that differs from the current state the current one, and appends the former current
-// state to `to`. Removes the step, and those after it, from `from`. Returns false and changes nothing if no step
-// differs.
+// Finds the last step of `from` that differs from the current state. Makes this step the current state, and appends the
+// former current state to `to`. Removes the step and those after it from `from`. Returns false and changes nothing if
+// no step differs.
 template <typename From, typename To>
 bool moveToLastStep(Session& session, From& from, To& to) {
     const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
@@ -83,7 +83,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     }
 }
 
-// Makes `next`, which differs from the current state, the current state.
+// Makes `next` the current state. `next` must differ from the current state.
 void replaceCurrent(Session& session, State next, const Limits& limits) {
     const bool historyGrows = session.current.object != next.object || session.current.source != next.source ||
                               bytesOfFilter(session.current) > 0;

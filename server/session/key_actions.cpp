@@ -57,7 +57,7 @@ void toggleView(State& state, scene::View view) {
     state.look.view = state.look.view == view ? scene::View::oval : view;
 }
 
-// Converts an action that cannot fail and returns nothing to one that returns success.
+// Converts a function that cannot fail and returns void to one that returns success.
 template <auto act>
 Done always(ActionContext& c) {
     act(c);
@@ -136,7 +136,7 @@ std::vector<Action> allActions() {
             {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
     }
     for (const auto& [name, view] : scene::kViews) {
-        if (view == scene::View::oval || view == scene::View::single) continue;  // "view" toggles the latter
+        if (view == scene::View::oval || view == scene::View::single) continue;  // the action "view" toggles single
         actions.push_back({std::string(name), [to = view](ActionContext& c) -> Done {
                                toggleView(c.state, to);
                                return std::monostate{};

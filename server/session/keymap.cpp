@@ -33,7 +33,7 @@ Key normalized(Key key) {
 // One row of the key table.
 struct Entry {
     Key key;
-    std::string first;  // the first key of a sequence of two keys, of which `key` is the second; else empty
+    std::string first;  // in a sequence of two keys, the first one (`key` is the second); else empty
     Binding binding{};
     bool client = false;  // whether only the client handles this key
 };

@@ -76,7 +76,7 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
     };
     try {
         std::string text = text_files::plainText(load.data);
-        // The comments above the keyword belong to the table, too.
+        // Replaces only the keyword by blanks, because the comments above it belong to the table, too.
         if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
             text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
         auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
@@ -95,7 +95,8 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
 
 Result<LoadedObject> readFormulaText(const LoadObject& load, const Limits& /*limits*/) { return readFormula(load); }
 
-// Returns the bytes of the file in `load`, which are Base64 unless it is an open file.
+// Returns the bytes of the file that `load` specifies: those of `load.file` or, without it, `load.data` decoded from
+// Base64.
 Result<fields::FileContents> contentsOf(const LoadObject& load) {
     if (load.file) return fields::FileContents::map(load.file->descriptor());
     const std::string& text = load.data;
@@ -154,7 +155,8 @@ Result<LoadedObject> objectFrom(const Read& read, const std::string& name, field
     return LoadedObject{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
 
-// Returns the box of an array whose box is `box`, after its number of time steps has grown from `before` to `after`.
+// Returns the box of an array after its number of time steps has grown from `before` to `after`. `box` is the box
+// before.
 fields::Box boxWithTimeSteps(fields::Box box, std::size_t before, std::size_t after) {
     const double step = before > 1 ? (box.max.w - box.min.w) / static_cast<double>(before - 1) : 1;
     box.max.w = box.min.w + step * static_cast<double>(after - 1);
@@ -295,7 +297,7 @@ std::string_view detectFormat(std::string_view text) {
     }
 }
 
-std::string nameForFile(std::string_view fileName, const Limits& limits) {
+std::string objectNameFor(std::string_view fileName, const Limits& limits) {
     const std::string printable = text::printable(fileName, fileName.size());
     std::string name;
     std::size_t length = 0;

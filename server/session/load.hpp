@@ -25,10 +25,10 @@ struct LoadedObject {
 };
 
 /// Reads the object that `load` specifies, in the calling process (a FileReader of object_loader.hpp may do so in
-/// another process). The format is "off", "points", "cloud", "formula", or one of fields::fieldFormats(), whose files
-/// are given as Base64 or as an open file. Ignores `append`. Errors: `unsupported_format`, `bad_polytope` (with the
-/// line number, if the fault is in a line), `too_large`, and those of readFormula() and readArray(). Arrays may have at
-/// most Limits::maxFieldBytes.
+/// another process). The format is "off", "points", "cloud", "formula", or one of fields::fieldFormats(), the formats
+/// of arrays; files of arrays are given in Base64 or as open files. Ignores `append`. Errors: `unsupported_format`,
+/// `bad_polytope` (with the line number, if the fault is in a line), `too_large`, and those of readFormula() and
+/// readArray(). Arrays may have at most Limits::maxFieldBytes.
 Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits);
 
 /// Makes the field that `load`, whose format is "formula", specifies. Takes less than a millisecond. Errors: those of
@@ -47,9 +47,9 @@ struct SecondSource {
 Result<LoadedObject> readArray(const fields::FileContents& file, const std::string& name,
                                const fields::ReadOptions& options = {}, const SecondSource& second = {});
 
-/// Returns the options for reading the array that `load` specifies. If there is `newFile`, arrays of more than
-/// Limits::maxFieldBytes are allowed: their samples are in the file, or in a new one. The limit applies to an array and
-/// its second array together.
+/// Returns the options for reading the array that `load` specifies. If `newFile` is given, arrays of more than
+/// Limits::maxFieldBytes are allowed: their samples remain in the file or are written to a new file. The limit applies
+/// to an array and its second array together.
 fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile = {});
 
 /// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
@@ -62,26 +62,26 @@ Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, con
                                 const fields::ReadOptions& options);
 
 /// Returns the field of an array, extended at the end of w by the time steps of another array, `added`. The present
-/// time steps keep their values of w; the added ones are as far apart as these, or 1 apart if there is only one. The
-/// initial level and the initial side that is inside are computed anew. Errors: `bad_field` if one of the objects is
-/// not an array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that the field
-/// has; `too_large` if the samples exceed `limits.maxFieldBytes`.
+/// time steps keep their values of w; the added ones are as far apart as these, or 1 apart if there is only one.
+/// Computes anew the initial level, and which side of it is inside. Errors: `bad_field` if one of the objects is not an
+/// array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that the field has;
+/// `too_large` if the samples exceed `limits.maxFieldBytes`.
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
                                         const Limits& limits);
 
-/// Returns the format of a file, as shown by its first word: "off" if this contains OFF, as in 4OFF; "cloud" if it is
-/// CLOUD; otherwise "points".
+/// Returns the format that the first word of a file shows: "off" if this word contains OFF, as in 4OFF; "cloud" if it
+/// is CLOUD; otherwise "points".
 std::string_view detectFormat(std::string_view text);
 
-/// Checks `load`, but not its data. Returns nothing if it is valid, else an error: `bad_message` for a malformed name
-/// or for members that the format does not take, `bad_polytope` for a name that already denotes a polytope, or
-/// `unsupported_format`.
+/// Checks `load`, but not its data. Returns an empty optional if it is valid, else an error: `bad_message` for a
+/// malformed name or for members that the format does not take, `bad_polytope` for a name that already denotes a
+/// polytope, or `unsupported_format`.
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
 
-/// Returns a name that checkLoad() accepts, for the object in a file of this name: with other characters in place of
-/// those that names must not contain, and with an addition to a name of the catalogue or of an example field, under
-/// which a state would be restored with the object of that name.
-std::string nameForFile(std::string_view fileName, const Limits& limits);
+/// Returns a name that checkLoad() accepts, for the object in a file of this name. Replaces characters that names must
+/// not contain. Adds " (file)" to a name of the catalogue or of an example field, because otherwise a stored state
+/// would be restored with the catalogue's object or with the example field.
+std::string objectNameFor(std::string_view fileName, const Limits& limits);
 
 /// Returns whether the files of this format are arrays.
 bool isArrayFormat(std::string_view format);

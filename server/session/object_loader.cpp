@@ -60,7 +60,7 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
 Result<LoadedObject> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // faster than to defer it
+    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // reading it is faster than deferring it
     if (mode_ == Mode::deferred) {
         pending_ = &load;
         return kLater;
@@ -88,7 +88,7 @@ Result<slicing::Object> ObjectLoader::imageOf(const slicing::Object& source, con
 Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalArguments& arguments, std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
-        // Another search may have found them while this one waited for a worker.
+        // Another search may have found the sections while this one waited for a worker.
         if (auto known = search_.cache->find(object, orientation, settings)) return known;
     }
     auto found = slicing::findCriticalSections(object, orientation, settings, {search_.time, std::move(stop)});
@@ -163,8 +163,9 @@ std::size_t ObjectLoader::bytesLoaded() const {
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     // Seconds for each element of a polytope that is built, for each byte of a file that lists elements or the points
-    // of a cloud, for each byte of a list of points whose convex hull is computed, and for each byte of an array; and
-    // for each point of which a construction computes a hull.
+    // of a cloud, for each byte of a list of points whose convex hull is computed, for each byte of an array, and for
+    // each element of an object that is transformed; for a search for critical values of w; and for each point of a
+    // convex hull in the construction of a polytope.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kImageElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;

@@ -28,7 +28,7 @@ using FileReader = std::function<Result<LoadedObject>(const LoadObject& load, co
 
 /// How a loader searches for critical values of w: those at which the type of the section changes.
 struct CriticalSearch {
-    slicing::CriticalCache* cache = nullptr;  ///< null, or outlives the loader
+    slicing::CriticalCache* cache = nullptr;  ///< may be null; must outlive the loader
     /// The maximum search time: see CriticalOptions::time.
     std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
 };
@@ -37,9 +37,10 @@ struct CriticalSearch {
 struct CriticalArguments {
     slicing::Object object;
     geometry::Rotation orientation;
-    slicing::FieldSettings settings;  ///< those of a field; the default ones for other objects, and without fog
+    slicing::FieldSettings settings;  ///< `levels` and `inside` of a field; all else has its default value
     bool operator==(const CriticalArguments&) const = default;
 };
+/// Returns the arguments that determine the critical values of w of the object that the state shows.
 CriticalArguments criticalArguments(const State& state);
 
 /// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
@@ -52,14 +53,15 @@ class ObjectLoader {
 
     /// Creates a loader with Mode::immediate that reads files in the calling process.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
+    /// Creates a loader that reads files with `reader`.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
                  CriticalSearch search = {});
 
-    /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if its convex
-    /// hulls exceed a limit that the design does not reveal.
+    /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
+    /// computation of a convex hull exceeds a limit, which is not known in advance.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
-    /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad() and
+    /// Returns the object that `load` specifies. `load` must outlive the loader. Errors: those of checkLoad() and
     /// readObject().
     Result<LoadedObject> objectFrom(const LoadObject& load);
 
@@ -70,7 +72,7 @@ class ObjectLoader {
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
     /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). If
-    /// the search was deferred, they are those of the state at the time of the first call, even if the object has
+    /// the search was deferred, the result is for the state at the time of the first call, even if the object has
     /// turned since. For small polytopes, the search is never deferred. Error: `canceled` if the search was stopped.
     Result<slicing::CriticalPtr> criticalSections(const State& state);
 

@@ -14,8 +14,8 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of an example field
-// or a loaded object if that is at least as similar; empty if nothing is similar.
+// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of an example field or a
+// loaded object if that is at least as similar; an empty string if nothing is similar.
 std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
     std::vector<std::string_view> near = polytopes::nearestNames(name);
     std::size_t least =

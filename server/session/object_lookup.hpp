@@ -15,7 +15,8 @@ namespace oval4d::session {
 Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader);
 
-/// Returns the loaded object with this name or, if there is none, the example field; nothing if there is neither.
+/// Returns the loaded object with this name or, if there is none, the example field; an empty optional if there is
+/// neither.
 std::optional<slicing::Object> loadedOrExample(std::string_view name, const LoadedObjects& loaded);
 
 /// Returns the object `by` places after `object` in the cyclic list of catalogue entries, example fields and loaded

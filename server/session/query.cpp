@@ -21,7 +21,7 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns the parameters that name the object. Error: `unknown_polytope` if it has no name that everyone knows.
+// Returns the parameters that name the object. Error: `unknown_polytope` if an address cannot contain the object.
 Result<QueryParameters> objectParameters(const slicing::Object& object) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const fields::Field* const field = slicing::fieldIn(object);
@@ -44,7 +44,7 @@ Result<QueryParameters> objectParameters(const slicing::Object& object) {
     return parameters;
 }
 
-// Returns the rotation from the initial orientation, such as "xy,zw:0.1,0.2"; empty for none.
+// Returns the rotation from the initial orientation, such as "xy,zw:0.1,0.2"; an empty string if there is none.
 std::string rotationText(const geometry::Rotation& orientation) {
     const geometry::Turn turn = orientation.turn();
     std::string planes;
@@ -56,8 +56,8 @@ std::string rotationText(const geometry::Rotation& orientation) {
     return planes.empty() ? "" : planes + ":" + numberList(angles);
 }
 
-// Parses `Count` numbers or expressions, separated by commas, as the value of the parameter `name`. `form` says what it
-// must be.
+// Parses `Count` numbers or expressions, separated by commas, as the value of the parameter `name`. `form` describes
+// the value in error messages.
 template <std::size_t Count>
 Result<std::array<double, Count>> parseNumbers(std::string_view name, std::string_view form, std::string_view text) {
     std::array<double, Count> numbers{};
@@ -76,7 +76,8 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
     return numbers;
 }
 
-// Returns the error for a name that no query has, or only that of a picture or of a file.
+// Returns the error for an unknown name, or for one that is allowed only in queries of pictures or only in those of
+// files. `others`: see stateFromQuery().
 Error unknownName(std::string_view name, std::span<const std::string_view> others) {
     const auto isIn = [&](std::span<const std::string_view> names) {
         return std::ranges::find(names, name) != names.end();
@@ -180,7 +181,7 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
         query->emplace_back("rotate", rotation);
     State fresh = initialState();
     if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
-    // The spacing of a new object depends on these.
+    // The spacing of a new object depends on the number of slices and on the frame of reference.
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));
     for (auto& setting : settingTexts(settingsOf(state))) {

@@ -1,5 +1,6 @@
 #pragma once
-// Converts names and values, from the query of an address or the options of `oval4d render`, to a state, and back.
+// Converts names and values, from the query of an address or the options of `oval4d render` and `oval4d export`, to a
+// state, and back.
 
 #include <array>
 #include <span>
@@ -14,8 +15,8 @@
 
 namespace oval4d::session {
 
-/// The names that the query of a picture, and that of a file, have beside those that describe the state. Their callers
-/// read and remove them.
+/// The names of parameters that do not describe the state: in the query of a picture, and in the query of a file. The
+/// callers of stateFromQuery() read and remove these parameters before the call.
 inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"width", "height"});
 inline constexpr auto kFileParameters = std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit"});
 
@@ -27,19 +28,20 @@ Result<fields::Box> parseBox(std::string_view text);
 /// commas. Errors: `bad_expression` and those of evaluate().
 Result<geometry::Centering> parseCenter(std::string_view written);
 
-/// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "rotate",
-/// which may occur any number of times; and "toward", such as "cell" or "cell:3". Rotations are applied in the order
-/// given, and "toward" after everything else. Settings that the query does not contain are those of `state`. `loader`
-/// provides the polytopes. Errors: `unknown_command` for an unknown name, with the allowed names, among them `others`,
-/// which the caller has read and removed; those of
-/// parseSetting(), parseTurn(), checkTurn(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
+/// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "formula",
+/// "box" and "values", which describe a field; "rotate", which may occur any number of times; and "toward", such as
+/// "cell" or "cell:3". Rotations are applied in the order given, and "toward" after everything else. Settings that the
+/// query does not contain are those of `state`. `loader` provides the polytopes. `others` are further names that the
+/// caller has read and removed. Errors: `unknown_command` for an unknown name, with a list of the allowed names and of
+/// `others`; `bad_expression`; those of parseSetting(), parseTurn(), checkTurn(), parseBox(), readFormula(),
+/// replaceObject(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader,
                              State state = initialState(), std::span<const std::string_view> others = {});
 
-/// Returns a query that describes the view that a state shows: stateFromQuery() makes a state from it that shows the
-/// same, with the same settings. It contains no settings that are those of a new object, and neither the last rotation
-/// nor a motion that is under way. Error: `unknown_polytope` if the object was read from a file or uploaded, because an
-/// address cannot contain it.
+/// Returns a query for the view that a state shows: from this query, stateFromQuery() makes a state that shows the
+/// same, with the same settings. The query omits the settings that still have the values of a new object, the last
+/// rotation, and a motion that is under way. Error: `unknown_polytope` if the object was read from a file or uploaded,
+/// because an address cannot contain it.
 Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader);
 
 }  // namespace oval4d::session

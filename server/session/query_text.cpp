@@ -29,7 +29,8 @@ std::string repaired(std::string_view query) {
     return out;
 }
 
-/// The rules of protocol/address.json.
+/// The rules of protocol/address.json: names of parameters to ignore, and of parameters whose values are not
+/// arithmetic.
 struct AddressRules {
     std::vector<std::string> ignored, texts;
 };
@@ -42,14 +43,14 @@ const AddressRules& rules() {
     return read;
 }
 
-/// Returns whether a parameter was appended to the address by another site.
+/// Returns whether a parameter is one of those that other sites append to addresses.
 bool isIgnored(std::string_view name) {
     return std::ranges::any_of(rules().ignored, [&](std::string_view rule) {
         return rule.ends_with('*') ? name.starts_with(rule.substr(0, rule.size() - 1)) : name == rule;
     });
 }
 
-/// Returns whether an operand may end, or begin, with this character.
+/// Returns whether an operand may end with `c` (if `parenthesis` is ')') or begin with `c` (if it is '(').
 bool isOperand(char c, char parenthesis) {
     const bool isAscii = static_cast<unsigned char>(c) < 0x80;
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;
@@ -65,7 +66,7 @@ bool startsWithUnit(std::string_view text) {
 
 /// Decodes the value of a parameter. A "+" is a blank, as in forms (application/x-www-form-urlencoded). Where the value
 /// is arithmetic, however, a "+" between two operands is a plus sign, as in 0.1+pi/8, because a blank has no meaning
-/// there; a unit, as in 30+°, is no operand. Returns nothing if an escape is malformed.
+/// there; a unit, as in 30+°, is no operand. Returns an empty optional if an escape is malformed.
 std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
     const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
     std::string value;

@@ -13,8 +13,8 @@ namespace oval4d::session {
 using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
 /// Parses a query, without the question mark. Decodes percent escapes and, in the values, "+" as a blank unless it adds
-/// two operands of arithmetic. Reads "&amp;" as "&", and escapes that were escaped again, as mailers and forums do.
-/// Leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed.
+/// two operands of arithmetic. Mailers and forums sometimes write "&" as "&amp;", or escape escapes again; undoes both.
+/// Leaves out the parameters that protocol/address.json ignores. Returns an empty optional if an escape is malformed.
 std::optional<QueryParameters> parseQuery(std::string_view text);
 
 /// Returns the text of a query, without the question mark: the inverse of parseQuery() for names and values without

@@ -25,13 +25,13 @@ namespace {
 
 using Done = Result<std::monostate>;
 
-// An extended field in the frames of reference in which the states show it: for each object that was transformed from
-// the shorter field, by its identity, the one that was transformed from the longer field.
+// The images of an extended field (see slicing::imageOf()). The key is the identity of an image of the shorter field;
+// the value is the image of the longer field in the same frame of reference.
 using ExtendedImages = std::map<const void*, slicing::Object>;
 
 // Shows the field `after`, a longer version of `before`, if the state shows `before`; returns whether it does. Keeps
-// all settings, except that spacing and offset keep their ratios to the reach of the slices. States that show the same
-// transformed object also do so afterward: `images` has those that have been made.
+// all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent(). States that share an
+// image of `before` also share one of `after`: `images` has the images that have been made so far.
 bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
@@ -45,9 +45,9 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
     return true;
 }
 
-// Returns the rotation of an undo step that consists of several, such as those of a gesture, as one turn. The step
-// began at `before`; `next.lastTurn` leads from `current` to `next`. Returns the last turn of `before` if the step has
-// led back.
+// Combines the rotations of an undo step, such as those of a gesture, into one turn from `before` to `next`. The newest
+// rotation is `next.lastTurn`, from `current` to `next`. If the rotations cancel out, returns the last turn of
+// `before`.
 std::optional<geometry::Turn> turnOfStep(const State& before, const State& current, const State& next) {
     constexpr double kSame = 1e-9;
     const geometry::Rotation whole = next.orientation * before.orientation.inverse();
@@ -60,7 +60,7 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
     return whole.turn();
 }
 
-// Returns whether a parameter of a query is not part of the view, but belongs to the connection or to a picture.
+// Returns whether a parameter of a query belongs to the connection or to a picture, not to the view.
 bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
 // Applies each command to a copy of the state, which becomes the current state only on success.
@@ -170,7 +170,7 @@ class Applier {
                                               " loaded polytopes; load under a name that is in use to replace one"};
     }
 
-    // Adds the field of a formula to `loaded`, unless the field of this name has the same formula.
+    // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.
     Done loadFormula(const LoadObject& load, LoadedObjects& loaded) {
         if (const auto present = loadedOrExample(load.name, loaded)) {
             const fields::Field* const field = slicing::fieldIn(*present);
@@ -261,7 +261,7 @@ std::size_t ownObjectMemory(const Session& session) {
     const auto add = [&](const slicing::Object& object) { objects.try_emplace(slicing::identityOf(object), &object); };
     auto addAll = [&, last = static_cast<const State*>(nullptr)](const State& state) mutable {
         const State* previous = std::exchange(last, &state);
-        // Most states have the same objects as the state before them, which have been added already.
+        // Most states have the same objects as the state before them. These objects have been added already.
         if (previous != nullptr && previous->object == state.object && previous->source == state.source) return;
         for (const slicing::Object* object : state.objects()) add(*object);
     };

@@ -60,7 +60,7 @@ struct State {
     std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
-    /// Returns w of the focus slice.
+    /// Returns w of the focus slice, in the object's units.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
     /// Returns the focus point x, y, z, w in the coordinates of the object's file.
     glm::dvec4 focusPointInFile() const {
@@ -74,8 +74,8 @@ struct State {
 /// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
 State initialState();
 
-/// Returns the spacing at which `count` slices lie from −r to r for r = slicing::initialSliceExtent(object); r for one
-/// slice.
+/// Returns the spacing at which `count` slices lie from −r to r, where r = slicing::initialSliceExtent(object). If
+/// `count` is 1, returns r.
 double spanningSpacing(const slicing::Object& object, int count);
 
 /// Limits on a session. Each can be set by an option of the server.
@@ -108,7 +108,7 @@ struct Session {
 /// or a field of the data folder.
 std::size_t ownMemory(const slicing::Object& object);
 
-/// Returns the memory of a session's objects in bytes: the sum of ownMemory() over all objects, each of which counts
+/// Returns the memory of a session's objects in bytes: the sum of ownMemory() over all objects. Each object counts
 /// once.
 std::size_t ownObjectMemory(const Session& session);
 
@@ -117,8 +117,9 @@ std::size_t historyMemory(const Session& session);
 
 class ObjectLoader;
 
-/// Applies a command to the session. After an error, the session is unchanged. Every change adds an undo step, except a
-/// move of the camera and the end of continuous turning; see history.hpp. `loader` builds polytopes and reads files.
+/// Applies a command to the session. After an error, the session is unchanged. Every change adds an undo step, except
+/// moves of the camera, the end of continuous turning, commands with `continues`, and added time steps; see
+/// history.hpp. `loader` builds polytopes and reads files.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.

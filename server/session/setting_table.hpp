@@ -18,11 +18,11 @@ namespace oval4d::session {
 /// The names of a setting.
 struct SettingName {
     std::string_view text;    ///< on the page's command line and in queries
-    std::string_view object;  ///< in messages: the object that contains it, such as "camera"; empty for the message
-    std::string_view member;  ///< in messages: its name in this object
+    std::string_view object;  ///< in messages: the JSON object around it, such as "camera"; empty for the message
+    std::string_view member;  ///< in messages: its name in this JSON object
 };
 
-/// The rule of a setting of which applySet() accepts every value.
+/// The rule of a setting for which applySet() accepts every value.
 struct AcceptsAnyValue {};
 /// The rule of a number that applySet() accepts within fixed bounds.
 struct NumberWithBounds {
@@ -32,18 +32,18 @@ struct NumberWithBounds {
 /// The rule of a setting that applySet() checks and changes with code of its own.
 struct CheckedByApplySet {};
 
-/// The accessor of a setting that states do not have, because it changes other settings.
+/// Takes the place of `ofState` in settings that are not read from a state: they change other settings or the motion.
 struct NotInState {};
 
 /// What sets a setting back to its initial value.
-enum class SetBack : std::uint8_t {
+enum class ResetOccasion : std::uint8_t {
     never,              ///< nothing: it belongs to the view, and stays; the spacing is scaled with the object
-    by_another_object,  ///< an object that takes the place of another one, to which the value belonged
-    by_reset,           ///< such an object, and the command `reset`
+    by_another_object,  ///< the replacement of the object, because the value belongs to the object
+    by_reset,           ///< the replacement of the object, and the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to its member of a Set, a std::optional; `ofState` returns its value in a
-/// State, by reference unless the rule is CheckedByApplySet.
+/// A setting. `ofSet` returns a reference to its member of a Set, a std::optional. `ofState` returns its value in a
+/// State: by reference if the value is one member of the State, otherwise by value; the rule is then CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
@@ -54,35 +54,35 @@ struct Setting {
     OfSet ofSet;
     OfState ofState;
     Rule rule;
-    SetBack setBack;
+    ResetOccasion setBack;
     bool forFields;  ///< whether only states with a field have it
 
-    /// Returns whether it is an angle in radians, which is read with a unit.
+    /// Returns whether it is an angle in radians, which may be written with a unit.
     bool isAngle() const {
         if constexpr (kHasBounds) return rule.bounds.unit == kRadians;
         return false;
     }
 };
 template <typename OfSet, typename OfState, typename Rule>
-Setting(SettingName, OfSet, OfState, Rule, SetBack, bool) -> Setting<OfSet, OfState, Rule>;
+Setting(SettingName, OfSet, OfState, Rule, ResetOccasion, bool) -> Setting<OfSet, OfState, Rule>;
 
-/// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings that messages
-/// have in the same object follow one another.
+/// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings that are in the
+/// same JSON object of a message are visited one after another.
 template <typename Visitor>
 void forEachSetting(const Visitor& visit) {
     using scene::Look;
     constexpr double kTwoPi = 2 * std::numbers::pi;
     constexpr Bounds kAngle{-kTwoPi, kTwoPi, kRadians}, kOrbitAngle{-kMaxOrbitAngle, kMaxOrbitAngle, kRadians};
-    // Returns the accessor of a member of a member … of a state.
+    // Returns a function that returns a reference to state.*m1.*m2…, for pointers to members m1, m2, …
     const auto at = [](auto... members) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
-    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule, SetBack setBack,
+    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule, ResetOccasion setBack,
                              bool forFields = false) {
         visit(Setting{name, [given](auto& set) -> auto& { return set.*given; }, ofState, rule, setBack, forFields});
     };
 
-    using enum SetBack;
+    using enum ResetOccasion;
     const auto frame = &State::referenceFrame;
     setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{}, never);
     setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{},

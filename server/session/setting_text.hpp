@@ -16,11 +16,11 @@ namespace oval4d::session {
 /// for an invalid value.
 Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set);
 
-/// Returns the names and values of the settings that `set` contains, from which parseSetting() reads the same values.
+/// Returns the names and values of the settings that `set` contains, in the form that parseSetting() reads.
 QueryParameters settingTexts(const Set& set);
 
-/// Returns the error `unknown_command` for a name that is no setting, with a similar name, if there is one. `others`
-/// are names that are accepted, too.
+/// Returns the error `unknown_command` for a name that is no setting. Its message contains a similar name, if there is
+/// one. `others` are names that are accepted besides those of settings.
 Error unknownSetting(std::string_view name, std::span<const std::string_view> others = {});
 
 /// Returns all names that parseSetting() accepts, separated by commas.

@@ -44,7 +44,7 @@ Result<std::monostate> put(std::string_view name, std::optional<double> value, B
     return std::monostate{};
 }
 
-// Error: `out_of_range`.
+// Changes the frame of reference. Errors: `out_of_range`; that of changeReferenceFrame().
 Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
     geometry::ReferenceFrame frame = state.referenceFrame;
     if (auto done = put("the pace", set.pace, {kMinPace, kMaxPace, ""}, frame.pace); !done) return done;
@@ -109,7 +109,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     return put("the offset", set.offset, around(0), state.slices.offset);
 }
 
-// Errors: `out_of_range`; also if the object is not a field.
+// Changes levels, inside and fog of a field. Error: `out_of_range`, also if the object is not a field.
 Result<std::monostate> setField(State& state, const Set& set) {
     if (!set.levels && !set.inside && !set.fog) return std::monostate{};
     if (slicing::fieldIn(state.object) == nullptr) {
@@ -154,8 +154,8 @@ Result<std::monostate> checkElement(const slicing::Object& object, const slicing
                                               std::to_string(element.index)};
 }
 
-// Sets the settings that `occasion` sets back to their values in `initial`.
-void setBack(State& state, SetBack occasion, const State& initial) {
+// For each setting that `occasion` sets back, copies its value from `initial`.
+void setBack(State& state, ResetOccasion occasion, const State& initial) {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kIsInState) {
             if constexpr (std::is_lvalue_reference_v<decltype(setting.ofState(state))>) {
@@ -198,8 +198,8 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
     if (field != nullptr) initial.look.field = {{field->level}, field->inside};
-    setBack(state, SetBack::by_another_object, initial);
-    state.look.focusPoint = initial.look.focusPoint;  // the setting `point` is a sum of other members
+    setBack(state, ResetOccasion::by_another_object, initial);
+    state.look.focusPoint = initial.look.focusPoint;  // setBack() omits `point`, which is not one member
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
@@ -213,7 +213,7 @@ void returnToInitialOrientation(State& state) {
 
 void reset(State& state) {
     returnToInitialOrientation(state);
-    setBack(state, SetBack::by_reset, initialState());
+    setBack(state, ResetOccasion::by_reset, initialState());
 }
 
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader) {
@@ -346,7 +346,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
 
 void moveFocusTo(State& state, double w) {
     const double spacing = state.slices.spacing;
-    const double limit = kMaxFocus;  // a spacing far below the circumradius cannot reach every w
+    const double limit = kMaxFocus;  // if the spacing is very small, not every w can be reached
     state.slices.focus = static_cast<int>(std::clamp(std::round(w / spacing), -limit, limit));
     state.slices.offset = w - state.slices.focus * spacing;
 }

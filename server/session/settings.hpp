@@ -32,26 +32,29 @@ inline constexpr double kMinPace = 1e-3, kMaxPace = 1e3;
 inline constexpr double kMaxFollow = 1000;  ///< absolute value of each component of ReferenceFrame::follow
 inline constexpr double kMaxBoost = 0.999;  ///< length of ReferenceFrame::boost
 
-/// Returns whether these control points are valid as FieldSettings::fog. There must be none, or kMinFogPoints …
-/// kMaxFogPoints with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
+/// Returns whether these control points are valid as FieldSettings::fog: either none, or kMinFogPoints … kMaxFogPoints
+/// points with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
 bool isTransferFunction(std::span<const slicing::FogPoint> points);
 
 /// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the
-/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets the settings that are
-/// SetBack::by_another_object back, those of a field to its defaults, and ends a turn toward an element. Error: that of
-/// `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
+/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets back the settings that are
+/// ResetOccasion::by_another_object or ResetOccasion::by_reset, those of a field to its defaults, and ends a turn
+/// toward an element. If only the new object has a second function, sets Coloring::value; if only the old one has,
+/// replaces Coloring::value by Coloring::cell. Error: that of `loader`, if it defers transforming the object to the
+/// frame of reference; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
 
 /// Sets the orientation back to the initial one, and ends all motion.
 void returnToInitialOrientation(State& state);
 
-/// Does this, and sets the settings that are SetBack::by_reset back.
+/// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset.
 void reset(State& state);
 
-/// Shows the object in another frame of reference, which must be within the bounds; does nothing if it is the same. If
-/// the slices have the spacing spanningSpacing(), as they do initially, they have it afterward, too, and the w of the
-/// focus slice stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are
-/// clamped to their bounds, which depend on the circumradius. Ends a turn toward an element. Error: as replaceObject().
+/// Shows the object in another frame of reference; does nothing if it is the same. `frame` must be within the bounds.
+/// If the slices have the spacing spanningSpacing(), as they do initially, they have it afterward, too, and the w of
+/// the focus slice stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point
+/// are clamped to their bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of
+/// `loader`, if it defers the transformation; the state is then unchanged.
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
@@ -65,7 +68,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
                                 ObjectLoader& loader);
 
 /// Returns the settings of a state: applySet() with them makes a state with the same object equal to this one, except
-/// for the orientation, the last rotation and the motion, which they do not contain.
+/// for the orientation, the last rotation and the motion, which the settings do not contain.
 Set settingsOf(const State& state);
 
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.

@@ -9,10 +9,10 @@
 
 namespace oval4d::slicing {
 
-/// Lists the edges, the 2-faces or the cells of a polytope that a rising hyperplane cuts at its current position. The
-/// hyperplane takes successive positions, which are numbered from 0; an element is cut at the positions [from, to).
-/// Call clear(), then add() for each element, then sort() once, then advance() for the positions in ascending order.
-/// Reuses its memory.
+/// Lists the edges, the 2-faces or the cells of a polytope that are cut by the current one of several parallel
+/// hyperplanes. The hyperplanes are numbered from 0 by ascending w; an element is cut by the hyperplanes with the
+/// indices in [from, to). Call clear(), then add() for each element, then sort() once, then advance() for the
+/// hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
 /// take longer than the work that the branch avoids.
@@ -43,7 +43,7 @@ class ActiveList {
     /// hyperplane of every element.
     void sort(std::span<const int> steps);
 
-    /// Moves the hyperplane up to the one with the index `step`. Must be called for the steps that were passed to
+    /// Makes the hyperplane with the index `step` the current one. Must be called for the steps that were passed to
     /// sort(), in this order. Returns the elements that become active: those whose first hyperplane is `step`.
     std::span<const Element> advance(int step);
     /// Returns the elements that the current hyperplane cuts.

@@ -10,7 +10,7 @@
 namespace oval4d::slicing {
 
 double ballRadius(const geometry::PointCloud& cloud) {
-    // In four dimensions, the distance between neighboring points is proportional to (their number)^(−1/4).
+    // In four dimensions, the distance between neighboring points is proportional to (the number of points)^(−1/4).
     constexpr double kLargest = 0.06, kSmallest = 0.015;
     return std::clamp(0.14 * std::pow(static_cast<double>(cloud.points.size()), -0.25), kSmallest, kLargest);
 }

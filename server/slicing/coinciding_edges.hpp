@@ -8,9 +8,9 @@
 
 namespace oval4d::slicing {
 
-/// Edges of a slice that coincide. If a face of the slice shrinks until only two of its edges are left, these join the
-/// same two vertices. The face is removed, and the two become one edge, so that the surface stays closed. Reuses its
-/// memory.
+/// Edges of a slice that coincide. If a face of the slice shrinks until only two of its edges are left, these edges
+/// join the same two vertices. The face is removed, and the two edges become one, so that the surface stays closed.
+/// Reuses its memory.
 class CoincidingEdges {
   public:
     /// Begins with edges 0 … edges − 1, all of which are different.
@@ -18,9 +18,9 @@ class CoincidingEdges {
         edges_ = edges;
         any_ = false;
     }
-    /// Makes two edges one; they may be the same already.
+    /// Makes two edges one edge. They may already be the same edge.
     void join(std::uint32_t a, std::uint32_t b) {
-        if (a == b) return;  // as in almost all slices, for which the list is not even made
+        if (a == b) return;  // in almost all slices, this is true of all calls, and the list is not even made
         if (!any_) {
             first_.resize(edges_);
             std::iota(first_.begin(), first_.end(), 0U);
@@ -40,7 +40,7 @@ class CoincidingEdges {
   private:
     std::uint32_t edges_ = 0;
     bool any_ = false;
-    // If any_: per edge, one that coincides with it and has a smaller index, or itself.
+    // Valid only if any_. Per edge: an edge with a smaller index that coincides with it, or else the edge itself.
     std::vector<std::uint32_t> first_;
 };
 

@@ -21,7 +21,7 @@ static_assert(CoordinateHistograms::kMinPoints % kHistogramBatch == 0);
 constexpr std::uint8_t kNoRow = 255;
 static_assert(CoordinateHistograms::kRows < kNoRow);
 
-// A slower function is evaluated at fewer points, in about the same total time.
+// Returns the number of points: fewer for a slower function, so that the evaluation always takes about the same time.
 std::size_t pointCount(const fields::ScalarFunction& function) {
     constexpr double kTime = 2e7;  // nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
@@ -94,7 +94,7 @@ void CoordinateHistograms::assignRows() {
 }
 
 void CoordinateHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
-    // toSteps maps the unit cube, centered at the origin, to the rotated object, in units of 1 / kPoint of a column.
+    // toSteps maps the unit cube, centered at the origin, to the rotated domain, in units of 1 / kPoint of a column.
     constexpr float kReach = (kPanel - 1) * kPoint / 2.0F;
     glm::dmat4 toSteps = orientation.matrix() * glm::inverse(field.toFunction);
     for (int j = 0; j < 4; ++j) toSteps[j] *= field.box.max[j] - field.box.min[j];

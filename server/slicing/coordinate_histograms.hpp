@@ -22,8 +22,8 @@ namespace oval4d::slicing {
 
 /// Four two-dimensional histograms of a rotated field, one for each of the axes x, y, z and w. Each shows how much of
 /// the domain has a given coordinate along the axis and a given value. The histograms form an image of kRows ×
-/// kColumns, with a panel of kPanel columns for each axis. The first and the last column of a panel are the ends of the
-/// domain; the first row is the greatest value of range(), and the last row the least.
+/// kColumns, with a panel of kPanel columns for each axis. The first and the last column of a panel stand for the ends
+/// of the domain; the first row stands for the greatest value of range(), and the last row for the least.
 ///
 /// The domain is sampled at quasirandom points (see fields::writeUnitPoints()). The function is not evaluated again
 /// while only the rotation or the levels change. Reuses its memory between measurements.
@@ -43,8 +43,9 @@ class CoordinateHistograms {
     /// between the least and the greatest value of the field at the points.
     void measure(const fields::Field& field, const geometry::Rotation& orientation, std::span<const double> levels);
 
-    /// Returns the interval of values that the rows represent: that of all values at the points, but without outliers,
-    /// such as values near a pole, unless a level lies among them. Values outside the interval are not counted.
+    /// Returns the interval of values that the rows represent. It contains the values at the points except outliers,
+    /// such as values near a pole; it is extended to levels that lie among the outliers. Values outside the interval
+    /// are not counted.
     Range range() const { return range_; }
 
     /// Returns half the extent of the rotated domain along each axis, in the object's units. Along an axis, the domain

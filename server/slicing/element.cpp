@@ -20,8 +20,8 @@ namespace {
 
 using polytopes::Polytope;
 
-// Calls `visit` with the number of each vertex of the element. A vertex of a cell is visited once for each of its
-// 2-faces in this cell.
+// Calls `visit` with the number of each vertex of the element. For a cell, visits a vertex once for each 2-face of the
+// cell that contains the vertex.
 template <typename Visit>
 void visitVertexNumbers(const Polytope& p, const Element& element, Visit visit) {
     const std::size_t i = element.index;
@@ -57,7 +57,8 @@ void visitVertices(const Solid& object, const Element& element, Visit visit) {
     visitVertexNumbers(object, element, [&](std::uint32_t v) { visit(verticesOf(object)[v]); });
 }
 
-// Tells which elements contain a given one, or are contained in it.
+// Tells which elements contain a given element, or are contained in it. An element contains another one if it contains
+// all vertices of the other one.
 template <typename Solid>
 class Incidence {
   public:
@@ -86,17 +87,17 @@ class Incidence {
   private:
     const Solid& object_;
     Element element_;
-    std::vector<bool> isOwn_;  // by vertex
-    std::size_t own_ = 0;      // the number of its vertices
+    std::vector<bool> isOwn_;  // per vertex of the object: whether the given element contains it
+    std::size_t own_ = 0;      // the number of vertices of the given element
     std::vector<std::uint32_t> common_;
 };
 
 // An orthonormal basis of the directions within an element.
 class Span {
   public:
-    /// Makes the basis of an element of this dimension, by the Gram–Schmidt process, from vectors between its points.
-    /// It takes the longest of the remaining vectors each time, so that rounding errors of the points do not count as
-    /// directions. Vectors of at most `tolerance` do not count either. Overwrites the vectors.
+    /// Makes the basis of an element of this dimension from vectors between its points, by the Gram–Schmidt process.
+    /// Each step takes the longest of the remaining vectors, so that rounding errors of the points do not count as
+    /// directions. Ignores vectors whose length is at most `tolerance`. Overwrites the vectors.
     Span(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
@@ -118,7 +119,8 @@ class Span {
     std::size_t size_ = 0;
 };
 
-// `points` is overwritten; it spares an allocation for each of many elements.
+// Computes directionOf(). `points` is a buffer, which is overwritten. Passing the same buffer for many elements avoids
+// an allocation for each of them.
 template <typename Solid>
 glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred,
                        std::vector<glm::dvec4>& points) {
@@ -205,7 +207,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     std::vector<std::size_t> candidates(elementCount(object, kind));
     std::iota(candidates.begin(), candidates.end(), std::size_t{0});
     double best = -2;
-    std::size_t nearest = 0;  // its place among the candidates
+    std::size_t nearest = 0;  // the index in `candidates` of the element with the cosine `best`
     std::vector<glm::dvec4> points;
     const auto findNearest = [&](const auto& shared) {
         if (incident) {
@@ -214,7 +216,8 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
         }
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             const double cosine = glm::dot(w, glm::normalize(directionIn(*shared, {kind, candidates[i]}, w, points)));
-            // Elements at the same angle are equally near: rounding must not choose among them.
+            // Elements at the same angle are equally near. The first of them is chosen, so that rounding does not
+            // decide.
             constexpr double kSame = 1e-9;
             if (cosine > best + kSame) {
                 best = cosine;
@@ -224,7 +227,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     };
     visitElements(findNearest, object);
     if (candidates.empty()) return std::nullopt;
-    constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6
+    constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6 radians
     if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
     return Element{kind, candidates[nearest]};
 }

@@ -17,7 +17,7 @@
 namespace oval4d::slicing {
 
 /// The kinds of elements, ordered by dimension from 0 to 3. The points of a point cloud count as vertices. Stored
-/// sessions contain the numbers of the enumerators.
+/// sessions contain the numbers of the enumerators, so these numbers must not change.
 enum class ElementKind : std::uint8_t { vertex = 0, edge = 1, face = 2, cell = 3 };
 inline constexpr auto kElementKinds = std::to_array<text::Choice<ElementKind>>({{"vertex", ElementKind::vertex},
                                                                                 {"edge", ElementKind::edge},
@@ -35,30 +35,33 @@ struct Element {
 /// Returns the number of elements of this kind.
 std::size_t elementCount(const Object& object, ElementKind kind);
 
-/// Returns a vector, in the object's own coordinates, in the direction of the element: from the origin to the nearest
-/// point of the element's affine span. A rotation of this direction to +w moves the whole element into one hyperplane w
-/// = const. If the span contains the origin, returns the vector perpendicular to the span whose direction is closest to
-/// `preferred`, or any perpendicular vector if `preferred` lies in the span. The length of the result is arbitrary, but
-/// not 0. Requires element.index < elementCount(object, element.kind), and that `preferred` is not 0.
+/// Returns a vector in the direction of the element: from the origin to the nearest point of the element's affine span.
+/// The vector and `preferred` are in the object's own coordinates, before any rotation. A rotation of this direction to
+/// +w moves the whole element into one hyperplane w = const. If the span contains the origin, returns the vector
+/// perpendicular to the span whose direction is closest to `preferred`, or any perpendicular vector if `preferred` lies
+/// in the span. The length of the result is arbitrary, but not 0. Requires element.index < elementCount(object,
+/// element.kind), and that `preferred` is not 0.
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
-/// Returns the shortest rotation that turns the direction of the element (see directionOf()), after a rotation of the
-/// object by `orientation`, to +w. Requires element.index < elementCount(object, element.kind).
+/// Returns the shortest rotation that, applied after `orientation`, turns the direction of the element to +w. The
+/// direction is that of directionOf(); its `preferred` is the direction that `orientation` turns to +w. Requires
+/// element.index < elementCount(object, element.kind).
 geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
-/// `orientation`. If that element already points to +w, returns the one with the next index, or the first one after the
-/// last; a caller that turns each result to +w thus visits one element after another. With `incident`, considers only
-/// the elements that contain this one or are contained in it, and if it is of the same kind, only itself. Returns
-/// std::nullopt if there are none. Takes time linear in the size of the object.
+/// `orientation`. If that element already points to +w, returns the element with the next index instead; after the last
+/// index comes the first. Therefore a caller that turns each result to +w visits one element after another. If
+/// `incident` is given, considers only elements that contain it or are contained in it; among elements of its own kind,
+/// considers only `incident` itself. Returns std::nullopt if there is no element to consider. Takes time linear in the
+/// size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident = {});
 
 /// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
 /// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.
 struct ElementSources {
-    std::vector<std::uint32_t> vertices, edges;
-    std::vector<std::uint32_t> ownVertices;  ///< the element's vertices, as indices into the object's
+    std::vector<std::uint32_t> vertices, edges;  ///< source numbers of slice vertices and of slice edges
+    std::vector<std::uint32_t> ownVertices;      ///< the element's vertices, as indices into the object's vertices
 
     bool hasVertex(std::uint32_t source) const { return std::ranges::binary_search(vertices, source); }
     bool hasEdge(std::uint32_t source) const { return std::ranges::binary_search(edges, source); }
@@ -67,12 +70,12 @@ struct ElementSources {
     bool operator==(const ElementSources&) const = default;
 };
 
-/// Finds the parts of a picture that show an element:
-/// - a vertex: itself, and the slice vertices cut from its edges;
-/// - an edge: itself, and the slice vertices cut from it;
-/// - a 2-face: its edges, and the slice edges cut from it;
-/// - a cell: everything that shows its 2-faces;
-/// - a point of a point cloud: itself.
+/// Finds the parts of a picture that show an element. These parts are:
+/// - for a vertex: the vertex itself, and the slice vertices cut from its edges;
+/// - for an edge: the edge itself, and the slice vertices cut from it;
+/// - for a 2-face: its edges, and the slice edges cut from the 2-face;
+/// - for a cell: everything that shows its 2-faces;
+/// - for a point of a point cloud: the point itself.
 ///
 /// Overwrites `out`. Takes time linear in the number of edges. Requires element.index < elementCount(object,
 /// element.kind).
@@ -81,7 +84,7 @@ void findSourcesShowing(const Object& object, const Element& element, ElementSou
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
 /// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlane circumradii
-/// count as equal. Returns std::nullopt if there is no such vertex.
+/// (see slice_set.hpp) count as equal. Returns std::nullopt if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 

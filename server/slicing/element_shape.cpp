@@ -22,7 +22,8 @@ std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t nu
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
-// Writes the vertices with these numbers, and returns w of the first one.
+// Appends the vertices with these numbers, rotated by `turn`, to `out`. The source number of vertex v is firstSource +
+// v. Returns the w coordinate of the first rotated vertex.
 double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<std::uint32_t>& numbers,
                    std::uint32_t firstSource, const geometry::Rotation& turn, SliceSet& out) {
     for (const std::uint32_t v : numbers) {
@@ -32,12 +33,13 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
     return turn(vertices[numbers.front()]).w;
 }
 
-// Writes the 2-faces of a cell. `vertices` and `edges` are the numbers of the cell's vertices and edges.
+// Appends the 2-faces of a cell. `vertices` and `edges` are the sorted numbers of the cell's vertices and edges in the
+// polytope; `out` must already contain these vertices.
 void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
-    // The signs of the 2-faces agree with each other. They are right or all wrong, depending on which side of the cell
-    // faces toward +w.
+    // The cellSigns of the 2-faces are consistent with each other, so they are all right or all wrong, depending on
+    // which side of the cell faces toward +w. They are right if the signed volume of the cell is positive.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];
@@ -58,12 +60,13 @@ void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::ui
     }
 }
 
-// Writes the elements of a shape, without their begins, and returns w.
+// Appends the vertices, edges and 2-faces of the shape to `out`, but no entries to vertexBegin, edgeBegin and
+// faceBegin. Returns the w coordinate of the shape.
 double addShape(const Polytope& p, const Element& element, const ElementSources& sources,
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;
     const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
-    // The sources also name the 2-faces, whose sections are edges.
+    // sources.edges also contains the source numbers of slice edges cut from 2-faces. These are skipped.
     const auto faces = static_cast<std::uint32_t>(p.faces.size());
     std::vector<std::uint32_t> edges;
     for (const std::uint32_t source : sources.edges) {
@@ -86,7 +89,7 @@ void shapeOf(const Object& object, const Element& element, const geometry::Rotat
     out.rotatedVertices.clear();
     out.surfaces.clear();
     out.fogs.clear();
-    out.clearElements();
+    out.clearSlices();
     const double w = visitElements(
         Visitor{[&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
                 [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},

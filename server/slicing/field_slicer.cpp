@@ -17,7 +17,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-/// Sets the walls of a section: one for each side of the box that is not parallel to the slice's hyperplane.
+/// Sets the walls of a section: one for each facet of the box that is not parallel to the slice's hyperplane.
 void findWalls(const fields::Box& box, FieldSection& section) {
     constexpr double kParallel = 1e-12;
     section.walls.clear();
@@ -36,7 +36,7 @@ std::array<glm::dvec4, 3> stepsOf(const FieldSection& section, double step) {
 }
 
 /// Returns a number proportional to the number of points that a surface has on a lattice with this step.
-double share(double step) { return step > 0 ? 1 / (step * step) : 0; }
+double pointWeight(double step) { return step > 0 ? 1 / (step * step) : 0; }
 
 /// Returns the axis-parallel bounding box of the domain's slice, which must have vertices.
 std::pair<glm::dvec3, glm::dvec3> boundsOf(const SliceSet& slices, int slice) {
@@ -61,7 +61,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     out.fogs.resize(hasFog ? count : 0);
     // Each slice gets a share of the time and point limits, in proportion to the estimated number of its points.
     double sum = 0;
-    for (const double step : detail.steps) sum += share(step);
+    for (const double step : detail.steps) sum += pointWeight(step);
     if (sum == 0) {
         for (SliceSurface& surface : out.surfaces) surface.clear();
         if (!hasFog) return;
@@ -73,7 +73,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
         for (int i = next++; i < planes.count; i = next++) {
             const auto n = static_cast<std::size_t>(i);
             Task task;
-            if (sum > 0) task = {detail.steps[n], share(detail.steps[n]) / sum, 0};
+            if (sum > 0) task = {detail.steps[n], pointWeight(detail.steps[n]) / sum, 0};
             if (hasFog) task.fogStep = coarsening * detail.fogSteps[n];
             process(field, toFunction, settings, detail, task, i, out, worker);
         }
@@ -82,7 +82,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     if (field.isLost()) throw std::runtime_error("the file of the field can no longer be read");
 }
 
-// Returns the factor by which the steps of fog must be enlarged to stay within the limits.
+// Returns the factor by which the steps of fog must be enlarged to stay within maxFogPoints() and surfaceLimits().time.
 double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices) {
     constexpr double kEnlarge = 1.05, kMost = 1e3, kPerPoint = 3;
     const double perPoint = field.function->cost().value + kPerPoint;

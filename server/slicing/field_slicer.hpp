@@ -37,13 +37,15 @@ class FieldSlicer {
         double step = 0, share = 0;
         double fogStep = 0;  // the lattice step of the fog; 0: sample no fog
     };
+    // Extracts the surfaces and samples the fog of one slice. `worker` is the index of the extractor and section to
+    // use.
     void process(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
                  const SurfaceDetail& detail, const Task& task, int slice, SliceSet& out, std::size_t worker);
     static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);
 
     parallel::ForkJoin* forkJoin_;
     PolytopeSlicer domains_;
-    std::array<SurfaceExtractor, 2> extractors_;  // one per core
+    std::array<SurfaceExtractor, 2> extractors_;  // one per core, and likewise sections_
     std::array<FieldSection, 2> sections_;
 };
 

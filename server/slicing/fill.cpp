@@ -49,7 +49,8 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
         for (std::size_t i = 0; i < size; ++i) {
             const glm::dvec2 a = onPlane(points_[first + i]);
             const glm::dvec2 b = onPlane(points_[first + (i + 1) % size]);
-            // The inside is to the left of a side that goes up, so the winding number decreases across it to the right.
+            // The inside is to the left of a side that goes up, so the winding number decreases from left to right
+            // across it.
             const double slope = (b.x - a.x) / (b.y - a.y);
             if (a.y < b.y) sides_.push_back({a, b, slope, -1, 0, 0, 0});
             if (a.y > b.y) sides_.push_back({b, a, slope, 1, 0, 0, 0});
@@ -68,7 +69,7 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
 }
 
-// Subtracts `steps` from those left. Returns false, and subtracts nothing, if too few are left.
+// Subtracts `steps` from stepsLeft_. Returns false, and subtracts nothing, if too few steps are left.
 bool FaceFiller::spendSteps(std::size_t steps) {
     if (steps > stepsLeft_) return false;
     stepsLeft_ -= steps;
@@ -90,11 +91,12 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
     }
 }
 
-// Finds the plane of the loops from three of their corners that are far apart. Returns false if all are collinear.
+// Sets points_ to the corners of the loops. Finds the plane of the loops from three corners that are far apart, and
+// sets plane_ and the normal and offset of `out`. Returns false if all corners are collinear.
 bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                            FilledFaces::Patch& out) {
     points_.clear();
-    glm::dvec3 area(0);  // twice the signed area vector of the loops
+    glm::dvec3 area(0);  // twice the sum of the area vectors of the loops
     const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];
     for (std::uint32_t f = begin; f < end; ++f) {
         const glm::dvec3& apex = vertices[slices.corners[slices.cornerBegin[f]]];
@@ -180,16 +182,16 @@ int FaceFiller::sweep(FilledFaces& out) {
         for (Piece& piece : open_) piece.continued = false;
         int winding = 0;
         std::uint32_t left = 0;
-        bool positive = true;
+        bool hasPositiveWinding = true;
         for (const std::uint32_t i : active_) {
             const int before = winding;
             winding += sides_[i].winding;
             most = std::max(most, std::abs(winding));
             if (before == 0) {
                 left = i;
-                positive = winding > 0;
+                hasPositiveWinding = winding > 0;
             } else if (winding == 0 && sides_[i].middle - sides_[left].middle > epsilon_) {
-                addSpan(left, i, positive, bottom);
+                addSpan(left, i, hasPositiveWinding, bottom);
             }
         }
         for (const Piece& piece : open_) {
@@ -215,10 +217,11 @@ void FaceFiller::sortActive(double y) {
 
 // Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
 // else begins a new piece.
-void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
+void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     for (Piece& piece : open_) {
-        if (piece.continued || piece.positive != positive || !canContinue(piece, l, r, bottom)) continue;
+        if (piece.continued || piece.hasPositiveWinding != hasPositiveWinding || !canContinue(piece, l, r, bottom))
+            continue;
         if (piece.leftSide != left) piece.left.at(piece.leftCount++) = {l.at(bottom), bottom};
         if (piece.rightSide != right) piece.right.at(piece.rightCount++) = {r.at(bottom), bottom};
         piece.leftSide = left;
@@ -232,7 +235,7 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool positive,
     piece.leftCount = piece.rightCount = 1;
     piece.leftSide = left;
     piece.rightSide = right;
-    piece.positive = positive;
+    piece.hasPositiveWinding = hasPositiveWinding;
     piece.continued = true;
     open_.push_back(piece);
 }
@@ -267,7 +270,8 @@ void FaceFiller::close(const Piece& piece, double top, FilledFaces& out) const {
         out.corners.resize(first);
         return;
     }
-    if (!piece.positive) std::reverse(out.corners.begin() + static_cast<std::ptrdiff_t>(first), out.corners.end());
+    if (!piece.hasPositiveWinding)
+        std::reverse(out.corners.begin() + static_cast<std::ptrdiff_t>(first), out.corners.end());
     out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
 }
 

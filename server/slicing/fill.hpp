@@ -26,9 +26,9 @@ struct FilledFaces {
     struct Patch {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
-        std::uint32_t source;               ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, lastLoop;  ///< its loops: the faces firstLoop … lastLoop − 1 of the set
-        int winding;                        ///< the maximum of |winding number|; 0 if the patch is filled roughly
+        std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
+        std::uint32_t firstLoop, endLoop;  ///< its loops: the faces firstLoop … endLoop − 1 of the SliceSet
+        int winding;                       ///< the maximum of |winding number|; 0 if the patch is filled roughly
     };
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
     std::vector<Patch> patches;
@@ -70,9 +70,9 @@ class FaceFiller {
         std::array<glm::dvec2, kMaxCorners> left, right;
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
-        // `positive`: whether the winding number in the piece is positive. `continued`: whether the piece extends into
-        // the current strip.
-        bool positive, continued;
+        // `hasPositiveWinding`: whether the winding number in the piece is positive. `continued`: whether the piece
+        // extends into the current strip.
+        bool hasPositiveWinding, continued;
     };
     // A plane in space, with orthonormal axes.
     struct Plane {
@@ -87,14 +87,14 @@ class FaceFiller {
     int sweep(FilledFaces& out);
     void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const;
     void sortActive(double y);
-    void addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom);
+    void addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom);
     bool canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const;
     void close(const Piece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this are treated as 0
     Plane plane_{};
-    std::vector<glm::dvec3> points_;
+    std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
     std::vector<Side> sides_;
     std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending
     std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels

@@ -6,13 +6,14 @@
 
 namespace oval4d::slicing {
 
-/// Sets `out` to the slices in the hyperplanes `planes.listed`, which must not be empty, except for surfaces and fogs.
-/// Calls `cut` with each hyperplane and with a set in which it must write the slice.
+/// Sets `out`, except its surfaces and fogs, to the slices in the hyperplanes w = planes.listed[i]; `planes.listed`
+/// must not be empty. Calls `cut` with each hyperplane and with a set to which `cut` must write the slice in this
+/// hyperplane.
 template <typename Cut>
 void cutEach(const geometry::Hyperplanes& planes, SliceSet& out, Cut cut) {
     SliceSet one;
     out.planes = planes;
-    out.clearElements();
+    out.clearSlices();
     for (const double w : planes.listed) {
         cut(geometry::Hyperplanes{0, 1, planes.spacing, w}, one);
         out.append(one);

@@ -33,7 +33,7 @@ double ballRadius(const Polytope& p) {
     for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
     const double meanEdge = sum / static_cast<double>(p.edges.size());
     const double radius = 0.062 * std::min(1.0, std::pow(meanEdge / p.circumradius, 0.65));
-    // The bars of a star cross each other: at half the radius, the crossings stay visible.
+    // The bars of a nonconvex polytope may cross each other. Half the radius keeps the crossings visible.
     return p.convex ? radius : 0.5 * radius;
 }
 
@@ -50,7 +50,7 @@ void findCellCenters(const Polytope& p, std::vector<glm::dvec4>& out) {
     }
 }
 
-// Returns the vector that is perpendicular to a, b and c, with the length of the volume that they span.
+// Returns the vector that is perpendicular to a, b and c, and whose length is the volume of their parallelepiped.
 glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c) {
     const auto minor = [&](int i, int j, int k) {
         return glm::dot(glm::dvec3(a[i], a[j], a[k]),
@@ -59,15 +59,16 @@ glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::
     return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
 }
 
-// A cell's normal is the 4-D counterpart of a polygon's area vector: the sum over its surface's triangles, oriented as
-// seen from outside the cell, of the volumes of the tetrahedra that they span with one point. As the whole boundary is
-// oriented, all normals point to the same side of it.
+// A cell's normal is the 4-D counterpart of a polygon's area vector. It is a sum over the triangles of the cell's
+// absoluteVolume, oriented as seen from outside the cell: for each triangle, the result of perpendicularTo() for the
+// vectors from a fixed vertex of the cell to the three corners. As the orientations of all cells agree, all normals
+// point outward.
 void findCellHyperplanes(const Polytope& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
     normals.assign(p.cells.size(), glm::dvec4(0));
     offsets.assign(p.cells.size(), 0);
     for (std::size_t c = 0; c < normals.size(); ++c) {
         const glm::dvec4 origin = p.vertices[p.faces[p.cells[c][0]][0]];
-        double surface = 0;  // the sum of the tetrahedra's absolute volumes
+        double absoluteVolume = 0;  // six times the sum of the absolute volumes of the tetrahedra
         for (std::uint32_t at = p.cells.begin[c]; at < p.cells.begin[c + 1]; ++at) {
             const auto loop = p.faces[p.cells.items[at]];
             const glm::dvec4 first = p.vertices[loop[0]] - origin;
@@ -75,10 +76,10 @@ void findCellHyperplanes(const Polytope& p, std::vector<glm::dvec4>& normals, st
                 const glm::dvec4 part =
                     perpendicularTo(first, p.vertices[loop[i]] - origin, p.vertices[loop[i + 1]] - origin);
                 normals[c] += static_cast<double>(p.cellSigns[at]) * part;
-                surface += glm::length(part);
+                absoluteVolume += glm::length(part);
             }
         }
-        if (glm::length(normals[c]) <= 1e-9 * surface) normals[c] = glm::dvec4(0);
+        if (glm::length(normals[c]) <= 1e-9 * absoluteVolume) normals[c] = glm::dvec4(0);
         offsets[c] = glm::dot(normals[c], origin);
     }
 }

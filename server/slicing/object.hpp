@@ -1,7 +1,8 @@
 #pragma once
-// The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. Only the kinds
-// themselves (polytopes/, fields/, geometry/point_cloud), slicing/, session/load.cpp, store/object_codec.cpp and the
-// formats in protocol/schema/load.schema.json depend on the kind of an object; all other code uses these functions.
+// The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new
+// kind needs its own folder or file (as polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
+// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions;
+// some of it asks whether an object is a field (fieldIn()), which alone has levels and fog, or a point cloud.
 
 #include <array>
 #include <cstddef>
@@ -44,21 +45,21 @@ using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr>;
 const fields::Field* fieldIn(const Object& object);
 
 /// Returns the properties that objects of every kind have. The reference is valid as long as the data exists. This
-/// function and those below require an object that is not null.
+/// function and those below require that the object is not a null pointer.
 const geometry::ObjectInfo& infoOf(const Object& object);
 
 /// Returns the numbers of vertices (or points), edges, 2-faces and cells.
 std::array<std::size_t, 4> elementCounts(const Object& object);
 
-/// Returns the object in the frame of reference `frame`, that is, transformed to its coordinates. If `frame` is the
-/// default frame, this is the object itself; otherwise it is a new object with the serial number `serial` or, without
-/// this parameter, with a new one. A transformed field shares the functions of the original. Takes time and memory
-/// linear in the number of elements.
+/// Returns the object transformed to the coordinates of the frame of reference `frame`. If `frame` is the default
+/// frame, returns the object itself. Otherwise, returns a new object; its serial number is `serial` or, in the overload
+/// without this parameter, a new number. A transformed field shares the functions of the original field. Takes time and
+/// memory linear in the number of elements.
 Object imageOf(const Object& object, const geometry::ReferenceFrame& frame);
 Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
-/// Returns the largest |w| of the slices when an object is first shown: the circumradius. For a field, returns 95 % of
-/// the largest |w| of the unrotated domain, so that no slice of it is empty.
+/// Returns the largest |w| of the slices when an object is first shown, in the object's units: the circumradius. For a
+/// field, returns 95 % of the largest |w| of the unrotated domain, so that no slice of the domain is empty.
 double initialSliceExtent(const Object& object);
 
 /// Returns the memory used by an object, in bytes, without its name. For a field that imageOf() made, does not count
@@ -68,8 +69,8 @@ std::size_t memoryOf(const Object& object);
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.
 const void* identityOf(const Object& object);
 
-/// Returns the coordinates that a vertex (or point) has in the object's file, before any rotation. Those of a field are
-/// the coordinates of its function.
+/// Returns the coordinates that the vertex (or point) with this index has in the object's file, before any rotation.
+/// For a field, these are the coordinates of its function.
 glm::dvec4 vertexInFile(const Object& object, std::size_t index);
 
 /// Returns the smallest and the largest w coordinate of the vertices after rotation by `orientation`.
@@ -85,10 +86,10 @@ double ballRadius(const Object& object);
 /// contain the vertex. Clears `out` for a point cloud.
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
-/// Finds the hyperplane of each cell: sets `normals` to the outward normals of the cells, and `offsets` to the dot
-/// products of each normal and any point of its cell. The length of a normal is six times the volume of the cell. If a
-/// cell encloses no volume, as some self-intersecting cells do, the normal and the offset are 0. Clears both lists for
-/// a point cloud.
+/// Finds the hyperplane of each cell, before any rotation: sets normals[c] to the outward normal of cell c, and
+/// offsets[c] to the dot product of this normal and any point of the cell. The length of a normal is six times the
+/// volume of the cell. If a cell encloses no volume, as some self-intersecting cells do, the normal and the offset are
+/// 0. Clears both lists for a point cloud.
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets);
 
 /// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the data exists;
@@ -96,9 +97,9 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
-/// of the object's own vertices, in the coordinates of the object's file (see ObjectInfo::originInFile), so importing
-/// it gives the polytope turned about its origin. The file of a point cloud has only vertices; that of a field contains
-/// the domain.
+/// of the object's own vertices, with ObjectInfo::originInFile added to each. Therefore importing the file gives the
+/// polytope turned about its origin. The file of a point cloud has only vertices; the file of a field contains the
+/// domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

@@ -47,7 +47,7 @@ void visitCloud(Archive& archive, Cloud& cloud) {
     archive(cloud.points), archive(cloud.radii), archive(cloud.originInFile);
 }
 
-// Writes samples, or the number of their file and their place in it.
+// Writes samples or, if writeParts() does not write them inline, the index of their file and their place in this file.
 class SampleWriter {
   public:
     SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)
@@ -70,7 +70,7 @@ class SampleWriter {
   private:
     ByteWriter& archive_;
     MappedFiles& files_;
-    std::size_t maxInMemory_;
+    std::size_t maxInMemory_;  // how many more samples may be written inline although they are in a file
 };
 
 void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
@@ -88,7 +88,7 @@ void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& fi
     if (hasArray) writer.write(second->array->storage());
 }
 
-// Reads the samples of an array whose other members are known.
+// Reads the samples of an array whose shape is already set. Throws std::runtime_error if samples are missing.
 void readSamples(ByteReader& archive, const MappedFiles& files, fields::ReadField& array) {
     bool inFile = false;
     archive(inFile);
@@ -139,7 +139,7 @@ void requirePolytope(ObjectKind kind) {
     if (kind != ObjectKind::polytope) throw std::runtime_error("an unknown kind of object");
 }
 
-/// Reads a jagged array and checks that all its rows lie within `items`.
+/// Reads a jagged array. Throws std::runtime_error unless each of its rows lies within `items`.
 JaggedArray arrayFrom(ByteReader& archive) {
     JaggedArray array;
     visitArray(archive, array);

@@ -13,8 +13,8 @@
 
 namespace oval4d::slicing {
 
-/// The mapped files that contain the samples of arrays. A message refers to a file by its index in this list. The files
-/// themselves are not part of the message: their descriptors are sent separately.
+/// The memory-mapped files that contain the samples of arrays. A message refers to a file by its index in this list.
+/// The files themselves are not part of the message: their file descriptors are sent separately.
 using MappedFiles = std::vector<fields::MappedFilePtr>;
 
 /// Encodes an object, including its name and serial number, in the byte order and number formats of this machine. The
@@ -25,19 +25,19 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 /// std::runtime_error if bytes or files are missing.
 Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
-/// Writes the data from which readParts() rebuilds the object, without its name: the vertices, 2-faces, cells and cell
-/// types of a polytope; the points and radii of a cloud; for both, ObjectInfo::originInFile; or the functions (formulas
-/// or samples) and the domain of a field.
+/// Writes the data from which readParts() rebuilds the object, without its name. For a polytope, these are the
+/// vertices, 2-faces, cells and cell types; for a cloud, the points and radii; for both, also ObjectInfo::originInFile.
+/// For a field, these are the functions (formulas or samples) and the domain.
 ///
-/// Samples are written inline if they are not in a file, or while the number of inline samples is at most
-/// `maxInMemory`. Otherwise a reference to their file is written, and the file is added to `files` if it is not there
-/// yet.
+/// Samples are written inline if they are not in a file, or as long as the object has at most `maxInMemory` inline
+/// samples in total. Otherwise a reference to their file is written, and the file is added to `files` if it is not
+/// there yet.
 void writeParts(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
                 std::size_t maxInMemory = fields::kMaxSamples);
 
 /// Builds an object with this name and a new serial number from the data that writeParts() wrote. The sender need not
 /// be trusted. Throws std::runtime_error with the reason if the object is invalid, if it has more than `maxVertices`
-/// vertices or points, or if samples are not in one of the files.
+/// vertices or points, or if samples are neither inline nor in one of `files`.
 Object readParts(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices,
                  const MappedFiles& files = {});
 

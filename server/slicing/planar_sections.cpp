@@ -65,7 +65,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
     }
 }
 
-// Cuts a slice by the hyperplane in which this coordinate equals that of `point`.
+// Cuts a slice by the hyperplane in which the coordinate along `axis` equals that of `point`. `toObject` rotates the
+// slice, if it was cut from a turned object, back to the coordinates of `point`.
 void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, const glm::dmat4& toObject, int axis,
                        const glm::dvec4& point, PlanarSection& out) {
     clear(out);
@@ -107,7 +108,8 @@ void PlanarSlicer::copyCloudPoints(const SliceSet& slices, int slice, int axis, 
     }
 }
 
-// Adds the points at which the hyperplane cuts the slice's edges.
+// Adds the points at which the hyperplane cuts the slice's edges. `faces` is the number of 2-faces of the polytope,
+// `at` the coordinate of the hyperplane along `axis`.
 void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t faces, int axis, double at,
                             PlanarSection& out) {
     const std::uint32_t begin = slices.edgeBegin[slice], end = slices.edgeBegin[slice + 1];
@@ -137,8 +139,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
     }
 }
 
-// Adds the edges in which the hyperplane cuts the slice's faces. The loops that were cut from one cell form one face,
-// which contains the points around which the sum of their winding numbers is not 0 (as in FilledFaces).
+// Adds the edges in which the hyperplane cuts the slice's faces. The loops that were cut from one cell form one face.
+// It contains the points around which the sum of the winding numbers of these loops is not 0 (as in FilledFaces).
 void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& out) {
     const std::uint32_t begin = slices.faceBegin[slice], end = slices.faceBegin[slice + 1];
     const auto isAbove = [&](std::uint32_t v) { return distance_[v] > 0 || (distance_[v] == 0 && zeroIsAbove_); };

@@ -74,7 +74,7 @@ class PlanarSlicer {
     std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
-    std::vector<LoopCrossing> crossings_;  // of one face
+    std::vector<LoopCrossing> crossings_;  // the crossings of the loops of one face
     bool zeroIsAbove_ = true;              // whether vertices in the hyperplane count as above it
 };
 

@@ -43,7 +43,7 @@ bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& ou
 }
 
 // Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
-// hyperplanes do, within the tolerance.
+// hyperplanes touch it in this way, within the tolerance.
 bool PolytopeSlicer::cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -185,7 +185,8 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
 }
 
 // The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
-// nothing, if it does so more often: rounding errors can have this effect if the 2-face nearly lies in a hyperplane.
+// nothing, if the loop ascends more than once. Rounding errors can have this effect if the 2-face nearly lies in a
+// hyperplane.
 bool PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
     const auto loop = polytope.faces[face];
     const auto loopEdges = polytope.faceEdges[face];
@@ -310,9 +311,9 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
         }
         cellSpan_[c] = span;
     }
-    stands_.assign(cells, true);
+    lowestSectionCollapses_.assign(cells, true);
     for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c)
-        stands_[c] = lowestSectionCollapsesOntoFaces(polytope, c, out);
+        lowestSectionCollapses_[c] = lowestSectionCollapses(polytope, c, out);
     loops_.clear();
     loopCorners_.clear();
     coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
@@ -320,15 +321,15 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
     nextEdge_.resize(slotPoint_.size());
     addLyingFaces(polytope, out);
     for (std::uint32_t c = 0; c < cells; ++c) {
-        if (cellSpan_[c].from < cellSpan_[c].to || !stands_[c]) traceCell(polytope, c);
+        if (cellSpan_[c].from < cellSpan_[c].to || !lowestSectionCollapses_[c]) traceCell(polytope, c);
     }
     if (coinciding_.any()) removeCoincidingEdges(out);
     placeLoops(out);
 }
 
 // Requires that numberEdges() has run.
-bool PolytopeSlicer::lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell,
-                                                     const SliceSet& out) const {
+bool PolytopeSlicer::lowestSectionCollapses(const polytopes::Polytope& polytope, std::uint32_t cell,
+                                            const SliceSet& out) const {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     for (const std::uint32_t f : polytope.cells[cell]) {
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
@@ -350,7 +351,7 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
         const bool outward = polytope.cellSigns[at] > 0;
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
             const FaceCrossing& crossing = faceCrossings_[i];
-            if (crossing.plane < span.from && stands_[cell]) continue;  // see addLyingFaces()
+            if (crossing.plane < span.from && lowestSectionCollapses_[cell]) continue;  // see addLyingFaces()
             const std::uint32_t from = outward ? crossing.up : crossing.down;
             next_[from] = outward ? crossing.down : crossing.up;
             nextEdge_[from] = crossing.edge;
@@ -392,7 +393,7 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
             const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
             outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
             const Span span = cellSpan_[cell];
-            placements.at(i) = span.from > plane && span.to > plane && stands_[cell];
+            placements.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) =
                 placements.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
         }
@@ -407,7 +408,7 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
     for (const std::uint32_t f : touchingFaces_) {
         bool alone = true;
         for (const std::uint32_t cell : polytope.faceCells[f]) {
-            const bool stands = cellSpan_[cell].from > lyingIn_[f] && stands_[cell];
+            const bool stands = cellSpan_[cell].from > lyingIn_[f] && lowestSectionCollapses_[cell];
             alone = alone && (stands || cellSpan_[cell].to <= lyingIn_[f]);
         }
         if (alone && !bounded_[lyingIn_[f]]) addLyingFace(polytope, f, true);

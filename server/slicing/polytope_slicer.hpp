@@ -44,7 +44,7 @@ class PolytopeSlicer {
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
     // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
     // down into the hyperplane. Until numberEdges() runs, `edge` is instead kNewEdge or, if the segment moves to an
-    // edge of the polytope in the hyperplane, the index of this edge.
+    // edge of the polytope in the hyperplane, the index of this polytope edge.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
@@ -59,7 +59,7 @@ class PolytopeSlicer {
     // A point where the vertex loop of a 2-face crosses a hyperplane.
     struct LoopCrossing {
         std::uint32_t slot;
-        double along;  // its position along the line where the hyperplane cuts the 2-face's plane
+        double along;  // its position along the line where the hyperplane cuts the 2-face's plane, in any unit
     };
 
     // Rotates the vertices and counts the hyperplanes below each vertex.
@@ -69,8 +69,8 @@ class PolytopeSlicer {
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out);
-    // Cuts one slice: that of the hyperplane with the index `plane` in `all.planes`. Writes it to `single`. Borrows
-    // `all.rotatedVertices` and returns them at the end.
+    // Cuts one slice, in the hyperplane with the index `plane` in `all.planes`, and writes it to `single`. Borrows
+    // `all.rotatedVertices` meanwhile, and returns them at the end.
     void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
@@ -85,12 +85,11 @@ class PolytopeSlicer {
                below_[edge[1]] < upTo_[edge[1]];
     }
     void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
-    // Takes the section of a cell just above the hyperplane through its lowest vertices. Returns whether this section,
-    // moved into the hyperplane, collapses onto the borders of the cell's 2-faces that lie there, or to nothing if none
-    // does. If not, the cell itself nearly lies in the hyperplane. Returns true for a cell without vertices in a
-    // hyperplane below it.
-    bool lowestSectionCollapsesOntoFaces(const polytopes::Polytope& polytope, std::uint32_t cell,
-                                         const SliceSet& out) const;
+    // Considers the hyperplane through a cell's lowest vertices, and the section of the cell just above it. Returns
+    // whether each segment of this section, when it is moved down into the hyperplane, moves to an edge of the polytope
+    // or shrinks to a point. If not, the cell itself nearly lies in the hyperplane. Returns true if no hyperplane
+    // contains the cell's lowest vertices.
+    bool lowestSectionCollapses(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
     void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
     bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
@@ -108,26 +107,26 @@ class PolytopeSlicer {
     bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
     std::vector<std::uint32_t> vertexPoint_;            // per vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
-    // is slotBegin_[e] + k − below_[lower end]. slotPoint_ is the slice vertex of each slot.
+    // is slotBegin_[e] + k − below_[lower end of e]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
     std::vector<std::uint32_t> lyingEdges_;    // edges that lie in a hyperplane
     std::vector<std::uint32_t> sliceEdgeOf_;   // per edge that lies in a hyperplane: its slice edge
     std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
     std::vector<std::uint32_t> faceCrossingBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with its vertices on both sides
-    std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
-    std::vector<bool> stands_;               // per cell: lowestSectionCollapsesOntoFaces()
-    CoincidingEdges coinciding_;             // per slice edge
+    std::vector<Span> faceSpan_, cellSpan_;     // per element: the hyperplanes with its vertices on both sides
+    std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
+    std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
+    CoincidingEdges coinciding_;                // per slice edge
     // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
     // it. next_ is kNone for a slot that has no next slot or has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
     // The slots that have a next slot in the current cell, each with its hyperplane. The tracing of loops starts at
     // them.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
-    std::vector<std::uint32_t> touchingFaces_;  // 2-faces in a hyperplane that may be the whole slice
+    std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be its whole slice
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<Loop> loops_;
-    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex; slice edge to the next corner
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // per corner: its slice vertex; the edge to the next
     std::vector<std::uint32_t> cursor_, cornerCursor_;       // per hyperplane: where to write the next element
     std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
     std::vector<LoopCrossing> ups_, downs_;  // in one hyperplane: where a nonconvex 2-face's loop rises and descends

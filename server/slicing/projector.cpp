@@ -20,14 +20,14 @@ using geometry::kNone;
 
 // The elements of a polytope that part 0 contains.
 struct Selection {
-    const std::vector<bool>* facing;  // null if all cells are selected
+    const std::vector<bool>* facing;  // per cell: whether it is selected; null if all cells are selected
     bool cell(std::uint32_t c) const { return facing == nullptr || (*facing)[c]; }
     bool face(const polytopes::Polytope& p, std::size_t f) const {
         return cell(p.faceCells[f][0]) || cell(p.faceCells[f][1]);
     }
 };
 
-// Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone.
+// Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone for all others.
 void numberElements(const polytopes::Polytope& p, const Selection& selection, std::vector<std::uint32_t>& vertices,
                     std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
@@ -82,7 +82,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto faces = static_cast<std::uint32_t>(p.faces.size());
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
         if (options.culled || options.cells) findFacingCells(object, orientation, projection);
-        const Selection selection{options.culled ? &cellFaces_ : nullptr};
+        const Selection selection{options.culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;
@@ -101,7 +101,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
             out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
             out.faceSource.push_back(cells + f);
             const auto [first, second] = p.faceCells[f];
-            faceCells.push_back(cellFaces_[second] && !cellFaces_[first] ? second : first);
+            faceCells.push_back(cellIsFacing_[second] && !cellIsFacing_[first] ? second : first);
         }
     };
     const auto addCloud = [&](const geometry::PointCloud& cloud) {
@@ -149,8 +149,8 @@ void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHy
     endPart(out);
 }
 
-// A cell's outer side is turned toward the eye E if E lies on the outer side of its hyperplane: n·E > n·p for its
-// outward normal n and any of its points p. With E = (0, 0, 0, d), divided by d: n_w > (n·p) / d.
+// A cell's outer side is turned toward the eye E if E lies on the outer side of the cell's hyperplane: n·E > n·p for
+// the outward normal n of the cell and any of its points p. For E = (0, 0, 0, d), division by d gives n_w > (n·p) / d.
 void Projector::findFacingCells(const Object& object, const geometry::Rotation& orientation,
                                 const ProjectionToHyperplane& projection) {
     const geometry::ObjectInfo& info = infoOf(object);
@@ -160,10 +160,10 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     }
     const glm::dmat4 matrix = orientation.matrix();
     const glm::dvec4 toW(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
-    cellFaces_.resize(normals_.size());
+    cellIsFacing_.resize(normals_.size());
     for (std::size_t c = 0; c < normals_.size(); ++c) {
         const double slack = kOnPlane * glm::length(normals_[c]);  // a cell seen edge-on is not turned toward the eye
-        cellFaces_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
+        cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
 }
 

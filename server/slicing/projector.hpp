@@ -41,13 +41,13 @@ class Projector {
     };
 
     /// Writes the projection of `object` to part 0 of `out`, and the projections of the slices to the parts that
-    /// follow. Part i is stored like slice i of a SliceSet; `planes` and `rotatedVertices` are not used. `slices` must
-    /// have been cut from `object` rotated by `orientation`. In part 0, the source number of a vertex, edge or 2-face
-    /// is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
+    /// follow. Part i is stored like slice i of a SliceSet; `out.planes` and `out.rotatedVertices` are not used.
+    /// `slices` must have been cut from `object` rotated by `orientation`. In part 0, the source number of a vertex,
+    /// edge or 2-face is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
     ///
-    /// Writes one entry to `faceCells` for each face in `out`: for a 2-face in part 0, the cell that determines its
-    /// color, which is the second of its two cells if only that one is turned toward the eye, else the first; for a
-    /// face of a slice, its source number. Overwrites `out` and `faceCells`.
+    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
+    /// the color of the 2-face: the first of its two cells, unless only the second one is turned toward the eye. For a
+    /// face of a slice, it is the source number of the face. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
@@ -60,7 +60,7 @@ class Projector {
     std::uint64_t object_ = 0;           // the serial number of the object to which normals_ and offsets_ belong
     std::vector<glm::dvec4> normals_;    // per cell, unrotated, not normalized
     std::vector<double> offsets_;        // per cell: the dot product of its normal and any of its points
-    std::vector<bool> cellFaces_;        // per cell: whether its outer side is turned toward the eye
+    std::vector<bool> cellIsFacing_;     // per cell: whether its outer side is turned toward the eye
     std::vector<std::uint32_t> number_;  // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;
 };

@@ -23,9 +23,9 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr double kTolerance = 1e-6;        // of distances, relative to the circumradius
-constexpr int kMaxSides = 20;              // of polygons, and of the bases of prisms and antiprisms
-constexpr std::size_t kMaxVertices = 120;  // those of the truncated icosidodecahedron
+constexpr double kTolerance = 1e-6;        // the tolerance of distances, relative to the circumradius
+constexpr int kMaxSides = 20;              // the maximum for polygons, and for the bases of prisms and antiprisms
+constexpr std::size_t kMaxVertices = 120;  // the vertex count of the largest shape, the truncated icosidodecahedron
 constexpr std::string_view kPoint = "point";
 
 bool near(double a, double b) { return std::abs(a - b) <= kTolerance; }
@@ -48,7 +48,7 @@ bool moveIntoUnitSphere(std::vector<glm::dvec3>& points) {
     return radius > 0;
 }
 
-// Returns the vertices of a regular polygon of circumradius 1 in the plane at this height.
+// Returns the vertices of a regular polygon of circumradius 1 in the plane z = height.
 std::vector<glm::dvec3> regularPolygon(int sides, double height) {
     std::vector<glm::dvec3> vertices;
     for (int i = 0; i < sides; ++i) {
@@ -65,7 +65,8 @@ struct SectionNamer::Shape {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
     double edge = 0;                      // the length of all edges
-    // For each kind of vertices: their distances from all vertices, in ascending order. Most shapes have one kind.
+    // For each kind of vertices: the distances of such a vertex from all vertices, in ascending order. Most shapes have
+    // one kind.
     std::vector<std::vector<double>> distances;
 
     // `dimension` is 1 for a segment, 2 for polygons and 3 for polyhedra. The edges must join the vertices that are
@@ -104,14 +105,14 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
             shapes.emplace_back(polytopes::nounOf(polygon), 2, regularPolygon(n, 0));
-            if (n != 4) {  // else a cube
+            if (n != 4) {  // for n = 4, the prism is a cube, which is a Platonic solid
                 const double halfEdge = std::sin(std::numbers::pi / n);
                 auto prism = regularPolygon(n, halfEdge);
                 const auto bottom = regularPolygon(n, -halfEdge);
                 prism.insert(prism.end(), bottom.begin(), bottom.end());
                 shapes.emplace_back(polytopes::adjectiveOf(polygon) + " prism", 3, std::move(prism));
             }
-            if (n != 3) {  // else an octahedron
+            if (n != 3) {  // for n = 3, the antiprism is an octahedron, which is a Platonic solid
                 shapes.emplace_back(polytopes::adjectiveOf(polygon) + " antiprism", 3,
                                     polytopes::snubOf(polygon, {2, 1}).vertices);
             }

@@ -54,7 +54,7 @@ class SectionNamer {
     /// the time to compare the polytope's vertices with the named shapes.
     std::string_view nameOfVertices(const SliceSet& slices, int slice, std::size_t edges);
 
-    /// Returns whether `name`, a result of the functions above, is that of a polyhedron, not of a point, segment or
+    /// Returns whether `name`, a result of the functions above, is the name of a polyhedron, not of a point, segment or
     /// polygon.
     static bool isSolid(std::string_view name);
 
@@ -65,7 +65,7 @@ class SectionNamer {
     bool verticesAreThoseOf(const Shape& shape);
 
     std::vector<glm::dvec3> vertices_;  // the vertices to be named; their center is 0 and their circumradius is 1
-    std::vector<double> distances_;     // of one vertex from all vertices
+    std::vector<double> distances_;     // the distances of one vertex from all vertices, in ascending order
 };
 
 }  // namespace oval4d::slicing

@@ -24,7 +24,7 @@ void SliceSet::end(SliceCounts at) {
     cornerBegin.back() = at.corners;
 }
 
-void SliceSet::clearElements() {
+void SliceSet::clearSlices() {
     for (auto* begins : {&vertexBegin, &edgeBegin, &faceBegin, &cornerBegin}) begins->assign(1, 0);
     for (auto* numbers : {&vertexSource, &edgeSource, &corners, &cornerEdges, &faceSource}) numbers->clear();
     for (auto* values : {&ballScale, &ballOpacity}) values->clear();

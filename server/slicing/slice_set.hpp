@@ -18,8 +18,8 @@ namespace oval4d::slicing {
 /// A vertex counts as lying in a hyperplane if their distance is at most this fraction of the circumradius.
 inline constexpr double kOnPlane = 1e-9;
 
-/// Numbers of vertices, edges, faces and face corners: either the size of a slice, or its position in a SliceSet, which
-/// is the total size of the slices before it.
+/// Numbers of vertices, edges, faces and face corners. They are either the size of one or more slices, or the position
+/// of a slice in a SliceSet: the total size of the slices before it.
 struct SliceCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
@@ -29,8 +29,8 @@ struct SliceCounts {
 };
 
 /// The slices of an object, stored as a structure of arrays. Slice i has the vertices vertexBegin[i] … vertexBegin[i +
-/// 1] − 1, and likewise edges and faces. The indices of vertices in `edges` and `corners` are relative to the first
-/// vertex of the slice, and those of edges in `cornerEdges` to its first edge.
+/// 1] − 1, and likewise edges and faces. The vertex indices in `edges` and `corners` are relative to the first vertex
+/// of the slice, and the edge indices in `cornerEdges` to the first edge of the slice.
 ///
 /// The source number of an element of a slice says from which element of the object it was cut. For a polytope with E
 /// edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E + v if polytope vertex v
@@ -43,14 +43,14 @@ struct SliceSet {
     std::vector<glm::dvec4> rotatedVertices;  ///< all vertices or points of the object, rotated
 
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 entries each
-    std::vector<glm::dvec3> vertices;
+    std::vector<glm::dvec3> vertices;                              ///< x, y, z, in the units of the object
     std::vector<std::uint32_t> vertexSource;
     /// Per vertex: the radius of its ball relative to the default (see ballRadius()), and the opacity of the ball. Both
     /// are empty if all their values are 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; then the number of corners
+    std::vector<std::uint32_t> cornerBegin;  ///< per face: its first corner; the last entry: the number of corners
     std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise seen from outside
     std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next in its loop
     std::vector<std::uint32_t> faceSource;
@@ -75,9 +75,10 @@ struct SliceSet {
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
     void end(SliceCounts at);
-    /// Removes the elements of all slices. Afterward, append() can add slices.
-    void clearElements();
-    /// Adds the elements of the slices of `more`, as further slices.
+    /// Removes all slices with their vertices, edges and faces, so that append() can add slices. Keeps the planes,
+    /// surfaces and fogs.
+    void clearSlices();
+    /// Adds the vertices, edges and faces of all slices of `more`, as further slices. Does not add surfaces and fogs.
     void append(const SliceSet& more);
 };
 

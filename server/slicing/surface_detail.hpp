@@ -12,14 +12,14 @@ namespace oval4d::slicing {
 /// The quality of a picture or a file that shows a field. It does not affect pictures and files of other objects.
 enum class Quality : std::uint8_t {
     draft,  ///< coarser surfaces, for a picture that another one soon replaces
-    full,
-    file,  ///< finer surfaces, for exported files
+    full,   ///< for any other picture
+    file,   ///< finer surfaces, for exported files
 };
 
 /// The lattices on which the surfaces and the fog of a field are sampled.
 struct SurfaceDetail {
-    /// Per slice: the distance between neighboring lattice points in the units of the object; 0 if its surfaces are not
-    /// needed. Empty if no surfaces are needed.
+    /// Per slice: the distance between neighboring lattice points in the units of the object; 0 if the surfaces of this
+    /// slice are not needed. Empty if no surfaces are needed.
     std::vector<double> steps;
     /// Determines the limits on time and points. Surfaces in drafts may lack details of the function that are smaller
     /// than the lattice steps (see ScalarFunction::forSteps()).
@@ -61,8 +61,8 @@ constexpr int cubesAcross(Quality quality) {
 /// Returns the lattice step of messages and files in the units of an object with this circumradius.
 constexpr double evenStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
 
-/// Sets the lattice step of the surfaces in all slices from the circumradius of the object, for messages and files.
-/// Clears the fog lattices.
+/// Sets `out` for messages and files: the lattice step of the surfaces in all slices to evenStep(), and the quality.
+/// Clears the steps of the fog, so that no fog is sampled.
 inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
                           SurfaceDetail& out) {
     out.steps.assign(static_cast<std::size_t>(planes.count), evenStep(circumradius, quality));
@@ -70,8 +70,8 @@ inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& plan
     out.quality = quality;
 }
 
-/// Sets the lattice step of the fog in all slices, for messages: half that of the surfaces. Surfaces are accurate on
-/// coarser lattices, because their points are moved onto the level after sampling.
+/// Sets the lattice step of the fog in all slices, for messages: half the step of the surfaces. Surfaces are accurate
+/// even with the larger step, because their points are moved onto the level after sampling.
 inline void addEvenFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
     out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
 }

@@ -27,7 +27,7 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
     const std::size_t bytes = size * sizeof(Item);
     std::size_t done = bytes;
     if (bytes >= sizeof(Chunk) && bytes <= kSmall) {
-        const std::size_t last = bytes - sizeof(Chunk);  // overlaps the chunk before it
+        const std::size_t last = bytes - sizeof(Chunk);  // the begin of the last chunk, which overlaps the one before
         for (; done < bytes * std::min(times, kFew); done += bytes) {
             for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
             copyChunk(first + last, first + done + last);
@@ -105,7 +105,8 @@ void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
     steps_.push_back(planes);
 }
 
-// Finds the hyperplanes that cut each element, and the total size of the slices.
+// Finds the hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane cuts a
+// 2-face in several segments.
 bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
     const std::int32_t* below = ranks_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
@@ -194,8 +195,8 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
     }
 }
 
-// Writes the slices in hyperplanes plane … end − 1. No vertex lies between these, so the slices differ only in the
-// coordinates of their vertices.
+// Writes the slices in hyperplanes plane … end − 1. No vertex lies between these hyperplanes, so the slices differ only
+// in the coordinates of their vertices. Returns false if a hyperplane cuts a cell in several polygons.
 bool Sweep::write(int plane, int end, SliceCounts at, SliceSet& out) {
     writeVertices(plane, end, at, out);
     writeEdges(at, out);
@@ -264,7 +265,7 @@ bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
         cornerBegin[i] = corner;
         const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
-        // If the 2-face is no longer cut, the cell is not convex.
+        // If the 2-face of this half-edge is no longer cut, rounding errors have made the cell nonconvex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;
         std::uint32_t end = start;
         do {

@@ -20,9 +20,9 @@ namespace oval4d::slicing {
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
 /// elements that it currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut
 /// cell a face. The section of a 2-face runs from the edge where the vertex loop of the 2-face rises through the
-/// hyperplane to the edge where it descends. The boundary of the section of a cell continues, at an edge, with the next
-/// 2-face around this edge. This combinatorial structure changes only when the hyperplane passes a vertex; between two
-/// vertices, only the coordinates of the slice change. Reuses its memory between calls.
+/// hyperplane to the edge where the loop descends. The boundary of the section of a cell continues, at an edge, with
+/// the next 2-face around this edge. This combinatorial structure changes only when the hyperplane passes a vertex;
+/// between two vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts. `ranks`
@@ -47,7 +47,7 @@ class Sweep {
              SliceSet& out);
 
   private:
-    // The line through an edge: at w, its x, y and z are those of at + (w − at.w) · slope.
+    // The line through an edge. At height w, its point has x, y, z = (at.x, at.y, at.z) + (w − at.w) · slope.
     struct alignas(16) Line {
         glm::dvec4 at;
         glm::dvec3 slope;
@@ -56,8 +56,8 @@ class Sweep {
     struct Span {
         std::int32_t from, to;
     };
-    // Where vertices lie relative to a hyperplane: in it (inside), not in it but between it and the next lower one
-    // (between), or in neither place (none).
+    // Where vertices lie relative to a hyperplane: in it (inside), not in it but between it and the next lower
+    // hyperplane (between), or in neither place (none).
     enum class VerticesMet : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
@@ -71,8 +71,8 @@ class Sweep {
     bool writeFaces(SliceCounts at, SliceSet& out) const;
 
     VertexRanks ranks_;
-    SliceCounts size_;
-    int first_ = 0;  // the slice number in `out` of hyperplane 0
+    SliceCounts size_;  // see maxSize()
+    int first_ = 0;     // the slice number in `out` of hyperplane 0
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;            // per 2-face
     std::vector<VerticesMet> verticesMet_;  // per hyperplane

@@ -17,8 +17,8 @@ struct Visitor : Functions... {
 template <typename... Functions>
 Visitor(Functions...) -> Visitor<Functions...>;  // Clang 16 has no implicit deduction guides for aggregates
 
-/// Calls `visitor` with the PolytopePtr or CloudPtr of an object or, for a field, with that of its domain. Returns the
-/// result.
+/// Calls `visitor` with the PolytopePtr or CloudPtr in an object or, for a field, with the PolytopePtr of its domain.
+/// Returns the result of this call.
 template <typename V>
 decltype(auto) visitElements(const V& visitor, const Object& object) {
     return std::visit(Visitor{[&](const PolytopePtr& p) -> decltype(auto) { return visitor(p); },

@@ -7,8 +7,9 @@
 
 namespace oval4d::store {
 
-/// Exponential backoff with jitter: each pause is a random part, from a half to the whole, of a time that doubles from
-/// 0.1 s to 5 s. Because of the jitter, the servers that share a store do not all try at the same time.
+/// Exponential backoff with jitter: each pause is a random part, from a half to the whole, of a time limit. The limit
+/// is 0.1 s at first, and doubles after each failure, up to 5 s. Because of the jitter, the servers that share a store
+/// do not all try at the same time.
 class Backoff {
   public:
     using Milliseconds = std::chrono::milliseconds;
@@ -22,7 +23,7 @@ class Backoff {
         const Milliseconds longest = std::min(kFirst * (1 << std::min(failures_++, kDoublings)), kLongest);
         return longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
     }
-    /// Starts anew with the shortest pause.
+    /// Makes next() begin again with the shortest pause.
     void reset() { failures_ = 0; }
 
   private:

@@ -37,9 +37,9 @@ auto translatingErrors(Read read) {
     }
 }
 
-/// Returns `value` as a number. Throws UnreadableRecord unless the number is from `least` to `most`; without `least`,
-/// from −`most` to `most`. If `value` is not a number, throws an exception of the JSON library, which
-/// translatingErrors() converts to UnreadableRecord.
+/// Returns `value` as a number. Throws UnreadableRecord unless the number is from `least` to `most`; the overload
+/// without `least` requires a number from −`most` to `most`. If `value` is not a number, throws an exception of the
+/// JSON library, which translatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);
 double readNumber(const nlohmann::json& value, double most);
 
@@ -58,7 +58,8 @@ T readInteger(const nlohmann::json& value) {
 /// Returns the elements of an array. Throws UnreadableRecord if an element is not an integer from 0 to 2^32 − 1.
 std::vector<std::uint32_t> readIntegers(const nlohmann::json& value);
 
-/// Returns `value` as a name. Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8.
+/// Returns `value` as a name. Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8. If
+/// `value` is not a string, throws an exception of the JSON library, as readNumber() does.
 std::string readShortText(const nlohmann::json& value);
 
 }  // namespace oval4d::store

@@ -8,7 +8,7 @@
 namespace oval4d::store {
 
 std::size_t MemoryStore::Entry::bytes() const {
-    constexpr std::size_t kOverhead = 512;  // estimated memory of a map entry
+    constexpr std::size_t kOverhead = 512;  // estimated memory of a map entry, in bytes
     std::size_t bytes = kOverhead + tokenHash.size() + whole.size() + head.size();
     for (const auto& [key, object] : objects) bytes += kOverhead + object.size();
     return bytes;
@@ -27,7 +27,7 @@ std::optional<Record> MemoryStore::claim(const std::string& id) {
     return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, ++entry.fence, {}};
 }
 
-/// Returns an upper bound of the size after the updates: also counts the bytes that they replace.
+/// Returns an upper bound of the size after the updates. It counts even the bytes that the updates replace.
 std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
     std::size_t bytes = bytes_;
     for (const RecordUpdate& update : updates) bytes += estimateStoredSize(update);

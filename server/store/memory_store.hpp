@@ -45,7 +45,7 @@ class MemoryStore final : public Store {
 
     const std::size_t quota_;
     const Now<Clock> now_;
-    std::size_t bytes_ = 0;  // total size of all records
+    std::size_t bytes_ = 0;  // total size of all records, as in Entry::bytes()
     Entries entries_;
 };
 

@@ -55,13 +55,13 @@ std::vector<glm::dvec4> verticesIn(const json& value) {
     return vertices;
 }
 
-// Encodes samples as 32-bit floats in the byte order of x86-64.
+// Encodes samples as 32-bit floats in the byte order of x86-64 (little-endian).
 json binary(std::span<const float> samples) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(samples.data());
     return json::binary(json::binary_t::container_type(bytes, bytes + samples.size_bytes()));
 }
 
-// Decodes the samples of an array.
+// Decodes the samples of an array, and checks that their number matches `shape`.
 fields::ReadField arrayIn(const json::binary_t& samples, const fields::Box& box, const json& shape) {
     fields::ReadField array;
     array.box = box;
@@ -74,7 +74,7 @@ fields::ReadField arrayIn(const json::binary_t& samples, const fields::Box& box,
     return array;
 }
 
-// Encodes a second function: its formula, or its variable and samples.
+// Encodes the second function of a field: its formula, or [variable, samples] for an array.
 json encoded(const fields::SecondFunction& second) {
     if (!second.array) return json(second.formula);
     return json({second.variable, binary(second.array->samples())});
@@ -93,7 +93,7 @@ void readSecond(const json& second, const json& shape, fields::Field& field) {
     if (error) throwUnreadable("a field is not valid: " + error->message);
 }
 
-// Encodes [path, format, axes, variable, formula and variable of the values, box or null].
+// Encodes a source as [path, format, axes, variable, values, valuesVariable, box or null]: see fields::FileSource.
 json encoded(const fields::FileSource& source) {
     const auto& [path, format, axes, variable, values, valuesVariable, box] = source;
     return json::array({path, format, axes, variable, values, valuesVariable,
@@ -124,9 +124,10 @@ slicing::Object openFile(const std::string& name, const json& source, const File
 
 // --- The record of each kind of object
 //
-// A record is an array that begins with [version, name]. Its length tells which kind of object it contains, so that
-// servers of earlier versions read it, too. A kind that lacks a RecordOf, or has the length of another one, does not
-// compile.
+// The record of a kind of object is an array that begins with [version, name]. Only the length of the array tells the
+// kind. A separate member for the kind is not possible, because earlier versions of the server, which may use the same
+// store, would refuse it. The code does not compile if a kind lacks a RecordOf, or if records of two kinds have the
+// same length.
 
 template <typename ObjectPtr>
 struct RecordOf;
@@ -183,8 +184,9 @@ struct RecordOf<slicing::FieldPtr> {
     static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7;
     static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond};
 
-    // [version, name, file in the data folder], or [version, name, formula or samples, box, shape], where the shape of
-    // a formula is empty; if there is a second function, followed by it and "field".
+    // [version, name, file in the data folder] or [version, name, formula or samples, box, shape]. The shape of a
+    // formula is an empty array. If there is a second function, two members follow: this function, and the text
+    // "field".
     static json encode(const fields::Field& field) {
         if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
         const fields::Box& box = field.array ? field.array->box() : field.box;
@@ -214,7 +216,8 @@ struct RecordOf<slicing::FieldPtr> {
     }
 };
 
-// The record of an object that was moved when it was loaded: [version, [origin in the file, record of the object]].
+// The length of the record of an object that was moved when it was loaded: [version, [origin in the file, record of the
+// object]]. See ObjectInfo::originInFile.
 constexpr std::size_t kMovedLength = 2;
 
 json encodedWithOrigin(const glm::dvec4& originInFile, json record) {
@@ -249,7 +252,7 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 }  // namespace
 
 bool namesFile(std::string_view record) {
-    // The first byte of an array tells its length if it is less than 24 (RFC 8949, section 3.1).
+    // If an array has fewer than 24 elements, its first byte is 0x80 plus their number (RFC 8949, section 3.1).
     constexpr char kFileRecord = static_cast<char>(0x80 + RecordOf<slicing::FieldPtr>::kFileLength);
     return record.starts_with(kFileRecord);
 }

@@ -17,14 +17,15 @@ namespace oval4d::store {
 /// its file in the server's data folder instead of the samples.
 std::string encodeObjectRecord(const slicing::Object& object);
 
-/// Returns whether a record contains the name of a file instead of the samples.
+/// Returns whether a record contains the name of a file instead of samples.
 bool namesFile(std::string_view record);
 
 /// Reads a field from the server's data folder. Blocks the calling thread.
 using FileOpener = std::function<Result<slicing::Object>(const session::LoadObject& load)>;
 
 /// Returns the object in a record made by encodeObjectRecord(), and validates it like an object from a client's file.
-/// Throws UnreadableRecord if it is invalid, or if `open` does not find the file that it names.
+/// Throws UnreadableRecord if the record is invalid, or if it names a file that `open` cannot read. An empty `open`
+/// reads no files.
 slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open = {});
 
 }  // namespace oval4d::store

@@ -54,7 +54,8 @@ slicing::Object ObjectListReader::imageOf(const slicing::Object& source, const g
     return images_.back().image;
 }
 
-/// Returns the polytope with this name.
+/// Returns the polytope of the catalogue with this name. Throws UnreadableRecord if there is none, or if it is too
+/// large or cannot be built.
 slicing::Object ObjectListReader::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
     const auto named = polytopes::designNamed(name, kMaxVertices);

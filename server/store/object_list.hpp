@@ -20,10 +20,10 @@ class ObjectListWriter {
   public:
     explicit ObjectListWriter(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
 
-    /// Returns the index of the object in the list. Adds the object if the list does not have it yet.
+    /// Returns the index of the object in the list, from 0. Adds the object if the list does not have it yet.
     std::size_t indexOf(const slicing::Object& object);
 
-    /// The encoded list: [name] for an object that is built from its name, and [name, key] for any other object.
+    /// Returns the encoded list, with one entry for each object: [name] if it is built from its name, else [name, key].
     const nlohmann::json& list() const { return list_; }
 
   private:
@@ -32,19 +32,20 @@ class ObjectListWriter {
     std::map<const void*, std::size_t> indices_;
 };
 
-/// The objects of a decoded session, also in the frames of reference in which its states show them.
+/// The objects of a session that is being decoded: those in the list of its record, and the same objects in the frames
+/// of reference in which states show them.
 class ObjectListReader {
   public:
     /// Reads what ObjectListWriter::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
     /// built, or if the objects that are built from their names have more than ten million vertices altogether.
     ObjectListReader(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
 
-    /// Returns the object with this index. Throws UnreadableRecord if there is none.
+    /// Returns the object with this index, as long as this reader exists. Throws UnreadableRecord if there is none.
     const slicing::Object& at(const nlohmann::json& index) const;
 
-    /// Returns an object in the frame of reference `frame`; the same one for all states that show it. Throws
-    /// UnreadableRecord if all transformed objects and the objects that are built from their names have more than ten
-    /// million vertices altogether.
+    /// Returns `source` in the frame of reference `frame` (see slicing::imageOf()). Calls with equal arguments return
+    /// the same object, so that states share it. Throws UnreadableRecord if all transformed objects and the objects
+    /// that are built from their names have more than ten million vertices altogether.
     slicing::Object imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
@@ -55,7 +56,8 @@ class ObjectListReader {
     };
     slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache);
 
-    // A few bytes of a record can request large objects, hence this limit.
+    // The number of vertices that may still be built. There is a limit because a few bytes of a record can request
+    // large objects.
     std::size_t vertexBudget_ = 10'000'000;
     std::vector<slicing::Object> objects_;
     std::vector<Image> images_;

@@ -54,16 +54,19 @@ void makeFolders(const std::filesystem::path& folder) {
     std::filesystem::path made;
     for (const auto& part : folder) {
         made /= part;
-        // Errors are ignored here, because opening the file reports them. chmod overrides the umask.
+        // Errors are ignored here: opening the file then fails and reports them. mkdir() applies the umask; chmod()
+        // does not.
         if (mkdir(made.c_str(), kFolderMode) == 0) chmod(made.c_str(), kFolderMode);
     }
 }
 
 enum class Permissions : std::uint8_t { leave, tighten };
 
-/// Checks that a file is safe to use, and tightens its permissions if asked to. Returns false if it does not exist.
+/// Checks that a file is safe to use (see requireOwnRegularFile()), and sets its mode to 0600 if `permissions` is
+/// `tighten`. Returns false if the file does not exist.
 bool checkFile(const std::string& path, Permissions permissions) {
-    // Closing an ordinary descriptor would release all locks of this process on the file; with O_PATH it does not.
+    // Closing an ordinary descriptor would release all locks of this process on the file; closing an O_PATH descriptor
+    // does not.
     const Descriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
     if (!file.valid()) {
         if (errno == ENOENT) return false;

@@ -5,14 +5,14 @@
 
 namespace oval4d::store {
 
-/// Throws StoreError if `path` exists, unless it is a regular file that the server's own user owns. The owner of any
-/// other file, or of a symbolic link, could determine what the server reads and writes. Follows symbolic links among
-/// the parent folders: the operator is responsible for these.
+/// Throws StoreError if `path` exists and is not a regular file that the server's own user owns. The owner of any other
+/// file, or of a symbolic link at `path`, could determine what the server reads and writes. Symbolic links among the
+/// parent folders are followed: the operator is responsible for these folders.
 void requireOwnRegularFile(const std::string& path);
 
 /// Creates `path` as an empty file with mode 0600, and missing parent folders with mode 0700. If the file exists with
-/// another mode, sets mode 0600 and logs this. Throws StoreError if that fails or if requireOwnRegularFile() would
-/// throw.
+/// another mode, sets mode 0600 and logs this. Throws StoreError if one of these steps fails, or if
+/// requireOwnRegularFile() would throw.
 void makePrivate(const std::string& path);
 
 /// Like makePrivate(), but does nothing if the file does not exist.

@@ -15,9 +15,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The script that claims a session. KEYS: the keys of the session and of its objects. ARGV: the name of this server,
-// the expiry period in milliseconds, the session's id. Returns nothing if there is no such session. Redis runs the
-// script even if its memory is full (allow-oom), so that stored sessions can still be opened.
+// The script that claims a session. KEYS: the keys of the Redis hashes that contain the session and its objects. ARGV:
+// the name of this server, the expiry period in milliseconds, the session's id. Returns {fence, whole, head, objects};
+// false if there is no such session. Redis runs the script even if its memory is full (allow-oom), so that stored
+// sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -31,11 +32,12 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period, the fence, the
-// hash of the token, the token or an empty string, head, whole, 1 if no client has the session open anymore, the number
-// of objects to add, their keys and bytes, the keys of the objects to drop. Returns a SaveResult. Two servers have
-// equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head alone
-// does not restart the expiry period, because a save of the whole session follows within a second.
+// The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period in milliseconds,
+// the fence, the hash of the token, the token or an empty string, head, whole, 1 if no client has the session open
+// anymore, the number of objects to add, their keys and bytes, the keys of the objects to drop. Returns the number of a
+// SaveResult. Two servers have equal fences only if Redis has lost writes; then only the save of the owner is accepted.
+// A save of the head alone does not restart the expiry period, because a save of the whole session follows within a
+// second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -58,8 +60,8 @@ if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
-// The script that adds the hash of a token that is stored as plain text. KEYS: as above. ARGV: the token, its hash, 1
-// to delete the plain text.
+// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as above. ARGV:
+// the token, its hash, 1 if the plain text is to be deleted.
 constexpr const char* kHash = R"(#!lua flags=allow-oom
 if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
   redis.call('HSET', KEYS[1], 'hash', ARGV[2])
@@ -158,7 +160,8 @@ void RedisStore::connect() {
 }
 
 // Sets the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same
-// Redis: the expiry time after such servers were first noticed, or no time if there are none.
+// Redis. This is the time when such servers were first noticed, plus the expiry period. If there are none, it is in the
+// past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});
@@ -170,7 +173,7 @@ void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = std::chrono::steady_clock::now() + Milliseconds(since - now) + expiry_;
 }
 
-bool RedisStore::storesPlainTokens() const { return std::chrono::steady_clock::now() < plainUntil_; }
+bool RedisStore::alsoStoresPlainTokens() const { return std::chrono::steady_clock::now() < plainUntil_; }
 
 /// Closes the connection, because its replies can no longer be matched with requests, and throws StoreError. The next
 /// operation opens a new connection.
@@ -222,10 +225,10 @@ std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
     const redisReply& hash = *reply->element[0];
     const redisReply& token = *reply->element[1];
     const bool plain = token.type == REDIS_REPLY_STRING;
-    if (hash.type == REDIS_REPLY_STRING && (!plain || storesPlainTokens())) return textOf(hash);
+    if (hash.type == REDIS_REPLY_STRING && (!plain || alsoStoresPlainTokens())) return textOf(hash);
     if (!plain) return std::nullopt;
     std::string made = hashToken(textOf(token));
-    ask(hashScript_, id, {textOf(token), made, storesPlainTokens() ? "0" : "1"});
+    ask(hashScript_, id, {textOf(token), made, alsoStoresPlainTokens() ? "0" : "1"});
     return made;
 }
 
@@ -256,7 +259,7 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
                           std::to_string(expiry_.count()),
                           std::to_string(update.fence),
                           hashToken(update.credentials.token),
-                          storesPlainTokens() ? update.credentials.token : "",
+                          alsoStoresPlainTokens() ? update.credentials.token : "",
                           update.head,
                           update.whole,
                           update.closed ? "1" : "0",
@@ -281,7 +284,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::touch(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !storesPlainTokens();  // if so, also deletes the plain-text tokens
+    const bool hashed = !alsoStoresPlainTokens();  // if so, tokens in plain text are deleted, too
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

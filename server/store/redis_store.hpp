@@ -11,9 +11,9 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 namespace oval4d::store {
 
 /// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
-/// atomic are Lua scripts: a claim, which increments the fence, and a save, which compares the fence. Each server has a
-/// Redis list, to which other servers add the ids of the sessions that they claim from this server. Requires Redis 7 or
-/// later.
+/// atomic are Lua scripts, such as a claim, which increments the fence, and a save, which compares the fence. Each
+/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server.
+/// Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
     /// Does not connect; the first operation connects. Throws std::invalid_argument unless `options.url` is
@@ -49,7 +49,7 @@ class RedisStore final : public Store {
     Reply ask(const Arguments& command);
     Reply ask(const std::string& script, const std::string& id, const Arguments& arguments);
     void updatePlainTokenDeadline();
-    bool storesPlainTokens() const;
+    bool alsoStoresPlainTokens() const;
 
     std::string host_, user_, password_, database_;
     int port_ = 6379;

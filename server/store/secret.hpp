@@ -20,8 +20,8 @@ std::string hashToken(std::string_view token);
 /// Returns a digest that detects damaged records: 128 bits of BLAKE2b over `parts` and their lengths, as 16 bytes.
 std::string recordDigest(std::span<const std::string_view> parts);
 
-/// Returns whether two secrets are equal. For secrets of equal length, the running time does not depend on where they
-/// differ, and therefore reveals nothing about them.
+/// Returns whether two secrets are equal. For secrets of equal length, the running time does not depend on the position
+/// of the first difference, and therefore reveals nothing about the secrets.
 bool equalInConstantTime(std::string_view given, std::string_view expected);
 
 }  // namespace oval4d::store

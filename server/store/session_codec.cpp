@@ -9,7 +9,8 @@
 #include "store/state_codec.hpp"
 
 // A session is encoded as two CBOR arrays: the head [version, revision, objects, current state], and the whole, which
-// adds [undo steps, redo steps, loaded objects, pending key]. Members are only ever added at the end of an array.
+// has four more members: [version, revision, objects, current state, undo steps, redo steps, loaded objects, pending
+// key]. New versions may add members only at the end of an array.
 
 namespace oval4d::store {
 
@@ -18,7 +19,7 @@ using session::Session;
 
 namespace {
 
-constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // JSON readers represent integers exactly up to this one
+constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53: JSON readers represent integers exactly up to this one
 
 std::uint64_t revisionIn(const json& value) {
     const auto revision = readInteger<std::uint64_t>(value);

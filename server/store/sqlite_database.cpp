@@ -50,7 +50,7 @@ Database::Database(std::string path) : path_(std::move(path)) {
     try {
         if (sqlite3_open_v2(path_.c_str(), &handle_, SQLITE_OPEN_READWRITE, nullptr) != SQLITE_OK) fail("opening it");
         sqlite3_extended_result_codes(handle_, 1);
-        sqlite3_busy_timeout(handle_, 2000);  // milliseconds: a server that was just killed may still be exiting
+        sqlite3_busy_timeout(handle_, 2000);  // ms to wait for a lock: a server that was killed may still be exiting
         constexpr int kFlags = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY;
         sqlite3_create_function(handle_, "hash_of", 1, kFlags, nullptr, hashFunction, nullptr, nullptr);
         sqlite3_create_function(handle_, "digest_of", -1, kFlags, nullptr, digestFunction, nullptr, nullptr);

@@ -61,12 +61,12 @@ class Statement {
     Statement& blob(std::string_view value);
     Statement& number(std::int64_t value);
 
-    /// Executes the statement up to its next row; returns false if there is none.
+    /// Executes the statement up to its next row; returns false if there are no more rows.
     bool row();
     /// These functions return a value of the current row; columns count from 0.
     std::string bytesAt(int column) const;
     std::int64_t numberAt(int column) const;
-    /// Returns the number of rows that the statement changed.
+    /// Returns the number of rows that the statement has changed.
     std::size_t changes() const;
 
   private:

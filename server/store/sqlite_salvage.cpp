@@ -57,8 +57,8 @@ struct SalvagedSession {
     std::vector<std::pair<std::string, std::string>> objects;
 };
 
-/// Reads a session; returns nothing if it is missing or damaged. `hashed`: whether the file has the schema of version
-/// 2, with hashed tokens and digests.
+/// Reads a session; returns an empty optional if it is missing or damaged. `hashed`: whether the file has the schema of
+/// version 2, with hashed tokens and digests.
 std::optional<SalvagedSession> readSession(Database& from, bool hashed, const std::string& id) {
     Statement session(from, hashed
                                 ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "

@@ -31,7 +31,7 @@ inline constexpr const char* kSchema = R"(
     PRAGMA application_id = 1870017636;
     PRAGMA user_version = 2;)";
 
-/// The bytes of application_id in the header of the file, and their offset.
+/// The bytes of application_id in the file's header, and their offset in bytes.
 inline constexpr std::string_view kApplicationId = "ov4d";
 inline constexpr std::size_t kApplicationIdAt = 68;
 

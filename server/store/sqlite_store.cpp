@@ -19,8 +19,8 @@ constexpr std::size_t kPageSize = 4096;
 constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of pages that one poll releases
 constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a line of the log
 
-// Returns the maximum number of pages of the database file. The rest of the quota is for the write-ahead log: its size
-// at a checkpoint, and one transaction.
+// Returns the maximum number of pages of the database file: three quarters of the quota. The rest is for the
+// write-ahead log, which may contain the pages that trigger a checkpoint and, in addition, those of one transaction.
 std::int64_t pagesOf(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
 /// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
@@ -40,8 +40,9 @@ std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
 }
 
 /// Throws StoreError if the file exists and is not a store of oval4d, so that the server neither changes nor renames
-/// it. The first page of a store contains our application_id or, in version 1, the names of our tables. An empty file
-/// is accepted. So is a database without tables, because its tables may still be in the write-ahead log.
+/// it. The first page of a store contains the application_id of oval4d (kApplicationId) or, in version 1, the names of
+/// its tables. An empty file is accepted. So is a database without tables, because its tables may still be in the
+/// write-ahead log.
 void refuseForeignFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(kPageSize, '\0');
@@ -71,7 +72,7 @@ std::string listed(const std::set<std::string>& ids) {
     return text;
 }
 
-/// Returns an unused path to which to rename a damaged file.
+/// Returns an unused path for a damaged file, which will be renamed to it.
 std::string damagedName(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
@@ -97,8 +98,8 @@ SqliteStore::SqliteStore(std::string path, std::size_t quota, Now<Clock> now)
     spdlog::info("store opened store={} sessions={}", name(), size_);
 }
 
-/// Returns the time for records, in milliseconds since 1970.
-std::int64_t SqliteStore::now() const {
+/// Returns the current time, as records contain it: in milliseconds since 1970.
+std::int64_t SqliteStore::nowMilliseconds() const {
     return std::chrono::duration_cast<Milliseconds>(now_().time_since_epoch()).count();
 }
 
@@ -166,7 +167,7 @@ void SqliteStore::setUp() {
         Statement statement(
             *database_,
             "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
-        statement.number(now()).row();
+        statement.number(nowMilliseconds()).row();
     }
     if (const auto count = evictUntilFits(0, [](const std::string&) { return false; }); count > 0) {
         spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
@@ -176,8 +177,8 @@ void SqliteStore::setUp() {
     size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
 }
 
-/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests, in one transaction.
-/// If the VACUUM after the transaction fails, it is repeated when the file is opened the next time.
+/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests. All changes are
+/// made in one transaction. If the VACUUM after it fails, it is repeated when the file is opened the next time.
 void SqliteStore::migrate() {
     if (database_->number("PRAGMA user_version") < kSchemaVersion) {
         database_->run("PRAGMA foreign_keys = OFF");
@@ -293,7 +294,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
     return afterPendingRepair([&]() -> std::optional<Record> {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
-            statement.number(now()).text(id).row();
+            statement.number(nowMilliseconds()).text(id).row();
         } catch (const NotWritable&) {
             // The record can still be read. It does not need the new fence, because no other server uses this file.
         }
@@ -342,7 +343,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
         statement.text(id)
             .text(hash)
             .number(fence)
-            .number(now())
+            .number(nowMilliseconds())
             .number(changed)
             .blob(update.whole)
             .blob(update.head)
@@ -353,7 +354,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
             *database_,
             "UPDATE session SET fence = ?1, touched = ?2, changed = ?3, head = ?4, head_digest = digest_of(id, ?4) "
             "WHERE id = ?5 AND fence <= ?1");
-        statement.number(fence).number(now()).number(changed).blob(update.head).text(id).row();
+        statement.number(fence).number(nowMilliseconds()).number(changed).blob(update.head).text(id).row();
         written = statement.changes();
     }
     if (written == 0) {
@@ -412,7 +413,7 @@ void SqliteStore::touch(std::span<const std::string> ids) {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
-            statement.number(now()).text(id).row();
+            statement.number(nowMilliseconds()).text(id).row();
         }
         all.commit();
     });
@@ -421,7 +422,7 @@ void SqliteStore::touch(std::span<const std::string> ids) {
 std::size_t SqliteStore::expire(Milliseconds age) {
     return afterPendingRepair([&] {
         Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
-        statement.number(now() - age.count()).row();
+        statement.number(nowMilliseconds() - age.count()).row();
         return statement.changes();
     });
 }

@@ -14,7 +14,7 @@ namespace oval4d::store {
 /// write-ahead log. The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose
 /// the latest commits, but does not damage the file.
 ///
-/// Records contain digests, and the whole file is checked when it is opened. If pages are found to be damaged, then or
+/// Records contain digests, and the whole file is checked when it is opened. If damaged pages are found at that time or
 /// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. A
 /// damaged record on intact pages is left unchanged. Damage of either kind is logged.
 class SqliteStore final : public Store {
@@ -43,7 +43,7 @@ class SqliteStore final : public Store {
   private:
     template <typename Work>
     auto afterPendingRepair(Work work);
-    std::int64_t now() const;
+    std::int64_t nowMilliseconds() const;
     void open();
     void check();
     void setUp();

@@ -29,7 +29,7 @@ using session::State;
 
 namespace {
 
-/// The numbers that a member may have.
+/// The values that a member may have: from `least` to `most`.
 struct Range {
     double least, most;
 };
@@ -37,7 +37,7 @@ constexpr Range upTo(double most) { return {-most, most}; }
 constexpr Range kAnyNumber = upTo(std::numeric_limits<double>::max());
 constexpr double kLeastPositive = std::numeric_limits<double>::min();
 
-/// Whether T is a struct or the same struct as const.
+/// Whether T is `Struct` or `const Struct`.
 template <typename T, typename Struct>
 concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
 
@@ -45,9 +45,10 @@ concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
 //
 // A struct is encoded as an array. The number of a member is its index in this array. Servers of other versions read
 // and write the same records, hence these rules: a member keeps its number forever; no number is used again; a new
-// member gets the next number and is visited as an added one, because records of earlier versions lack it. The same
-// holds for the numbers of enumerators and for the rows of scene::kParts. Structured bindings name every member, so
-// that a new one does not compile until it is added here. The bounds are those of settings.hpp.
+// member gets the next number and is visited with addedMember(), because records of earlier versions lack it. The same
+// rules hold for the numbers of enumerators and for the rows of scene::kParts. The structured bindings name every
+// member of a struct, so that the code does not compile until a new member is added here. The bounds are those of
+// settings.hpp.
 
 void visitMembers(Is<scene::CameraOrbit> auto& orbit, auto& visit) {
     auto& [azimuth, elevation, zoom] = orbit;
@@ -112,11 +113,11 @@ void visitMembers(Is<geometry::ReferenceFrame> auto& frame, auto& visit) {
 
 void visitMembers(Is<session::OngoingTurnToward> auto& turn, auto& visit) {
     auto& [goal, seconds] = turn;
-    visit.rotation(0, goal);  // 0 and 1
+    visit.rotation(0, goal);  // as the members 0 and 1
     visit.member(2, seconds, Range{kLeastPositive, session::kMaxTurnTowardSeconds});
 }
 
-/// The angles of the keys, which are members of a State.
+/// The angles of the rotation keys. They are members of a State, but form an array of their own in its record.
 template <typename Number>
 struct KeyAngles {
     Number &alpha, &beta, &step;
@@ -132,12 +133,12 @@ void visitMembers(const KeyAngles<Number>& angles, auto& visit) {
     visit.member(2, angles.step, Range{kLeastPositive, kTwoPi});
 }
 
-/// The number of a state's source, which is written as an index into the list of objects.
+/// The number of the member State::source, which is written as an index into the list of objects.
 constexpr std::size_t kSourceNumber = 0;
 
 void visitMembers(Is<State> auto& state, auto& visit) {
     auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
-    visit.rotation(1, orientation);  // 1 and 2
+    visit.rotation(1, orientation);  // as the members 1 and 2
     visit.members(3, KeyAngles{alpha, beta, step});
     visit.member(4, slices);
     visit.member(5, look);
@@ -160,7 +161,7 @@ class MemberWriter {
     void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
         put(number, encoded(value));
     }
-    /// Writes members of a struct that form an array of their own.
+    /// Writes several members of a struct together, as one array.
     template <typename Members>
     void members(std::size_t number, const Members& some) {
         put(number, encoded(some));
@@ -210,8 +211,9 @@ class MemberWriter {
         for (const scene::NamedPart& part : scene::kParts) flags.push_back(parts.*part.flag);
         return flags;
     }
-    // A turn in one plane, or in two that are perpendicular, has the form [plane, angle, angle or null] that earlier
-    // versions read, too. Others are lists of pairs [[plane, angle], …].
+    // A turn in one plane, or in two perpendicular planes, is encoded as [plane, angle, angle in the perpendicular
+    // plane or null], which earlier versions can read, too. Any other turn is a list of pairs [[plane, angle], …].
+    // Angles are in radians.
     static json encoded(const geometry::Turn& turn) {
         const std::vector<geometry::Plane> planes = turn.planes();
         const geometry::Plane first = planes.at(0);
@@ -301,7 +303,7 @@ class MemberReader {
     static void read(const json& value, glm::dvec3& into, Range range) {
         for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
-    // Parts that the array lacks, because an earlier version has written it, keep their defaults.
+    // An array of an earlier version may lack some parts; these keep their defaults.
     static void read(const json& value, scene::Parts& into) {
         for (std::size_t i = 0; i < std::min(value.size(), scene::kParts.size()); ++i)
             read(value.at(i), into.*scene::kParts[i].flag);
@@ -322,7 +324,7 @@ class MemberReader {
     const json& array_;
 };
 
-// --- What members may be beside one another
+// --- Checks of members together with other members or the object
 //
 // These limits are far above those that the server enforces for clients. Without them, a damaged record could produce,
 // for example, a state with a million slices instead of an error.

@@ -8,11 +8,11 @@
 
 namespace oval4d::store {
 
-/// Encodes a state as an array, and adds its object to `objects`.
+/// Encodes a state as an array, and adds the state's source object to `objects`.
 nlohmann::json encodeState(const session::State& state, ObjectListWriter& objects);
 
-/// Decodes a state. Members that the record lacks, because an earlier version has written it, get their defaults.
-/// Throws UnreadableRecord if a member is invalid, or contradicts another one or the object.
+/// Decodes a state. A record of an earlier version may lack some members; these get their defaults. Throws
+/// UnreadableRecord if a member is invalid, or does not fit another member or the object.
 session::State decodeState(const nlohmann::json& array, ObjectListReader& objects);
 
 }  // namespace oval4d::store

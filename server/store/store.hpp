@@ -26,27 +26,28 @@ struct SessionCredentials {
     std::string id, token;
 };
 
-/// A fencing token, which prevents a server that no longer owns a session from saving it: each claim of a session
-/// increments the fence of its record, and the store refuses a save with a lower fence than that of the record.
+/// A fencing token: a number that prevents a server from saving a session after another server has claimed it. Each
+/// claim increments the fence in the session's record. The store refuses a save whose fence is lower than the fence in
+/// the record.
 using Fence = std::uint64_t;
 
-/// A stored session.
+/// A session as claim() returns it from the store.
 struct Record {
-    /// `whole` is the result of encodeWhole() (codec.hpp). `head` is the result of encodeHead() after a later change;
-    /// empty if `whole` is the newest state.
+    /// `whole`: the whole session, encoded by encodeWhole() (session_codec.hpp). `head`: the state and the revision
+    /// after a later change, encoded by encodeHead(); empty if `whole` is the newest state.
     std::string whole, head;
-    /// The objects that cannot be rebuilt from their names, as pairs (key, encoded object).
+    /// The session's objects that cannot be rebuilt from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
     Fence fence = 0;
-    std::string damage;  ///< says which part does not match its digest; empty if the record is intact
+    std::string damage;  ///< says which part of the record does not match its digest; empty if it is intact
 };
 
 /// A change to the record of a session.
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;                                          ///< as in Record; empty: unchanged
-    std::string whole;                                         ///< empty: unchanged; otherwise, `head` is replaced, too
+    std::string head;                                          ///< as in Record; not empty if `whole` is empty
+    std::string whole;                                         ///< empty: unchanged; otherwise `head` is replaced, too
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore
@@ -73,8 +74,8 @@ class NotWritable : public StoreError {
 };
 
 /// Stores the records of sessions by session id. Every function may block, and throws StoreError if the store is
-/// unavailable or reports an error. A failed operation may have had all of its effect, a part of it or none; it may be
-/// repeated. Not thread-safe: one thread at a time may call its functions.
+/// unavailable or reports an error. An operation that throws may already have taken effect, fully or in part; the
+/// caller may repeat it. Not thread-safe: one thread at a time may call its functions.
 class Store {
   public:
     Store() = default;
@@ -94,28 +95,29 @@ class Store {
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
 
-    /// Returns the hash of a stored session's token (hashToken() in secret.hpp), or nothing if the session is not
-    /// stored. No store keeps the token itself, except Redis while servers of version 0.1.0 may still use it.
+    /// Returns the hash of a stored session's token (hashToken() in secret.hpp); an empty optional if the session is
+    /// not stored. No store keeps the token itself, except a Redis store that servers of version 0.1.0 may still use.
     virtual std::optional<std::string> tokenHash(const std::string& id) = 0;
 
-    /// Returns whether a session's record is known to be damaged, so that even the correct token may not match its
-    /// hash.
+    /// Returns whether the record of a session is known to be damaged. If it is, the stored hash may be wrong, so that
+    /// even the correct token may not match it.
     virtual bool isDamaged(const std::string& /*id*/) { return false; }
 
-    /// Makes this server the owner of a session, taking it over from another server if necessary, and returns its
-    /// record; nothing if the session is not stored.
+    /// Makes this server the owner of a session, taking it over from another server if necessary. Returns the session's
+    /// record; an empty optional if the session is not stored.
     virtual std::optional<Record> claim(const std::string& id) = 0;
 
-    /// Applies the updates as one batch, and returns one result for each. An update with `whole` creates the record if
-    /// the store has none. Throws NotWritable if the batch would exceed the quota.
+    /// Applies the updates as one batch, and returns one result for each update, in the same order. An update with
+    /// `whole` creates the record if the store has none for the session. Throws NotWritable if the batch would exceed
+    /// the quota.
     virtual std::vector<SaveResult> save(std::span<const RecordUpdate> updates) = 0;
 
     /// Returns whether the session with this id must not be evicted.
     using IsPinned = std::function<bool(const std::string& id)>;
     /// Evicts sessions that are not pinned until `updates` fit within the quota, and returns the number of evicted
     /// sessions. Evicts first the sessions that were never changed, then those that were not saved, claimed or touched
-    /// for the longest time. Evicts none if the updates already fit: the save then failed for another reason, such as a
-    /// full disk, and deleting sessions would not help.
+    /// for the longest time. Evicts none if the updates already fit: in that case, the save failed for another reason,
+    /// such as a full disk, and deleting sessions would not help.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.

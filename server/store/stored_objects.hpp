@@ -1,5 +1,5 @@
 #pragma once
-// Keeps account of which objects of which sessions are in the store, so that an object is written only once.
+// Records which objects of each session are in the store, so that an object is written only once.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "store/cached_sessions.hpp"
+#include "store/sessions_in_memory.hpp"
 #include "store/store.hpp"
 
 namespace oval4d::store {
@@ -22,16 +22,18 @@ class StoredObjects {
     /// Records that the store has exactly these objects of a session.
     void setStored(const std::string& session, const KeysBySerial& keys);
 
-    /// Encodes changes of a session as `update.head`, `update.whole` and `update.changed`, with at most `maxUndo` undo
-    /// steps. Adds the records of the objects that the store lacks to `update.objects`, and the keys of those that the
-    /// whole session no longer contains to `update.dropped`. Returns the serial numbers of the added objects.
+    /// Encodes changes of a session: sets `update.head`, `update.whole` (with at most `maxUndo` undo steps and at most
+    /// `maxUndo` redo steps) and `update.changed`. Adds the records of the objects that the store lacks to
+    /// `update.objects`. If the whole session is written, adds the keys of the objects that it no longer contains to
+    /// `update.dropped`. Returns the serial numbers of the added objects.
     std::vector<std::uint64_t> encode(const std::string& session, const PendingChanges& changes, std::size_t maxUndo,
                                       RecordUpdate& update);
 
-    /// Records that an update of a session, whose added objects were `added`, has been saved.
+    /// Records that the store has saved `update`, which encode() had filled in. `added`: the result of encode().
     void saved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
 
-    /// Records that the store has no objects of this session, or of any, so that they are written again.
+    /// These functions record that the store has lost the objects of this session, or of all sessions. The next updates
+    /// then contain the objects again.
     void markLost(const std::string& session);
     void markAllLost();
 
@@ -39,13 +41,13 @@ class StoredObjects {
     void forget(const std::string& session) { sessions_.erase(session); }
 
   private:
-    struct Object {
+    struct KeyState {
         std::string key;
         bool stored = false;
     };
-    using Objects = std::map<std::uint64_t, Object>;  // by ObjectInfo::serial
+    using KeyStates = std::map<std::uint64_t, KeyState>;  // by ObjectInfo::serial
 
-    std::map<std::string, Objects, std::less<>> sessions_;
+    std::map<std::string, KeyStates, std::less<>> sessions_;
 };
 
 }  // namespace oval4d::store

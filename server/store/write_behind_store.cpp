@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kIdBytes = 10, kTokenBytes = 20;
 constexpr std::size_t kBatch = 256;                         // maximum number of sessions in one write
-constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // once a write has this size, no session is added
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // bytes; a write of this size gets no further session
 constexpr auto kPollInterval = 500ms;
 constexpr auto kMaxRefreshInterval = 60s;
 
@@ -31,7 +31,7 @@ const Error kNoAnswer{ErrorCode::internal, "this session cannot be opened right 
 
 WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener, Now<Clock> now)
     : store_(std::move(store)),
-      writeTiming_(store_->writePolicy()),
+      writePolicy_(store_->writePolicy()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
@@ -49,7 +49,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
-    CachedSessions cached;
+    SessionsInMemory cached;
     decltype(tasks_) tasks;
     {
         const std::lock_guard lock(mutex_);
@@ -62,7 +62,7 @@ SessionCredentials WriteBehindStore::create() {
     SessionCredentials credentials{randomName(kIdBytes), randomName(kTokenBytes)};
     const std::lock_guard lock(mutex_);
     cached_.add(credentials);
-    ++created_;
+    ++neverSaved_;
     return credentials;
 }
 
@@ -84,7 +84,7 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        if (CachedSession* const cached = cached_.find(id)) {
+        if (SessionInMemory* const cached = cached_.find(id)) {
             ours = true;
             auto& [head, whole, waiting] = cached->pending;
             (scope == SaveScope::head ? head : whole) = std::make_shared<const Session>(std::move(value));
@@ -98,10 +98,10 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
 
 void WriteBehindStore::close(const std::string& id, Session value) {
     const std::size_t bytes = estimateMemory(value);
-    std::vector<std::pair<std::string, CachedSession>> evicted;
+    std::vector<std::pair<std::string, SessionInMemory>> evicted;
     {
         const std::lock_guard lock(mutex_);
-        CachedSession* const cached = cached_.find(id);
+        SessionInMemory* const cached = cached_.find(id);
         if (cached == nullptr) return;
         cached->pending.whole = std::make_shared<const Session>(std::move(value));
         cached->closed = true;
@@ -110,7 +110,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         cached_.enqueue(id, *cached);
         if (!lastError_.empty()) evicted = cached_.evictClosed(settings_.quota);
         for (const auto& [other, session] : evicted) tasks_.emplace_back([this, other = other] { dropKeys(other); });
-        if (!evicted.empty()) created_ = cached_.neverSaved();
+        if (!evicted.empty()) neverSaved_ = cached_.neverSaved();
     }
     if (!evicted.empty())
         spdlog::warn("sessions evicted from memory while the store is unavailable count={}", evicted.size());
@@ -124,10 +124,10 @@ void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back([this, id] {
-            std::optional<CachedSession> removed;  // destroyed without holding the lock
+            std::optional<SessionInMemory> removed;  // destroyed without holding the lock
             {
                 const std::lock_guard inner(mutex_);
-                const CachedSession* const cached = cached_.find(id);
+                const SessionInMemory* const cached = cached_.find(id);
                 if (cached != nullptr && !cached->closed) return;
                 removed = cached_.remove(id);
                 objects_.forget(id);
@@ -140,7 +140,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Drops the object keys of a session unless `cached_` contains it again.
+/// Drops the object keys of a session, unless the session is in `cached_` again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
@@ -154,7 +154,7 @@ void WriteBehindStore::discardFetched(const std::string& id) {
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
-    return writeTiming_ == Store::WritePolicy::at_once ? cached_.size() : kept_ + created_;
+    return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : storedCount_ + neverSaved_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {
@@ -226,7 +226,7 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
     const std::lock_guard lock(mutex_);
     retryAt_ = pollAt_ = now_() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
-    created_ = cached_.neverSaved();
+    neverSaved_ = cached_.neverSaved();
     if (lastError_.empty())
         spdlog::error("store unavailable, changes stay in memory until it is available again fault=\"{}\"", why);
     lastError_ = why;
@@ -254,7 +254,7 @@ void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate
             const std::lock_guard lock(mutex_);
             const auto id = cached_.takeQueued();
             if (!id) break;
-            CachedSession& cached = *cached_.find(*id);
+            SessionInMemory& cached = *cached_.find(*id);
             jobs.push_back({*id, std::exchange(cached.pending, {}), {}});
             updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
@@ -289,7 +289,7 @@ void WriteBehindStore::write() {
 }
 
 /// Saves the updates. If the store is full, evicts closed sessions from it. If an update does not fit even then, its
-/// result is empty and storeFailed() is called; the other updates are saved.
+/// result is an empty optional and storeFailed() is called; the other updates are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
@@ -317,7 +317,7 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // reopened meanwhile
+        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // they were reopened
         ids.assign(removals_.begin(), removals_.end());
     }
     if (ids.empty()) return;
@@ -336,9 +336,9 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     if (result == SaveResult::saved) {
         objects_.saved(job.id, job.added, update);
         const std::lock_guard lock(mutex_);
-        if (CachedSession* const cached = cached_.find(job.id)) {
+        if (SessionInMemory* const cached = cached_.find(job.id)) {
             cached->inFlight = false;
-            if (!std::exchange(cached->saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
+            if (!std::exchange(cached->everSaved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
             if (cached->closed && !cached->queued) {
                 cached_.remove(job.id);
                 objects_.forget(job.id);
@@ -356,12 +356,12 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
 }
 
 /// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store is
-/// unavailable, also queues them and calls their callbacks, so that no caller waits for the store.
+/// unavailable, also queues the session and calls the waiting callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
         const std::lock_guard lock(mutex_);
-        CachedSession* const cached = cached_.find(job.id);
+        SessionInMemory* const cached = cached_.find(job.id);
         if (cached == nullptr) return;
         cached->inFlight = false;
         cached->pending.addOlder(std::move(job.changes));
@@ -375,7 +375,7 @@ void WriteBehindStore::requeue(Job& job) {
 
 /// Drops a session that another server has claimed.
 void WriteBehindStore::dropTaken(const std::string& id) {
-    std::optional<CachedSession> dropped;
+    std::optional<SessionInMemory> dropped;
     {
         const std::lock_guard lock(mutex_);
         dropped = cached_.remove(id);
@@ -403,11 +403,11 @@ void WriteBehindStore::poll() {
     bool waiting = false;
     {
         const std::lock_guard lock(mutex_);
-        kept_ = store_->size();
-        created_ = cached_.neverSaved();
+        storedCount_ = store_->size();
+        neverSaved_ = cached_.neverSaved();
         waiting = hasPendingChanges();
     }
-    if (!waiting) storeWorked();  // otherwise the next write shows whether the store works: a full store can be polled
+    if (!waiting) storeWorked();  // otherwise the next write shows if the store works: even a full one can be polled
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
@@ -443,7 +443,7 @@ void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std
 WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
-        if (CachedSession* const cached = cached_.find(credentials.id)) {
+        if (SessionInMemory* const cached = cached_.find(credentials.id)) {
             if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
             if (!cached->pending.whole) return kNoAnswer;  // another client is opening it, or it is being written
             cached->closed = false;

@@ -15,21 +15,22 @@
 #include "errors/error.hpp"
 #include "session/session.hpp"
 #include "store/backoff.hpp"
-#include "store/cached_sessions.hpp"
+#include "store/sessions_in_memory.hpp"
 #include "store/store.hpp"
 #include "store/stored_objects.hpp"
 
 namespace oval4d::store {
 
-/// A write-behind cache in front of a Store. It holds the sessions that are open on this server, and the closed ones
-/// whose last change is not yet in the store. Only the cache's own thread uses the store. If several changes to a
-/// session are pending, it writes only the newest state.
+/// A write-behind cache in front of a Store: it keeps changes in memory and writes them to the store later. It holds
+/// the sessions that are open on this server, and the closed ones whose last change is not yet in the store. Only the
+/// cache's own thread uses the store. If several changes to a session are pending, the cache writes only the newest
+/// state.
 ///
-/// The store counts as unavailable after a failed operation, such as a write for which it has no room, until it works
-/// again. While the store is unavailable, changes wait in memory, and no caller waits for the store; the cache retries
-/// with growing pauses (exponential backoff). If the store is full, sessions that no client has open are evicted from
-/// it. If the store is unavailable and the closed sessions in memory take more than `Settings::quota`, some of them are
-/// evicted from memory. An open session is never evicted.
+/// The store counts as unavailable after a failed operation, such as a write for which it has no room, until its
+/// operations succeed again. While the store is unavailable, changes wait in memory, and no caller waits for the store;
+/// the cache retries with growing pauses (exponential backoff). If the store is full, sessions that no client has open
+/// are evicted from it. If the store is unavailable and the closed sessions in memory take more than `Settings::quota`,
+/// some of them are evicted from memory. An open session is never evicted.
 ///
 /// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or during a call on the caller's thread.
 class WriteBehindStore {
@@ -50,7 +51,7 @@ class WriteBehindStore {
         /// Called when the store is available again. The listener must save all open sessions, because the store may
         /// have lost data.
         std::function<void()> recovered;
-        /// Called when an operation of the store has ended, for metrics.
+        /// Called when an operation of the store has ended, for metrics. `seconds`: its duration.
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
     /// A fetched session. If the session was still in memory, `session` holds it. Otherwise `session` is empty, and
@@ -70,7 +71,7 @@ class WriteBehindStore {
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
 
-    Store::WritePolicy writePolicy() const { return writeTiming_; }
+    Store::WritePolicy writePolicy() const { return writePolicy_; }
     const std::string& name() const { return name_; }
 
     /// Creates a session that is open on this server, and returns its credentials. The session is not in the store
@@ -78,8 +79,8 @@ class WriteBehindStore {
     SessionCredentials create();
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
-    /// `internal` if the session cannot be fetched now. After a fetch with a record, the caller must decode the record,
-    /// and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
+    /// `internal` if the session cannot be fetched now. If `done` receives a record, the caller must decode it, and
+    /// then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Records which objects of a fetched session the store already has, so that they are not written again.
@@ -88,7 +89,7 @@ class WriteBehindStore {
     /// Queues the whole session for writing, or only its current state (SaveScope::head). Calls `written(true)` when
     /// the session is stored, or at once if the store is unavailable, so that clients need not wait. Calls
     /// `written(false)` if the session will not be stored, because another server has taken it over or because it was
-    /// removed.
+    /// removed or evicted.
     void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
@@ -102,12 +103,12 @@ class WriteBehindStore {
     /// Drops a fetched session from memory, because its record could not be decoded. Does not change the record.
     void discardFetched(const std::string& id);
 
-    /// Returns the approximate number of sessions in the store and in memory. If servers share the store, returns only
-    /// the number of sessions in this server's memory.
+    /// Returns the approximate number of sessions in the store and in memory. If several servers share the store,
+    /// returns only the number of sessions in this server's memory.
     std::size_t count() const;
     /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
-    /// Returns the last error of the store; an empty string while the store is available.
+    /// Returns the text of the last error of the store; an empty string while the store is available.
     std::string lastError() const;
 
     /// Writes pending changes for at most about `limit`, and then ends the cache's thread.
@@ -146,7 +147,7 @@ class WriteBehindStore {
     Clock::time_point nextWake() const;
 
     const std::unique_ptr<Store> store_;
-    const Store::WritePolicy writeTiming_;
+    const Store::WritePolicy writePolicy_;
     const std::string name_;
     const Settings settings_;
     const Listener listener_;
@@ -155,16 +156,16 @@ class WriteBehindStore {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // Guarded by mutex_.
-    CachedSessions cached_;
+    SessionsInMemory cached_;
     std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
     std::set<std::string> removals_;           // ids to remove from the store
-    std::size_t kept_ = 0;                     // number of sessions in the store, as of the last poll
-    std::size_t created_ = 0;                  // number of sessions that have never been in the store
+    std::size_t storedCount_ = 0;              // number of sessions in the store, as of the last poll
+    std::size_t neverSaved_ = 0;               // number of sessions that have never been in the store
     std::string lastError_;
     Clock::time_point retryAt_, pollAt_;  // earliest time of the next write; time of the next poll
     Clock::time_point readAt_;            // earliest time of the next read
     bool stopping_ = false;
-    Clock::time_point stopAt_;  // when stopping: time to end even if changes are pending
+    Clock::time_point stopAt_;  // if stopping_: the time to end even if changes are pending
 
     // Used only by the cache's thread.
     StoredObjects objects_;

@@ -1,5 +1,5 @@
 #pragma once
-// Classes of ASCII characters, whatever the locale.
+// Tests for ASCII digits and letters, independent of the locale.
 
 namespace oval4d::text {
 

@@ -9,14 +9,14 @@
 namespace oval4d::text {
 
 /// A row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
-/// several rows: the first row has its name, the other rows have aliases.
+/// several rows: the first one contains its name, the others contain aliases.
 template <typename Value>
 struct Choice {
     std::string_view name;
     Value value;
 };
 
-/// Returns the value with this name or alias; nothing if the table does not contain the name.
+/// Returns the value with this name or alias; std::nullopt if the table does not contain the name.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)
     -> std::optional<decltype(choices.begin()->value)> {
@@ -26,7 +26,7 @@ constexpr auto valueNamed(const Choices& choices, std::string_view name)
     return {};
 }
 
-/// Returns the name of this value, not an alias; empty if the table does not contain the value.
+/// Returns the name of this value, not an alias; an empty string if the table does not contain the value.
 template <typename Choices, typename Value>
 constexpr std::string_view nameOf(const Choices& choices, const Value& value) {
     for (const auto& choice : choices) {
@@ -43,7 +43,7 @@ std::vector<std::string_view> namesOf(const Choices& choices) {
     return names;
 }
 
-/// An enumeration with a table of choices, which the function choicesOf() beside the table returns.
+/// An enumeration that has a table of choices. A function choicesOf(value) for the enumeration returns the table.
 template <typename Enum>
 concept HasChoices = std::is_enum_v<Enum> && requires(Enum value) { choicesOf(value).begin()->name; };
 

@@ -27,8 +27,7 @@ constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
     return all;
 }
 
-// The JSON text after a number: a comma within a vector; after the last number of a vector, the text up to the next
-// vector.
+// The JSON text that follows a number: "," within a vector, and "],[" after the last number of a vector.
 struct Separator {
     char text[4];
     std::size_t length;
@@ -48,8 +47,8 @@ char* separate(char* at, const Separator& separator) {
 
 constexpr float kExponentFrom = 1e5F;  // from this value on, std::to_chars may write integers with an exponent
 
-// Writes the numbers from index `begin` to `end` − 1, each followed by its separator. `numbers` begins with a vector of
-// `Size` numbers.
+// Writes the numbers from index `begin` to `end` − 1, each followed by its separator. The numbers are the coordinates
+// of vectors of `Size` numbers; numbers[0] is the first coordinate of a vector. Returns the end of the text.
 template <std::size_t Size>
 char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
     static constexpr auto kSeparators = separators<Size>();
@@ -73,39 +72,41 @@ using Float4 = float __attribute__((vector_size(16)));
 using Int32x4 = std::int32_t __attribute__((vector_size(16)));
 
 // A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
-// processes all groups of a block before the next step, which hides the latency of the instructions: the groups do not
-// depend on each other.
+// processes all groups of a block before the next step begins. This hides the latency of the instructions, because the
+// groups do not depend on each other.
 constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
 
-// The text of the numbers of a block.
+// The numbers of a block as text. The first character of a text is in the lowest byte.
 struct Block {
-    alignas(32) std::uint64_t head[kBlock];        // per number: the text up to the second decimal
+    alignas(32) std::uint64_t head[kBlock];        // per number: its text up to the second decimal
     alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
-    // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9.
+    // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
+    // byte.
     alignas(32) std::uint64_t digits[kBlock];
-    // Per group: set if a number of the group does not fit this form (too small, too large, or without a nonzero digit
-    // after the second decimal); putPlain() then writes the group.
+    // Per group: true if a number of the group does not fit this form (too small, too large, or without a nonzero digit
+    // after the second decimal). In this case, putPlain() writes all numbers of the group.
     bool needsFallback[kGroups];
 };
 
 // The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
 // power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple is therefore read back as the same
 // float. At most one multiple of 10^(1 − p) is read back as the same float, too; if there is one, it is shorter and is
-// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reason for the lower bound: the
-// spacing of the floats below a power of two is half of the spacing above it, so a power of two must be written
-// exactly; for e from −10 on, it has at most p decimals. Reason for the upper bound: the form allows at most two digits
-// before the point.
+// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound: the form
+// has room for ten decimals only; and a power of two must be written exactly, because the spacing of the floats below
+// it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the upper bound: the
+// form has room for only two digits before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
-// kExponentMask selects the exponent bits of a float; subtracting kHalfSpacing from them yields 2^(e − 24), half of the
-// float's spacing.
+// kExponentMask selects the exponent bits of a float. These bits minus kHalfSpacing are the float 2^(e − 24), half of
+// the spacing.
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
 constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p
 
-// Tables indexed by 10 − p: kUnits is 10^p, kUnit is 10^−p in units of 10^−10. Floats represent all of them exactly.
+// Tables with the index 10 − p: kUnits contains 10^p, and kUnit contains 10^−p in units of 10^−10. Floats represent all
+// of these numbers exactly.
 constexpr std::array<float, 8> kUnits{1e10, 1e9, 1e8, 1e7, 1e6}, kUnit{1e0, 1e1, 1e2, 1e3, 1e4};
 
-// Adding kRounder to a number from 0 to 2^51 rounds it to an integer, which is then in the low bits of the sum;
-// integerOf() extracts it.
+// Adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds the number to an integer. The low bits of the sum
+// then contain this integer; integerOf() extracts it.
 constexpr double kRounder = 0x1.8p52;
 [[gnu::target("avx2")]] inline Uint64x4 integerOf(Double4 sum) {
     return Uint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
@@ -120,7 +121,7 @@ constexpr double kRounder = 0x1.8p52;
     return widened(Float4(_mm256_castps256_ps128(picked)));
 }
 
-// Operations on 16-bit numbers: plus() adds; highTimes() returns the upper half of the product.
+// Operations on 16-bit elements: plus() adds; highTimes() returns the upper 16 bits of the products.
 [[gnu::target("avx2")]] inline Uint64x4 plus(Uint64x4 a, Uint64x4 b) {
     return Uint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
 }
@@ -260,7 +261,7 @@ char* putLargeInteger(char* at, std::uint32_t number) {
     return at + 4;
 }
 
-char* putVectors(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
-char* putVectors(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
+char* putVectorsAsFloats(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
+char* putVectorsAsFloats(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
 
 }  // namespace oval4d::text

@@ -21,16 +21,16 @@ inline bool isExactInteger(double number) {
 }
 
 /// The number of bytes to reserve in the buffer for each number, including the brackets and commas after it. The buffer
-/// must have room for one number more than will be written, because the following functions may write beyond the end of
-/// the text.
+/// must have room for one number more than will be written, because putVectorsAsFloats() and putInteger() may write
+/// beyond the end of the text.
 inline constexpr std::size_t kBytesPerNumber = 20;
 
 /// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of
-/// the text. Rounds each number to a float and writes the fewest digits from which the same float can be read back, in
-/// rare cases one digit more. Writes integers within ±2^53 with all their digits and without an exponent. All numbers
-/// must be finite.
-char* putVectors(char* at, std::span<const glm::dvec3> list);
-char* putVectors(char* at, std::span<const glm::dvec4> list);
+/// the text. Rounds each number to a float and writes the fewest digits from which the same float can be read back; in
+/// rare cases, writes one digit more. Writes integers within ±2^53 with all their digits and without an exponent. All
+/// numbers must be finite.
+char* putVectorsAsFloats(char* at, std::span<const glm::dvec3> list);
+char* putVectorsAsFloats(char* at, std::span<const glm::dvec4> list);
 
 /// The decimal text of each number below 10,000, as an integer: the first character is in the lowest byte, the next
 /// ones in the bytes above it, and the number of characters is in the highest byte.

@@ -33,8 +33,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t kMaxQuotedBytes = 60;
 
-// Returns the length in bytes of the UTF-8 character at this position, or 0 if there is no valid one. The limits on the
-// second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
+// Returns the length in bytes of the UTF-8 character at this position, or 0 if there is no valid character. The limits
+// on the second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
 std::size_t characterAt(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     const unsigned char lead = byte(0);

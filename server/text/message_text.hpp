@@ -8,13 +8,13 @@
 
 namespace oval4d::text {
 
-/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`. If several candidates have this
-/// distance, returns the first of them that is as long as `text`, or if there is none, the first of them. Returns an
-/// empty string if the distance is more than about half of the candidate's length.
+/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`, of which only the first 60 bytes
+/// count. If several candidates have this distance, returns the first of them that is as long as `text`, or if there is
+/// none, the first of them. Returns an empty string if the distance is more than about half of the candidate's length.
 std::string_view closestMatch(std::string_view text, std::span<const std::string_view> candidates);
 
-/// Returns " (did you mean 'x'?)" with the candidate x that closestMatch() returns, or an empty string if there is
-/// none.
+/// Returns " (did you mean 'x'?)", where x is the result of closestMatch(); an empty string if closestMatch() finds no
+/// candidate.
 std::string didYouMean(std::string_view text, std::span<const std::string_view> candidates);
 
 /// Returns the names separated by commas: "a, b, c".
@@ -29,8 +29,8 @@ bool isUtf8(std::string_view text);
 /// Returns printable(text, 60) in single quotes.
 std::string inQuotes(std::string_view text);
 
-/// Returns `text` with "?" in place of every byte that is a control character or not valid UTF-8. A text of more than
-/// `maxBytes` bytes is cut off there, after a whole character, and "…" is appended.
+/// Returns `text` with "?" in place of every byte that is an ASCII control character or not valid UTF-8. Cuts off the
+/// text after the character with which it reaches `maxBytes` bytes; "…" replaces the rest, if there is any.
 std::string printable(std::string_view text, std::size_t maxBytes);
 
 /// Returns the shortest decimal text from which the same double can be read back. Writes all digits of an integer
@@ -38,11 +38,13 @@ std::string printable(std::string_view text, std::size_t maxBytes);
 std::string shortestDecimal(double value);
 
 /// Returns a number as a person reads it: rounded to six significant digits, without trailing zeros, with the minus
-/// sign U+2212. Writes all digits of an integer within ±2^53, and an exponent only below 1e-5 and from 1e15.
+/// sign U+2212. Writes an integer within ±2^53 with all its digits. Writes other numbers with an exponent if their
+/// absolute value is less than 1e-5 or at least 1e15.
 std::string roundedDecimal(double value);
 
-/// Returns what a message says of a number outside its bounds: "from −2 to 2 circumradii, not 3" for the unit
-/// " circumradii". Rounds the numbers as roundedDecimal() does, unless the number would then equal a bound.
+/// Returns what a message says about a number outside its bounds, such as "from −2 to 2 circumradii, not 3" for the
+/// unit " circumradii". Rounds the three numbers as roundedDecimal() does. But if the rounded number equals a rounded
+/// bound, writes all three as shortestDecimal() does.
 std::string outsideBounds(double least, double most, std::string_view unit, double value);
 
 }  // namespace oval4d::text

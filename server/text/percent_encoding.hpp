@@ -1,5 +1,5 @@
 #pragma once
-// Percent-encoding in the addresses of the web (RFC 3986, section 2.1).
+// Percent-encoding in URLs (RFC 3986, section 2.1).
 
 #include <optional>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace oval4d::text {
 
-/// Decodes percent escapes. Returns nothing if a "%" is not followed by two hexadecimal digits.
+/// Decodes percent escapes. Returns std::nullopt if a "%" is not followed by two hexadecimal digits.
 std::optional<std::string> percentDecoded(std::string_view text);
 
-/// Encodes all bytes but unreserved characters (letters, digits and -._~) and those in `plain`, which must not contain
-/// "%".
+/// Encodes all bytes except unreserved characters (letters, digits and -._~) and the characters in `plain`. `plain`
+/// must not contain "%".
 std::string percentEncoded(std::string_view text, std::string_view plain = {});
 
 }  // namespace oval4d::text

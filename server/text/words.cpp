@@ -51,7 +51,7 @@ std::string normalizedName(std::string_view text) {
     return result;
 }
 
-std::size_t wideSpaceAt(std::string_view text) {
+std::size_t leadingUnicodeSpace(std::string_view text) {
     using namespace std::string_view_literals;
     constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv});
     for (const std::string_view space : kSpaces) {
@@ -68,7 +68,7 @@ std::string withPlainBlanks(std::string_view text) {
     std::string plain;
     plain.reserve(text.size());
     while (!text.empty()) {
-        const std::size_t space = wideSpaceAt(text);
+        const std::size_t space = leadingUnicodeSpace(text);
         plain += space > 0 ? ' ' : text[0];
         text.remove_prefix(std::max<std::size_t>(space, 1));
     }

@@ -8,7 +8,8 @@
 
 namespace oval4d::text {
 
-/// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c". The parts refer to the memory of `text`.
+/// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c"; no empty part after a comma at the end.
+/// The parts refer to the memory of `text`.
 std::vector<std::string_view> splitAtCommas(std::string_view text);
 
 /// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
@@ -21,9 +22,9 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 /// their normalized names are equal.
 std::string normalizedName(std::string_view text);
 
-/// Returns the number of bytes of the space at the beginning of a UTF-8 text, if it is one that is not ASCII, such as
-/// the no-break space U+00A0; otherwise 0.
-std::size_t wideSpaceAt(std::string_view text);
+/// If a UTF-8 text begins with a space character that is not ASCII, such as the no-break space U+00A0, returns the
+/// number of bytes of this character; otherwise 0.
+std::size_t leadingUnicodeSpace(std::string_view text);
 
 /// Returns the text with a space in place of each kind of space that is not ASCII, such as the no-break space that
 /// texts have between a number and its unit.

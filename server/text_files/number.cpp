@@ -13,7 +13,7 @@ namespace oval4d::text_files {
 
 namespace {
 
-constexpr const char* kNoNumber = "is not a number";
+constexpr const char* kNotANumber = "is not a number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
 // Returns the word without its sign. Sets `negative`.
@@ -54,7 +54,7 @@ std::string faultOf(std::string_view word) {
     if (!word.ends_with(',') && word.find(',') != std::string_view::npos &&
         reader.read(word, DecimalMark::comma).fault.empty())
         return "has a decimal comma; write a decimal point";
-    return kNoNumber;
+    return kNotANumber;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
     const auto failed = [](std::string fault) { return ParsedCoordinate{0, {}, std::move(fault)}; };
     bool negative = false;
     const std::string_view digits = withoutSign(word, negative);
-    if (bool second = false; withoutSign(digits, second) != digits) return failed(kNoNumber);
+    if (bool second = false; withoutSign(digits, second) != digits) return failed(kNotANumber);
     if (isNotFinite(digits)) return failed("is not a finite number");
     const bool hasComma = digits.find(',') != std::string_view::npos;
     if (hasComma && digits.find('.') != std::string_view::npos)
@@ -88,7 +88,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
     if (stop != end || error == std::errc::invalid_argument)
-        return failed(hasComma && mark == DecimalMark::point ? faultOf(word) : kNoNumber);
+        return failed(hasComma && mark == DecimalMark::point ? faultOf(word) : kNotANumber);
     const bool tooSmall = error == std::errc::result_out_of_range && isBelowOne(text_);
     if (tooSmall) result.value = 0;
     if ((error != std::errc{} && !tooSmall) || std::abs(result.value) > kMaxCoordinate)
@@ -99,7 +99,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
 
 bool isNumber(std::string_view word, DecimalMark mark) {
     CoordinateReader reader;
-    return reader.read(word, mark).fault != kNoNumber;
+    return reader.read(word, mark).fault != kNotANumber;
 }
 
 bool beginsLikeANumber(std::string_view word) {

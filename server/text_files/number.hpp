@@ -9,7 +9,7 @@ namespace oval4d::text_files {
 /// The largest absolute value of a coordinate that is accepted.
 inline constexpr double kMaxCoordinate = 1e14;
 
-/// How the numbers of a file are written.
+/// The character before the decimals of a number.
 enum class DecimalMark : char { point = '.', comma = ',' };
 
 /// A coordinate that was read from a text.
@@ -21,14 +21,13 @@ struct ParsedCoordinate {
     std::string fault;  ///< why the word is not a coordinate, such as "is not a number"; empty if it is one
 };
 
-/// Reads coordinates. Refuses values beyond ±kMaxCoordinate; isNumber() accepts more. An object holds the text of the
-/// coordinate that it read last.
+/// Reads coordinates, which are numbers within ±kMaxCoordinate. An object holds the text of the coordinate that it read
+/// last, to which ParsedCoordinate::text refers.
 class CoordinateReader {
   public:
-    /// Reads a word as a coordinate: a number within ±kMaxCoordinate. Accepts a true minus sign (U+2212), the exponents
-    /// D of Fortran, and numbers that are too small for a double, which become 0. A decimal comma is accepted if `mark`
-    /// says so; a decimal point always is, but not beside a comma. The result's `text` remains valid until the next
-    /// call.
+    /// Reads a word as a coordinate. Accepts a true minus sign (U+2212), the exponent letter D of Fortran, and numbers
+    /// that are too small for a double, which become 0. A decimal point is always accepted, a decimal comma only if
+    /// `mark` says so, but never both in one number. The result's `text` remains valid until the next call.
     ParsedCoordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
 
   private:

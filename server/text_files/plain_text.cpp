@@ -43,7 +43,7 @@ constexpr auto kKinds = std::to_array<Kind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text that hold no numbers in rows, known by their beginning in small letters.
+/// Kinds of text that hold no numbers in rows, known by their beginning, here in lowercase letters.
 constexpr auto kTextKinds = std::to_array<Kind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
@@ -69,7 +69,7 @@ std::size_t spaceAt(std::string_view text) {
     for (const std::string_view space : {"\v"sv, "\f"sv, "\xEF\xBB\xBF"sv, "\xE2\x80\x8B"sv}) {
         if (text.starts_with(space)) return space.size();
     }
-    return text::wideSpaceAt(text);
+    return text::leadingUnicodeSpace(text);
 }
 
 // Replaces the line ends CR LF and CR by LF, and each space by U+0020.

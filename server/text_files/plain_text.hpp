@@ -5,11 +5,11 @@
 
 namespace oval4d::text_files {
 
-/// Returns the text of a file, in UTF-8 without a byte order mark. Converts UTF-16, which is known by its byte order
-/// mark or by the zero byte of an ASCII character at its beginning. Replaces all line ends by "\n"; vertical tabs, form
-/// feeds and each kind of space of Unicode by U+0020. Keeps bytes that are not UTF-8, because they usually stand in
-/// comments. Throws a FileError that says what the file is if it is empty, compressed, a picture, a page or otherwise
-/// not text with numbers.
+/// Returns the text of a file, in UTF-8 without a byte order mark. Converts UTF-16, which is recognized by its byte
+/// order mark or by the zero byte of an ASCII character at its beginning. Replaces all line ends by "\n", and vertical
+/// tabs, form feeds and each kind of space of Unicode by U+0020. Keeps bytes that are not UTF-8, because they usually
+/// stand in comments. Throws a FileError if the file is empty, compressed, a picture, a web page or otherwise not text
+/// with numbers; its reason says what the file is.
 std::string plainText(std::string_view bytes);
 
 }  // namespace oval4d::text_files

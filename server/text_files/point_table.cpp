@@ -39,8 +39,8 @@ std::string_view withoutUnit(std::string_view name) {
     return before.empty() ? name : before;
 }
 
-// Joins the names and their units, where blanks separate them, as in "t [s]".
-void joinUnits(std::vector<std::string_view>& names) {
+// Removes the words that are units, where blanks separate them from the names, as in "t [s]".
+void removeUnits(std::vector<std::string_view>& names) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
         constexpr std::string_view kOpening = "[({", kClosing = "])}";
@@ -54,7 +54,7 @@ void joinUnits(std::vector<std::string_view>& names) {
     names.resize(kept);
 }
 
-// Reads the names of columns. Returns nothing if they are not those of at least two coordinates.
+// Reads the names of columns. Returns an empty optional if they name fewer than two coordinates.
 std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
     Layout layout;
     layout.count = names.size();
@@ -82,13 +82,13 @@ std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
     return coordinates >= 2 ? std::optional(std::move(layout)) : std::nullopt;
 }
 
-// Reads the names of columns in a line, which may be separated otherwise than the rows. Returns nothing if `accepts`
-// refuses each way to separate them. Changes `row`.
+// Reads the names of columns in a line. Their separator may differ from that of the rows. Returns the first layout that
+// `accepts` accepts; an empty optional if there is none. Changes `row`.
 std::optional<Layout> namesIn(std::string_view line, const TableFormat& format, TableRow& row,
                               const std::function<bool(const Layout&)>& accepts) {
     for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
         split(line, separator, row);
-        if (separator == ' ') joinUnits(row.columns);
+        if (separator == ' ') removeUnits(row.columns);
         if (auto layout = layoutOf(row.columns); layout && accepts(*layout)) return layout;
     }
     return {};
@@ -132,8 +132,8 @@ class PointReader {
     }
 
   private:
-    // Reads the header from the first line that is not blank, or the comments above it. Returns whether the line is not
-    // a row.
+    // Reads the header from the first line that is not blank, or from the comments above it. Returns whether the line
+    // is not a row.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -156,12 +156,12 @@ class PointReader {
                 throwFileError(line.number, std::string("the header names no column ") + kCoordinates[i] +
                                                 "; it must name x, y, z and w");
         }
-        use(std::move(*layout));
+        setLayout(std::move(*layout));
         return true;
     }
 
-    // Takes the last comment above the first row that names each of the row's columns for the header. `row_` is this
-    // row.
+    // Uses the last comment above the first row as a header if it has a name for each column of this row; otherwise,
+    // the comment before it, and so on. `row_` must be the first row.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const Layout& layout) {
@@ -172,7 +172,7 @@ class PointReader {
         };
         for (std::size_t i = comments.size(); i-- > 0;) {
             if (auto layout = namesIn(namesOfComment(comments[i].comment), format_, row_, fits))
-                return use(std::move(*layout));
+                return setLayout(std::move(*layout));
         }
         for (const TableLine& line : comments) {
             const auto layout = namesIn(namesOfComment(line.comment), format_, row_, &Layout::hasAllCoordinates);
@@ -183,8 +183,8 @@ class PointReader {
         }
     }
 
-    // Takes a layout for that of the rows.
-    void use(Layout layout) {
+    // Uses this layout for the rows, and warns of the columns that are left out.
+    void setLayout(Layout layout) {
         layout_ = std::move(layout);
         if (!options_.radii && std::exchange(layout_.columns[kRadius], std::nullopt)) {
             if (!layout_.otherColumns.empty()) layout_.otherColumns += ", ";
@@ -198,7 +198,7 @@ class PointReader {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
 
-    // Refuses the row if it has too few or too many columns, or if one that is read is empty.
+    // Refuses the row if it has too few or too many columns, or if a column that is read is empty.
     void checkColumns(std::size_t line) {
         auto& columns = row_.columns;
         const std::size_t needed = layout_.count > 0 ? layout_.count : std::max(firstSize_, kRadius);
@@ -228,7 +228,7 @@ class PointReader {
     void splitRow(const TableLine& line) {
         std::string_view content = line.content;
         const std::size_t last = content.find_last_not_of(" \t");
-        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);  // a list of MATLAB
+        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);  // a matrix of MATLAB
         split(content, format_.separator, row_);
     }
 

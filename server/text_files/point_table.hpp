@@ -26,20 +26,22 @@ struct PointTableOptions {
     bool radii = false;  ///< the points may have radii
 };
 
-/// Reads a table of points in plainText(), calls `add` for each row, and returns warnings: what is left out or taken
-/// for a radius. Throws a FileError with line and column if a row is refused, or if there are too many.
+/// Reads a table of points from a text that plainText() has returned, calls `add` for each row, and returns warnings:
+/// what was left out or read as a radius. Throws a FileError with line and column if a row is refused, or if there are
+/// too many rows.
 ///
-/// - The columns are separated by semicolons, else tabs, else commas, else blanks. Where semicolons, tabs or blanks
-///   separate them, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator at
-///   the end of a row is ignored. Comments begin with # and extend to the end of the line.
+/// - The columns are separated by semicolons, else by commas (unless these may be decimal commas), else by tabs, else
+///   by blanks. Where semicolons, tabs or blanks separate them, numbers may have decimal commas. Words in double quotes
+///   are read without the quotes. A separator at the end of a row is ignored. Comments begin with # and extend to the
+///   end of the line.
 /// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns,
 ///   which may be text, need a header: a first row in which no word is a number, or a comment above the first row that
-///   has a name for each column. It names the columns x, y, z, w (or t, or time, if none is called w), and r or radius;
-///   others are left out. Units in brackets may follow the names. A first row without numbers that names none of the
-///   coordinates is a title, and left out.
+///   has a name for each column. The header names the columns x, y, z, w (or t, or time, if none is called w), and r or
+///   radius; other columns are left out. Units in brackets may follow the names. A first row without numbers that names
+///   fewer than two of the coordinates is a title, and left out.
 /// - Each row must have as many columns as the header, or, without a header, as the first row; where blanks separate
-///   the columns, some rows may have a radius in the last column and others none. No column of a row that is read may
-///   be empty. There must be a row.
+///   the columns, some rows may have a radius in the last column and others none. A column that is read must not be
+///   empty in any row. There must be a row.
 std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
                                     const std::function<void(const PointRow&)>& add);
 

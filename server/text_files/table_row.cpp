@@ -28,15 +28,16 @@ bool hasSeparatorInside(std::string_view line, char separator) {
     return last != std::string_view::npos && line.find(separator) < last;
 }
 
-// Returns whether tabs separate at least as many numbers as a point has. Otherwise, tabs and blanks are mixed.
+// Returns whether tabs separate at least as many columns, not counting empty ones, as a point has coordinates.
+// Otherwise, tabs may stand among blanks.
 bool hasColumnsBetweenTabs(std::string_view line, TableRow& row) {
     split(line, '\t', row);
     const auto filled = [](std::string_view column) { return !column.empty(); };
     return static_cast<std::size_t>(std::ranges::count_if(row.columns, filled)) >= kMinColumns;
 }
 
-// Returns nothing if commas may separate the columns of a line. Otherwise blanks do: no word has a comma at an end or
-// two of them, and the result is whether one is a decimal comma.
+// Returns an empty optional if commas may separate the columns of a line. Otherwise, blanks or tabs separate them,
+// because no word has a comma at an end, or two of them; then returns whether a word has a decimal comma.
 std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -68,8 +69,8 @@ bool isRow(std::string_view line, std::size_t least) {
     return numbers >= least && numbers >= others;
 }
 
-// Returns the line with a letter in place of each text in quotes that is not a number, because it may contain
-// separators. Uses `memory` for it.
+// Returns the line with a letter in place of each text in quotes that is not a number, because such a text may contain
+// separators. The result may refer to `memory`.
 std::string_view withoutTexts(std::string_view line, std::string& memory) {
     std::size_t open = line.find('"');
     if (open == std::string_view::npos) return line;
@@ -91,7 +92,7 @@ std::string_view withoutTexts(std::string_view line, std::string& memory) {
     return memory;
 }
 
-// Returns the format that fits all rows that have at least `least` numbers; nothing if there are none.
+// Returns the format that fits all rows, as isRow() finds them; an empty optional if there are no rows.
 std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
     bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
     TableRow row;
@@ -124,8 +125,8 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    // Rows may begin with a text. Lines with fewer numbers than a point may be titles, so they count only if there are
-    // no others.
+    // A row may begin with a text. A line with fewer numbers than a point has may be a title, so such lines count only
+    // if no line has enough numbers.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }

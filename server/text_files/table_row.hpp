@@ -23,7 +23,7 @@ class TableLines {
     /// The text must outlive the lines.
     explicit TableLines(std::string_view text) : rest_(text) {}
 
-    /// Returns the next line, or nothing at the end of the text.
+    /// Returns the next line; an empty optional at the end of the text.
     std::optional<TableLine> next();
 
   private:
@@ -37,13 +37,13 @@ struct TableFormat {
     DecimalMark mark = DecimalMark::point;
 };
 
-/// Returns the format that fits all lines of a table.
+/// Returns the format of a table: the separator and the decimal mark that fit its rows.
 TableFormat formatOf(TableLines lines);
 
 /// The columns of a line.
 struct TableRow {
     std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
-    bool endsWithSeparator = false;         ///< other than blanks; separators at the end begin no further columns
+    bool endsWithSeparator = false;         ///< with a separator other than blanks; it begins no further column
 };
 
 /// Sets `row` to the columns of a line.

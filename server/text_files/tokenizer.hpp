@@ -1,5 +1,5 @@
 #pragma once
-// Splits text files of records into words, and reads whole numbers and coordinates.
+// Splits text files into words, and parses whole numbers and coordinates.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace oval4d::text_files {
 
-/// Splits plainText() into words separated by white space. Skips comments, which extend from # to the end of the line.
-/// The text must outlive the tokenizer and the words.
+/// Splits a text that plainText() has returned into words separated by white space. Skips comments, which extend from #
+/// to the end of the line. The text must outlive the tokenizer and the words.
 class Tokenizer {
   public:
     explicit Tokenizer(std::string_view text) : text_(text) {}
@@ -28,7 +28,7 @@ class Tokenizer {
     /// Skips the rest of the current line. nextOnLine() then returns an empty word; next() reads the next line.
     void skipLine();
 
-    /// Makes the end of a word that was read last the next word: the last `count` characters of it.
+    /// Puts the last `count` bytes of the word that was read last back into the text, so that they are the next word.
     void putBack(std::size_t count) { at_ -= count; }
 
   private:

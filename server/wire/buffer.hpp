@@ -10,7 +10,7 @@
 namespace oval4d::wire {
 
 /// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
-/// were written. A string that is used again keeps its memory, so it need not be allocated and filled with zeros.
+/// were written. A string that is used again keeps its memory, so that it is not allocated and filled with zeros again.
 class Buffer {
   public:
     explicit Buffer(std::string& out);

@@ -19,9 +19,9 @@ class JsonWriter;
 /// Writes fog. Reuses its memory.
 class FogWriter {
   public:
-    /// Writes the member `fog` of slice i; nothing if the slice has no fog.
+    /// Writes the member `fog` of slice i, or nothing if the slice has no fog.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
-    /// Writes the member `fog` of all slices; nothing if there is no fog.
+    /// Writes the member `fog` with the fog of all slices, or nothing if there is no fog.
     void write(CborWriter& w, const scene::Scene& scene);
 
   private:
@@ -29,13 +29,13 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice; three sizes each
+    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice: the number of walls, and three sizes
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;
     std::vector<std::uint8_t> values_;
 };
 
-/// Writes the member `fog` of the scene: the transfer function of all fog; nothing if there is no fog.
+/// Writes the member `fog` of the scene, which holds the transfer function. Writes nothing if there is no fog.
 template <typename W>
 void writeFogTable(W& w, const scene::FogTable& table) {
     if (table.empty()) return;

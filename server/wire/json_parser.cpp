@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-// No valid message contains nearly as many values. Limits the memory that the validator needs if every value has an
-// error.
+// The maximum number of values in a message. No valid message contains nearly as many. The limit also bounds the memory
+// that the validator needs if every value has an error.
 constexpr std::size_t kMaxValues = 10'000;
 
 // Builds a value from the events of nlohmann-json's parser. Stops if the text nests too deeply or has too many values.
@@ -158,7 +158,7 @@ unsigned escapedUnit(std::string_view text) {
 }
 
 // Returns the text with the replacement character in place of each escape of a lone surrogate, which is no character
-// (RFC 8259, section 8.2). Sets `first` to the position of the first one, or to npos.
+// (RFC 8259, section 8.2). Sets `first` to the position of the first such escape, or to npos.
 std::string withoutLoneSurrogates(std::string_view text, std::size_t& first) {
     constexpr std::size_t kLength = 6;
     const auto isBetween = [](unsigned unit, unsigned least, unsigned most) { return unit >= least && unit <= most; };
@@ -217,7 +217,7 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
     result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
-    // The rest is read all the same, so that the answer has the message's id.
+    // Nevertheless reads the rest, so that the answer can have the message's id.
     const std::string repaired = withNulls(characters);
     Builder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);

@@ -13,7 +13,8 @@ struct ParsedJson {
     nlohmann::json value;   ///< valid if `fault` is empty or `repaired` is true
     std::string fault;      ///< the error message; empty if there is no error
     bool notJson = false;   ///< whether the text is not JSON
-    bool repaired = false;  ///< whether the only errors are numbers like NaN and 1e999, which became null in `value`
+    bool repaired = false;  ///< whether the only errors are numbers like NaN and 1e999, which became null in `value`,
+                            ///< and lone surrogates in strings, which became U+FFFD
 };
 
 /// Parses JSON text. Allows at most `maxDepth` levels of nesting and at most 10,000 values. A number with an integral

@@ -12,7 +12,7 @@ namespace oval4d::wire {
 
 namespace {
 
-constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number
+constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number in bytes
 
 // Returns the number of bytes to reserve for an array of this many coordinates or indices.
 std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
@@ -105,7 +105,7 @@ void JsonWriter::value(std::string_view text) {
 void JsonWriter::vector(const glm::dvec3& v) {
     separate();
     buffer_.reserve(reserveFor(3));
-    buffer_.moveTo(text::putVectors(buffer_.at(), std::span(&v, 1)));
+    buffer_.moveTo(text::putVectorsAsFloats(buffer_.at(), std::span(&v, 1)));
 }
 
 // Writes an array. `put(at)` writes the content, which consists of `numbers` numbers, and returns its end.
@@ -135,18 +135,18 @@ void JsonWriter::vectors(std::span<const glm::vec3> list) {
             const auto batch = list.subspan(begin, std::min(kBatch, list.size() - begin));
             std::ranges::transform(batch, doubles.begin(), [](const glm::vec3& v) { return glm::dvec3(v); });
             if (begin > 0) *at++ = ',';
-            at = text::putVectors(at, std::span(std::as_const(doubles)).first(batch.size()));
+            at = text::putVectorsAsFloats(at, std::span(std::as_const(doubles)).first(batch.size()));
         }
         return at;
     });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec3> list) {
-    array(3 * list.size(), [list](char* at) { return text::putVectors(at, list); });
+    array(3 * list.size(), [list](char* at) { return text::putVectorsAsFloats(at, list); });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec4> list) {
-    array(4 * list.size(), [list](char* at) { return text::putVectors(at, list); });
+    array(4 * list.size(), [list](char* at) { return text::putVectorsAsFloats(at, list); });
 }
 
 template <std::size_t Size>

@@ -17,14 +17,14 @@
 namespace oval4d::wire {
 
 /// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
-/// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, if there is a
-/// panel.
+/// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, in the coordinates
+/// of the rotated object, if there is a panel.
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id);
 
 /// Returns the `critical` message: the critical values of w of the object, in the coordinates of its file. `originW` is
-/// the w of its geometry::ObjectInfo::originInFile.
+/// the w of the object's geometry::ObjectInfo::originInFile.
 std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id);
 
@@ -32,7 +32,7 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
 struct WorkerLoad {
     std::size_t workers = 0;  ///< the number of these threads
     std::size_t waiting = 0;  ///< the number of pictures that wait for one of them
-    double busy = 0;          ///< the running time of all pictures that have ended, in seconds
+    double busy = 0;          ///< the total time spent on all pictures that have ended, in seconds
     double time = 0;          ///< the time of a steady clock, in seconds
 };
 /// Returns the `pong` message.
@@ -44,7 +44,7 @@ std::string errorMessage(const Error& error, std::optional<double> id);
 std::string doneMessage(std::optional<double> id, std::uint64_t revision,
                         const std::vector<std::string>& warnings = {});
 /// Returns the `catalogue` message: the entries of the catalogue and the example fields, followed by the session's
-/// loaded objects and by the arrays in the data folder, whose names are `data`.
+/// loaded objects and by the arrays in the data folder. `data` are the names of these arrays.
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
                              std::span<const std::string> data = {});
 /// Returns the `address` message. `query` is the text of a query; see session::queryText().

@@ -57,7 +57,8 @@ std::optional<scene::Viewport> viewportOf(const json& message) {
     return viewport;
 }
 
-// Throws std::logic_error for a name that the schema allows but the table lacks, which is a bug.
+// Returns the value with this name in a table of choices. Throws std::logic_error for a name that the schema allows but
+// the table lacks, which is a bug.
 template <typename Choices>
 auto choiceOf(const json& name, const Choices& choices) {
     const auto value = text::valueNamed(choices, name.get_ref<const std::string&>());
@@ -113,7 +114,8 @@ fields::Box boxOf(const json& ranges) {
     return box;
 }
 
-/// Returns the formula of the field with this name, from the member `field` of a state; nothing if it is an array.
+/// Returns the command that loads the formula field `name`, from the member `field` of a state; an empty optional if
+/// the field is an array.
 std::optional<session::LoadObject> formulaOf(const json& field, const std::string& name) {
     if (!field.contains("formula")) return {};
     session::LoadObject load{name, std::string(session::kFormula), field["formula"]};
@@ -122,7 +124,7 @@ std::optional<session::LoadObject> formulaOf(const json& field, const std::strin
     return load;
 }
 
-/// Returns the value of a setting in a `set`; null if it has none.
+/// Returns the value of a setting in a `set` message, or nullptr if the message does not contain the setting.
 const json* memberOf(const json& message, const session::SettingName& name) {
     const json* object = &message;
     if (!name.object.empty()) {
@@ -207,7 +209,7 @@ session::LoadObject loadOf(const json& message) {
     return load;
 }
 
-/// Returns numbers from a list of them, or from a text with expressions.
+/// Returns numbers from a JSON array of numbers, or from a text with expressions separated by commas.
 std::vector<double> numbersOf(const json& value, const std::string& where) {
     if (value.is_array()) return value.get<std::vector<double>>();
     auto list = session::evaluateList(value.get_ref<const std::string&>());

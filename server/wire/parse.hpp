@@ -40,9 +40,9 @@ RequestPeek peekRequest(std::string_view beginning);
 /// this state. Errors: `bad_json`, `bad_message`, `out_of_range`.
 Result<session::Set> setFromState(std::string_view text);
 
-/// Parses the `state` message in a picture that oval4d has made, or one that is the whole file. Errors: `bad_message`
-/// if the file is a PNG file without a state; `too_large` if the message has more than `maxMessage` bytes; those of
-/// setFromState().
+/// Parses the `state` message in a file: either a picture that oval4d has made, or a JSON file that is this message.
+/// Errors: `bad_message` if the file is a PNG file without a state; `too_large` if the message has more than
+/// `maxMessage` bytes; those of setFromState().
 Result<session::Set> setFromFile(std::string_view file,
                                  std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
 

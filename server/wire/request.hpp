@@ -35,7 +35,7 @@ struct Hello {
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
     scene::Viewport viewport;
-    scene::Scheme scheme = scene::Scheme::dark;  ///< that of pictures with scene::Background::automatic
+    scene::Scheme scheme = scene::Scheme::dark;  ///< for pictures with scene::Background::automatic
     std::optional<std::string> token;            ///< the token of the session that the connection joins
 };
 /// The data that a `get` message requests.
@@ -55,7 +55,7 @@ struct Get {
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
         viewport;  ///< for slices, frames and at; if absent, the connection's viewport is used
-    std::optional<scene::Background> background;  ///< for slices and frames; if absent, that of the session is used
+    std::optional<scene::Background> background;  ///< for slices and frames; if absent, the session's one is used
     glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };

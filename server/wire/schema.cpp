@@ -33,8 +33,8 @@ struct MessageSchema {
     valijson::Schema compiled;
 };
 
-// Adds keywords to a schema. Those that both have replace its own, except that properties, items and what is required
-// are combined.
+// Adds the keywords of `more` to `schema`. If both have a keyword, the value in `more` replaces the one in `schema`,
+// except that `properties`, `items` and `required` are combined.
 void addKeywords(const json& more, json& schema) {
     for (const auto& [keyword, value] : more.items()) {
         const auto own = schema.find(keyword);
@@ -74,8 +74,9 @@ class SchemaReader {
     }
 
   private:
-    // Replaces references to other files by what they refer to. valijson resolves those within a file ("#/…"), but does
-    // not know the keyword unevaluatedProperties, which afterward means the same as additionalProperties.
+    // Replaces references to other files by the schemas to which they refer. (valijson resolves references within a
+    // file, "#/…".) Also replaces the keyword unevaluatedProperties, which valijson does not know, by
+    // additionalProperties: without the reference, both mean the same.
     void resolveReferences(json& schema) {
         if (!schema.is_structured()) return;
         for (json& part : schema) resolveReferences(part);

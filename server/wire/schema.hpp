@@ -17,11 +17,11 @@ namespace oval4d::wire {
 /// `bad_message` for all other faults.
 std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
 
-/// Returns a schema, or a part of one, in which references to other files are replaced by what they refer to. Keywords
-/// beside a reference are added; those that both have take precedence, except that `properties`, `items` and `required`
-/// are combined. `reference`: the name of a file in protocol/schema/, which may be followed by '#' and a JSON pointer
-/// (RFC 6901), as in "settings.schema.json#/properties/view". Throws nlohmann::json::exception if there is
-/// no such file or part.
+/// Returns a schema, or a part of one, in which each reference to another file is replaced by the schema to which it
+/// refers. The keywords beside the reference are added to this schema. If both have a keyword, the value beside the
+/// reference is used, except that `properties`, `items` and `required` are combined. `reference`: the name of a file in
+/// protocol/schema/, which may be followed by '#' and a JSON pointer (RFC 6901), as in
+/// "settings.schema.json#/properties/view". Throws nlohmann::json::exception if there is no such file or part.
 nlohmann::json readSchema(const std::string& reference);
 
 }  // namespace oval4d::wire

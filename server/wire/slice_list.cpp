@@ -45,7 +45,7 @@ void writeSources(W& w, const Sources& of) {
     w.endObject();
 }
 
-// Writes the cells that determine the colors of the faces, unless each face's source is this cell.
+// Writes the cells that determine the colors of the faces, unless these cells are equal to the sources of the faces.
 template <typename W>
 void writeTints(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                 std::size_t to) {

@@ -15,7 +15,7 @@ namespace {
 
 using scene::Scene;
 
-// Writes an array of pairs of numbers, in the same way in all encodings.
+// Writes an array of pairs of numbers, in JSON and CBOR alike as nested ordinary arrays.
 template <typename W, typename Pairs>
 void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.key(name);
@@ -28,7 +28,7 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.endArray();
 }
 
-// Writes an array of numbers, in the same way in all encodings.
+// Writes an array of numbers, in JSON and CBOR alike as an ordinary array.
 template <typename W, typename Numbers = std::initializer_list<double>>
 void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);

@@ -116,7 +116,7 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
 }
 
 void writeSettings(JsonWriter& w, const session::State& state) {
-    std::string_view object;  // the one that has been begun
+    std::string_view object;  // the name of the JSON object that has been begun; empty for none
     const auto continueIn = [&](std::string_view next) {
         if (next == object) return;
         if (!object.empty()) w.endObject();

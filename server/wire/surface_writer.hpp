@@ -19,11 +19,11 @@ class JsonWriter;
 /// Writes surfaces. Reuses its memory.
 class SurfaceWriter {
   public:
-    /// Writes the member `surface` of slice i; nothing if the slice has no surface.
+    /// Writes the member `surface` of slice i, or nothing if the slice has no surface.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
-    /// Writes the member `surface` of all slices; nothing if the object has no surfaces.
+    /// Writes the member `surface` with the surfaces of all slices, or nothing if the object has no surfaces.
     void write(CborWriter& w, const scene::Scene& scene);
-    /// Writes the member `surfaces` of the scene: how each level is drawn; nothing if the object has no surfaces.
+    /// Writes the member `surfaces` of the scene, which says how each level is drawn, or nothing if it has no levels.
     template <typename W>
     static void writeLook(W& w, const scene::SurfaceLook& look) {
         if (look.empty()) return;

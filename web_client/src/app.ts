@@ -87,7 +87,7 @@ export class App {
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
             this.fieldPanel.updatePicture(slices);
-            // The state of a picture arrives before it.
+            // The state of a picture arrives before the picture.
             if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
@@ -96,7 +96,7 @@ export class App {
     });
     private readonly session = new PageSession(this.client, this.initialView, {
         joined: () => (this.state = undefined),
-        loadField: async (field) => this.fieldPanel.adopt(field, await this.loadField(field, {})),
+        loadField: async (field) => this.fieldPanel.adoptLoaded(field, await this.loadField(field, {})),
         reloadFile: (name) => this.fileLoading.reload(name),
         viewShown: (revision) => this.welcomeLine.viewShown(revision),
         tell: (messages) => this.notice.showAll(messages),
@@ -374,8 +374,8 @@ export class App {
     }
 
     /**
-     * Executes a line of the command line, which closes before a dialog opens, so that the dialog returns the focus to
-     * the drawing.
+     * Executes a line of the command line. The command line closes before a dialog opens, so that the dialog returns
+     * the focus to the drawing.
      */
     private async execute(line: string): Promise<unknown> {
         if (this.latency.execute(line)) return undefined;
@@ -395,11 +395,11 @@ export class App {
         const { revision } = await this.request({ type: "command", line });
         const field = fieldOfLine(line);
         if (!field) return undefined;
-        this.fieldPanel.adopt(field, revision);
+        this.fieldPanel.adoptLoaded(field, revision);
         return undefined;
     }
 
-    /** Loads a formula, then changes settings; returns the revision. */
+    /** Loads a formula, then changes settings; resolves to the revision. */
     private async loadField(field: FormulaField, settings: Settings, continues = false): Promise<number> {
         // Both are sent at once, so that no picture shows the formula without the settings.
         const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
@@ -434,7 +434,7 @@ export class App {
         this.tour.stop();
     }
 
-    /** Opens the export dialog; with an element, to export only this. */
+    /** Opens the export dialog. If an element is given, only this is exported. */
     private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
         if (!this.state) return;

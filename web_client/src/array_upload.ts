@@ -1,10 +1,10 @@
-// Uploads arrays, the binary files of 4-D fields, which the server reads by itself.
+// Uploads arrays: binary files with the values of 4-D fields. The page does not read them; the server does.
 
 import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 
 import { FileError, utf16Of } from "./files";
 
-const kHeader = 512; // bytes: within them, every array has a character that texts do not contain
+const kHeader = 512; // bytes at the start of a file; those of an array contain a character that texts do not contain
 
 /** Whether a file is binary. The server tells from its first bytes which format of arrays it has, if any. */
 export async function isBinary(file: File): Promise<boolean> {
@@ -14,8 +14,8 @@ export async function isBinary(file: File): Promise<boolean> {
 }
 
 /**
- * Loads an array into the session under a name. `sent` is called with the part that is sent, from 0 to 1. Throws
- * FileError with the server's reason, or if the connection is lost.
+ * Loads an array into the session under a name. `sent` is called with the fraction that has been sent, from 0 to 1.
+ * Rejects with FileError and the server's reason, or if the connection is lost.
  */
 export function uploadArray(
     file: File,

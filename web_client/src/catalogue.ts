@@ -11,7 +11,7 @@ export interface Family {
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
 const kMostCompared = 64; // letters that are compared to find similar names
-const kLettersPerMistake = 3; // as in the server's suggestions
+const kLettersPerMistake = 3; // so many letters allow for one mistake, as in the server's suggestions
 
 interface Indexed {
     entry: CatalogueEntry;
@@ -39,13 +39,13 @@ export class Catalogue {
     /** The entries that contain every word of `query`, by family; the best matches come first. */
     find(query: string): Family[] {
         const words = query.split(/\s+/).map(normalize);
-        const found = this.indexed.filter(({ searchText }) => words.every((word) => contains(searchText, word)));
+        const found = this.indexed.filter(({ searchText }) => words.every((word) => hasSearchWord(searchText, word)));
         return this.byFamily(found, normalize(query));
     }
 
     /**
-     * The entries with the least number of spelling mistakes in `query`, by family; none if there is more than one in
-     * three letters. Numbers must be the same.
+     * The entries whose names differ from `query` by the fewest spelling mistakes, by family; none if all have more
+     * than one mistake in three letters. Numbers must be the same.
      */
     findSimilar(query: string): Family[] {
         return this.byFamily(this.similar(normalize(query)), normalize(query));
@@ -86,7 +86,7 @@ export class Catalogue {
 }
 
 /** Whether `word` occurs in `text`; a number must not begin inside another number: "20" does not occur in "120". */
-function contains(text: string, word: string): boolean {
+function hasSearchWord(text: string, word: string): boolean {
     for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
         if (!/^\d/.test(word) || !/\d/.test(text[at - 1] ?? "")) return true;
     }
@@ -97,7 +97,7 @@ function numbersIn(text: string): string {
     return (text.match(/\d+/g) ?? []).join(" ");
 }
 
-/** The edit distance (Levenshtein) of two texts; more than `most` if it is more than that. */
+/** The edit distance (Levenshtein) of two texts; any number above `most` if the distance is above `most`. */
 function editDistance(a: string, b: string, most: number): number {
     if (Math.abs(a.length - b.length) > most) return most + 1;
     const row = Array.from({ length: b.length + 1 }, (_, j) => j);

@@ -9,15 +9,15 @@ import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { Pointing } from "./pointing";
 
-const kLeastDisc = 12; // pixels: the radius within which a click hits a slice, however small it is
+const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, even if it is smaller
 
 interface Actions {
     state: () => State | undefined;
     /** Resolves to the hit tester of the picture; undefined if it is not known. */
     hitTester: () => Promise<HitTester | undefined>;
-    /** The user has clicked. */
+    /** Called when the user has clicked. */
     began: () => void;
-    /** Moves the focus point to a point in a panel of the matrix; returns whether there is one. */
+    /** Moves the focus point to this point of the drawing; returns false if no panel of the matrix is there. */
     moveFocusPoint: (at: Point) => boolean;
     send: (command: Command) => void;
     exportElement: (element: PolytopeElement) => void;
@@ -39,7 +39,7 @@ export class Clicks {
      * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
      * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click near a slice makes that
      * slice the focus slice and keeps the highlight, and a click on the background removes the highlight. The point is
-     * in pixels of the drawing. `isTap`: a touch; it also shows the element's name.
+     * in pixels of the drawing. If `isTap` is true, a finger has touched it; then the element's name is shown, too.
      */
     async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;
@@ -49,7 +49,7 @@ export class Clicks {
         if (!hitTester) return;
         const pointed = this.pointing.elementAt(x, y, hitTester);
         if (!pointed && this.actions.moveFocusPoint({ x, y })) return;
-        if (pointed && isTap) this.pointing.name(pointed, hitTester, { x, y });
+        if (pointed && isTap) this.pointing.showName(pointed, hitTester, { x, y });
         const slice = pointed
             ? pointed.slice
             : hitTester.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
@@ -63,7 +63,7 @@ export class Clicks {
         if (Object.keys(change).length > 0) this.actions.send({ type: "set", ...change });
     }
 
-    /** Lights the element at a point of the drawing, and offers what can be done with it. */
+    /** Highlights the element at a point of the drawing; opens its menu. Resolves to false if no element is there. */
     async openMenu(at: Point): Promise<boolean> {
         const hitTester = await this.actions.hitTester();
         const pointed = hitTester && this.pointing.elementAt(at.x, at.y, hitTester);

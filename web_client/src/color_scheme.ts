@@ -1,5 +1,5 @@
-// The color scheme of the page: that of the system, or the one that the user has chosen, which this browser remembers. It
-// is also the scheme of pictures whose background is "auto".
+// The color scheme of the page: that of the system, or the one that the user has chosen, which this browser remembers.
+// It is also the scheme of pictures whose background is "auto".
 
 import type { Background, Scheme } from "@oval4d/protocol";
 
@@ -9,10 +9,10 @@ import { readStored, writeStored } from "./storage";
 export const kSchemeChoices = ["system", "dark", "light"] as const;
 export type SchemeChoice = (typeof kSchemeChoices)[number];
 
-/** The grounds of pictures, each with a color. */
+/** The backgrounds of pictures that have a color of their own. */
 export type Ground = keyof typeof colors.grounds;
 
-const kSchemeKey = "oval4d.scheme"; // lasting storage key of the choice
+const kSchemeKey = "oval4d.scheme"; // storage key of the choice, in localStorage
 
 export class ColorScheme {
     private readonly system = matchMedia("(prefers-color-scheme: light)");
@@ -56,7 +56,7 @@ export class ColorScheme {
     }
 }
 
-/** The ground on which a viewer with this scheme sees a picture; a transparent one is shown on white. */
+/** The ground on which a viewer with this scheme sees a picture. A transparent picture is shown on white. */
 export function groundOf(background: Background, scheme: Scheme): Ground {
     if (background === "auto") return scheme;
     return background === "transparent" ? "white" : background;

@@ -31,7 +31,7 @@ const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAn
     growth: { field: { label: "Growth", title: "How fast the surface moves outward as w grows" } },
     value: { field: { label: "Value", title: "The value of the second function, or of the field itself" } },
 };
-interface Scale {
+interface ScaleLegend {
     least: string;
     most: string;
     text: string;
@@ -40,7 +40,7 @@ interface Scale {
 }
 
 /** What the ends of the color scale mean. */
-const kScales: Partial<Record<Coloring, Scale>> = {
+const kScales: Partial<Record<Coloring, ScaleLegend>> = {
     w: { least: "\u2212w", most: "+w", text: "From blue at the lowest w through gray to amber at the highest" },
     growth: {
         least: "shrinks",
@@ -162,7 +162,7 @@ function coloringSeen(state: State): Coloring {
 }
 
 /** The color scale of the coloring that is seen; if it has none and the caps show values, the scale of the values. */
-function scaleOf({ caps, field }: State, seen: Coloring): Scale | undefined {
+function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
     const [least, most] = values.range.map((value) => String(Number(value.toPrecision(3)))).map(withMinus) as [string, string];

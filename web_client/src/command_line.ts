@@ -7,10 +7,10 @@ import { readStored, writeStored } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // lines
-const kPage = 0.8; // of the panel's height, by which Page Down scrolls
+const kPage = 0.8; // the fraction of the panel's height by which Page Down scrolls
 
 export interface CommandLineEvents {
-    /** Executes a line; throws an Error, whose message the user sees. */
+    /** Executes a line; rejects with an Error whose message is shown to the user. */
     run(line: string): Promise<unknown>;
     closed(): void;
     /** Returns the names that complete a line. */
@@ -19,9 +19,9 @@ export interface CommandLineEvents {
 
 /** Completions between which Tab cycles. */
 interface Cycle extends Completions {
-    /** The line as completion has left it. If the line differs, the user has edited it. */
+    /** The line after the last completion. If the input differs from it, the user has edited the line. */
     line: string;
-    /** The index of the option in the line, or -1. */
+    /** The index of the option that is in the line, or -1 if there is none. */
     at: number;
 }
 
@@ -36,7 +36,7 @@ export class CommandLine {
     private draft = ""; // the line being typed, while an earlier one is shown
     private cycle: Cycle | undefined;
     private openings = 0; // how often the line has been opened
-    private loading: Promise<unknown> | undefined; // of the names of polytopes
+    private loading: Promise<unknown> | undefined; // the request for the names of polytopes, while it runs
 
     constructor(private readonly events: CommandLineEvents) {
         this.form.addEventListener("submit", (event) => {
@@ -93,7 +93,7 @@ export class CommandLine {
         else this.complete(-step);
     }
 
-    /** Scrolls by most of a page, if the panel is too low for an error. */
+    /** Scrolls the panel by pages of kPage, because it may be too low to show a whole error. */
     private scroll(event: KeyboardEvent, pages: number): void {
         event.preventDefault();
         this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });
@@ -123,7 +123,8 @@ export class CommandLine {
 
     /**
      * Inserts the only completion. If there are several, the first call inserts what they have in common and lists
-     * them; further calls insert one after the other, or with `step` -1 backwards. Returns false if there is none.
+     * them. Further calls insert one option after the other, backwards if `step` is -1. Returns false if there is no
+     * completion.
      */
     private complete(step: number): boolean {
         const { cycle } = this;
@@ -157,7 +158,7 @@ export class CommandLine {
         return true;
     }
 
-    /** Inserts an option of the list, and marks it. */
+    /** Puts an option into the line, and marks it in the list of options. */
     private activate(at: number): void {
         const cycle = this.cycle!;
         this.list.children[cycle.at]?.setAttribute("aria-selected", "false");

@@ -25,21 +25,21 @@ interface Schema {
     properties?: Record<string, Schema>;
 }
 
-const kNotOnTheLine = ["orientation", "field", "last"]; // settings of messages alone
+const kNotOnTheLine = ["orientation", "field", "last"]; // settings that only messages can change
 
-/** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
+/** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */
 export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, Schema>));
 
 /**
- * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the order of the
- * schema, perpendicular planes are equally far from both ends.
+ * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the schema, the
+ * first plane is perpendicular to the last one, the second to the last but one, and so on.
  */
 export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${plane},${all[all.length - 1 - i]}`]);
 
 /** The kinds of elements of a polytope. */
 export const kElementKinds = settings.properties.highlight.properties.element.enum;
 
-/** The settings of an object in `set`. Those of nested objects have their own names, but `slices.count` is `slices`. */
+/** The settings of an object in `set`. Settings of nested objects have their own names; `slices.count` is `slices`. */
 function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {
         if (kNotOnTheLine.includes(name)) return [];

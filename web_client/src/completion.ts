@@ -15,7 +15,7 @@ export interface Names {
 }
 
 export interface Completions {
-    /** Where the text that the options replace begins. */
+    /** The index in the line at which the text begins that the options replace. */
     start: number;
     options: string[];
     /** What follows an option if it is the only one. */
@@ -38,7 +38,7 @@ export function completionsOf(line: string, names: Names): Completions {
     const word = kOfRestOfLine.includes(completes) ? rest : /\S*$/.exec(rest)![0];
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
-    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument
+    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument is completed
     return finish(line, start, valuesOf(completes, word, names));
 }
 

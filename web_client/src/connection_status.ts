@@ -33,7 +33,7 @@ export class ConnectionStatus {
         if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
     }
 
-    /** Counts the request that this answers, and says that the page waits for the server while an answer is late. */
+    /** Counts the request of this answer. While an answer is late, shows that the page waits for the server. */
     follow(answer: Promise<unknown>): void {
         this.countUnanswered(1);
         const count = (change: number): void => {

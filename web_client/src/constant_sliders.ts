@@ -1,4 +1,4 @@
-// Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". A slider rewrites the text.
+// Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". Moving a slider rewrites the formula.
 
 import { element } from "./element";
 import { constantsOf, rangeFor, textOfStep, withConstant } from "./formula";

@@ -1,22 +1,23 @@
-// The values of w at which the section w = const changes its type: of a polytope, those at which vertices lie (Coxeter,
-// Regular Polytopes, §13.1); of a field, those at which the body changes its topology. The parallel coordinates give those
-// of a polytope at once, but rounded. The page requests the exact values when the object has come to rest.
+// The critical values of w, at which the section w = const changes its type. For a polytope, they are the values of w
+// at which vertices lie (Coxeter, Regular Polytopes, §13.1); for a field, those at which the body changes its topology.
+// The parallel coordinates of a picture give the values of a polytope at once, but rounded. The page requests the exact
+// values when the object has come to rest.
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
-/** A critical w; of a polytope, with the number of vertices that lie there. */
+/** A critical w. For a polytope, `vertices` is the number of vertices that lie there. */
 export interface CriticalValue {
     w: number;
     vertices?: number;
 }
 
-// Milliseconds without a turn after which the exact values are requested: of a field, the search takes seconds.
+// Milliseconds without a change after which the exact values are requested. For a field, the search takes seconds.
 const kRestTime = 200;
 const kFieldRestTime = 1500;
 const kRounding = 1e-6; // circumradii: rounded values that differ by less count as equal
 
 export class CriticalValues {
-    /** From the lowest w to the highest; empty before the first are known. */
+    /** The critical values from the lowest w to the highest; empty before the first are known. */
     all: CriticalValue[] = [];
     /** Whether `all` and `range` are those of the newest state; otherwise they are those of an earlier one. */
     isCurrent = false;
@@ -24,7 +25,7 @@ export class CriticalValues {
     isExact = false;
     /** The lowest and the highest w of the object; 0 before they are known. */
     range: [number, number] = [0, 0];
-    private originW = 0; // is added to the values of w of pictures
+    private originW = 0; // to add to the w of pictures, which is measured from the center of the object
     private knownFor = ""; // what the known or requested values depend on
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
@@ -37,7 +38,7 @@ export class CriticalValues {
 
     update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
         const object = [polytope, pace, follow, boost, field, levels, inside];
-        const key = JSON.stringify([object, orientation, slices.spacing]); // δ changes if another object has this name
+        const key = JSON.stringify([object, orientation, slices.spacing]); // another object of this name changes δ
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;
@@ -50,11 +51,11 @@ export class CriticalValues {
             this.range = [slices.offset - reach, slices.offset + reach];
             this.isCurrent = true;
         }
-        this.schedule();
+        this.scheduleRequest();
         this.onChange();
     }
 
-    /** Takes rounded values from the picture of the newest state, if it has the parallel coordinates. */
+    /** Takes rounded values from the picture of the newest state, if the picture has the parallel coordinates. */
     adopt({ coordinates, scene }: Slices): void {
         if (this.isCurrent || coordinates.length === 0) return;
         const heights = coordinates.filter((_, i) => i % 4 === 3).sort();
@@ -70,7 +71,7 @@ export class CriticalValues {
         this.onChange();
     }
 
-    private schedule(): void {
+    private scheduleRequest(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => void this.request(), this.restTime);
     }
@@ -90,7 +91,7 @@ export class CriticalValues {
             if (this.knownFor === key) this.knownFor = ""; // the next state requests the values again
         } finally {
             this.isAsking = false;
-            if (this.knownFor !== key && this.knownFor !== "") this.schedule();
+            if (this.knownFor !== key && this.knownFor !== "") this.scheduleRequest();
         }
     }
 }

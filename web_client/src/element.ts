@@ -16,6 +16,7 @@ export function element<K extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
+/** The element with this id, which must exist. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }

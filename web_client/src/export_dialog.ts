@@ -30,7 +30,7 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private bodyToRestore: string | undefined; // the chosen body, while that of an element without a volume replaces it
+    private bodyToRestore: string | undefined; // the chosen body, while a flat element needs another one
     private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
@@ -50,9 +50,9 @@ export class ExportDialog {
         byId("export").addEventListener("close", () => this.dialog.isOpen || this.closed());
     }
 
-    /** Opens the dialog; with `of`, that is chosen as the contents of the file until the dialog closes. */
+    /** Opens the dialog. If `of` is given, it is chosen as the contents of the file until the dialog closes. */
     open(state: State, of?: string): void {
-        this.closed(); // the event of the last closing comes later than the focus returns
+        this.closed(); // the event `close` of the last closing may not have arrived yet
         this.isForElement = of !== undefined;
         if (of !== undefined) {
             const format = this.format.of.includes(of) ? this.format : kAllFormats.find((one) => one.of.includes(of));
@@ -65,7 +65,7 @@ export class ExportDialog {
 
     /**
      * Saves the file that a text describes: the name of a format and options that replace choices in the dialog, as in
-     * "stl fit=5". Does not open the dialog.
+     * "stl fit=5". Does not open the dialog. Rejects with an Error if the text is not valid or the server refuses it.
      */
     async save(description: string, state: State): Promise<void> {
         const [name = "", ...words] = description.trim().split(/\s+/);
@@ -105,7 +105,10 @@ export class ExportDialog {
         this.showOptions();
     }
 
-    /** Hides the formats that do not describe the object. Selects the first one if the selected format is among them. */
+    /**
+     * Hides the formats that do not describe the object. If the selected format is among them, selects the first format
+     * of the list.
+     */
     private showFormats(): void {
         const kind = this.state?.field ? "fields" : "polytopes";
         for (const { name, objects } of kAllFormats) {
@@ -199,7 +202,7 @@ export class ExportDialog {
         }
     }
 
-    /** Offers to choose slices for the whole oval, and shows the field for the choice. */
+    /** Offers a choice of slices if the whole oval is exported, and shows the field that belongs to this choice. */
     private showSlices({ choices }: Format): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
         set.hidden = set.disabled = !choices.includes("of") || this.chosenValue("of") !== "oval";
@@ -316,7 +319,7 @@ function optionsOf(words: string[]): Options {
     return options;
 }
 
-/** The chosen options with changes. The contents and the slices of a file belong together. */
+/** The chosen options with changes. A change of `of`, `at` or `fit` discards the chosen values of all three. */
 function withChanges({ of, at, fit, ...others }: Options, changes: Options): Options {
     const changesSlices = ["of", "at", "fit"].some((name) => name in changes);
     const kept = { ...(of !== undefined && { of }), ...(at !== undefined && { at }), ...(fit !== undefined && { fit }) };

@@ -12,13 +12,13 @@ export interface Format {
     about: string;
     /** The media type. */
     type: string;
-    /** The options that the format offers. */
+    /** The options that the dialog offers for this format. */
     choices: Choice[];
     /** What the file can contain; the first is the default. */
     of: string[];
-    /** The line, and what the file can contain, for fields. */
+    /** Replaces `about` and `of` if the object is a field. */
     forFields: { about: string; of: string[] };
-    /** The only objects that the format describes, if it does not describe all. */
+    /** The only kind of objects that the format can describe; absent if it can describe all. */
     objects?: "fields" | "polytopes";
 }
 

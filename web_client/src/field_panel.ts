@@ -1,5 +1,5 @@
 // The panel in which the formula of a field is written, with its constants, levels and domain. The picture follows every
-// change: at most one change is on its way to the server, and of those made meanwhile only the newest is sent.
+// change. At most one change is on its way to the server; of the changes made meanwhile, only the newest is sent.
 
 import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@oval4d/protocol";
 
@@ -17,11 +17,11 @@ import { readStored, writeStored } from "./storage";
 
 export interface FieldPanelEvents {
     /**
-     * Loads a formula, then changes settings; returns the revision. `continues` tells whether it belongs to the undo step
-     * of the previous command. Throws an Error if the formula is refused.
+     * Loads a formula, then changes settings; resolves to the revision. `continues` tells whether this belongs to the
+     * undo step of the previous command. Rejects with an Error if the formula is refused.
      */
     load(field: FormulaField, settings: Settings, continues: boolean): Promise<number>;
-    /** Changes settings; throws an Error whose message is shown. */
+    /** Changes settings; rejects with an Error whose message is shown. */
     set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
     /** Gives the user a link to this address. */
     shareAddress(address: string): void;
@@ -30,11 +30,11 @@ export interface FieldPanelEvents {
 }
 
 const kTypingDelay = 150; // milliseconds after the last change by typing
-const kSeries = 1500; // milliseconds between changes that are undone together
-const kMaxTyped = 100; // formulas whose typed text is kept for undo
+const kSeries = 1500; // milliseconds: changes that follow each other within this time are undone together
+const kMaxTyped = 100; // the number of formulas whose typed text is kept for undo
 const kStorageKey = "oval4d.formula";
 const kAxes = ["x", "y", "z", "w"] as const;
-const kOfValues = /^values: /; // begins the error of the formula of values
+const kOfValues = /^values: /; // the beginning of an error message about the formula of values
 
 export class FieldPanel {
     private readonly root = byId("field");
@@ -44,7 +44,7 @@ export class FieldPanel {
     private readonly levelsError = byId("field-levels-error");
     private readonly boxError = byId("field-box-error");
     private readonly example = byId<HTMLSelectElement>("field-example");
-    private readonly ends: HTMLInputElement[]; // of the box: eight
+    private readonly ends: HTMLInputElement[]; // of the box: from and to, for each of x, y, z and w
     private readonly sliders = new ConstantSliders(byId("field-constants"), (text) => {
         this.formula.value = text;
         this.changed(0);
@@ -56,13 +56,13 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaField | undefined; // the formula that this page loaded last
-    private sent: { settings: Settings; revision: number } | undefined; // in the last load(), until their state arrives
+    private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until their state arrives
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordOwnText() has seen its state.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
-    private shownText = ""; // textOf() the state
-    private ownText = ""; // textOf() the state with the formula that this page loaded last
-    private readonly typedFields = new Map<string, FormulaField>(); // what was typed, by textOf() the state
+    private shownText = ""; // textOf() of the newest state
+    private ownText = ""; // textOf() of the state with the formula that this page loaded last
+    private readonly typedFields = new Map<string, FormulaField>(); // what was typed, by textOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
@@ -97,7 +97,7 @@ export class FieldPanel {
         return !this.root.hidden;
     }
 
-    /** Opens the panel. Shows its formula, unless a field is shown. */
+    /** Opens the panel. If the object is not a field, loads the formula in the panel. */
     open(): void {
         this.setOpen(true);
         // On a touch screen, a text field with the focus would open the keyboard over the panel.
@@ -110,8 +110,8 @@ export class FieldPanel {
         this.events.closed();
     }
 
-    /** Takes over a formula that was loaded elsewhere on the page, at this revision. */
-    adopt(field: FormulaField, revision: number): void {
+    /** Shows a formula that another part of the page has loaded at this revision, and stores it as if typed here. */
+    adoptLoaded(field: FormulaField, revision: number): void {
         this.write(field);
         writeStored(kStorageKey, field);
         this.noteLoaded(field, revision);
@@ -131,7 +131,7 @@ export class FieldPanel {
     update(state: State): void {
         this.state = state;
         if (this.sent && state.revision >= this.sent.revision) this.sent = undefined;
-        this.showFormulaOf(state);
+        this.showForeignFormula(state);
         const { levels = [], inside = "below", caps = "plain" } = state;
         for (const control of this.root.querySelectorAll<HTMLInputElement>("[data-of=field]")) {
             control.disabled = !isField(state);
@@ -149,8 +149,8 @@ export class FieldPanel {
     }
 
     /**
-     * Records how the server writes the formula that this page loaded last, in the first state that has it: without
-     * superfluous blanks and parentheses, and with numbers as the values of constants.
+     * Records how the server writes the formula that this page loaded last, from the first state that has it. The
+     * server omits superfluous blanks and parentheses, and writes the values of constants as numbers.
      */
     private recordOwnText(): void {
         const { lastLoad, state, loaded } = this;
@@ -162,7 +162,7 @@ export class FieldPanel {
     }
 
     /** Shows the formula of a state that this page did not load, such as one that undo has restored. */
-    private showFormulaOf(state: State): void {
+    private showForeignFormula(state: State): void {
         this.recordOwnText();
         const text = textOf(state);
         const isNew = text !== this.shownText;
@@ -187,17 +187,17 @@ export class FieldPanel {
         this.values.value = values;
         this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
         this.sliders.update(formula);
-        this.readBox(); // which clears the error of another box
+        this.readBox(); // this clears the error of another box
     }
 
     private startFrom(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // another field: its levels and slices are its own
+        this.loaded = undefined; // another field does not keep the levels and slices
         this.example.selectedIndex = 0;
         this.changed(0);
     }
 
-    /** Reads the fields, and loads the formula after a delay in milliseconds. */
+    /** Loads the formula that is typed, after `delay` milliseconds, if the box that is typed is valid. */
     private changed(delay: number): void {
         this.sliders.update(this.formula.value);
         const box = this.readBox();
@@ -213,7 +213,7 @@ export class FieldPanel {
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
     }
 
-    /** The box; undefined, with an error, if a range is not valid. */
+    /** The box in the fields. If a range is not valid, shows an error, and returns undefined. */
     private readBox(): Box | undefined {
         const wrong = kAxes.filter((_, i) => {
             const pair = [this.ends[2 * i]!, this.ends[2 * i + 1]!];
@@ -247,7 +247,7 @@ export class FieldPanel {
      */
     private continues({ formula }: FormulaField): boolean {
         const { loaded, lastLoad, state } = this;
-        // If the state is newer, another command came between.
+        // If the state is newer than the last load, there was another command in between.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
         return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
     }
@@ -287,7 +287,7 @@ export class FieldPanel {
         }
     }
 
-    /** Shows the levels of the state, which are valid. */
+    /** Shows the levels of the state, and clears an error, because these levels are valid. */
     private showLevels(levels: number[]): void {
         const text = levels.join(", ");
         if (this.levels.value === text) return;
@@ -315,7 +315,7 @@ function textOf({ field }: State): string {
     return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
 }
 
-/** Where the slices are; the distances between them belong to the object. */
+/** The settings that say where the slices are, without the distance between them, which belongs to the object. */
 function placeOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };
 }

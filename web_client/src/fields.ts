@@ -63,13 +63,13 @@ export function spokenLevels({ levels, inside = "below", fog = [] }: State): str
     return `${named} ${levels.map(formatCoordinate).join(", ")}, inside ${inside}${fogText}`;
 }
 
-/** Reads numbers that commas or blanks separate; a minus sign may be typed as such. NaN stands for other texts. */
+/** Reads numbers that commas or blanks separate; a minus sign may be typed as such. Other texts become NaN. */
 export function parseNumbers(text: string): number[] {
     const words = text.replaceAll("\u2212", "-").split(/[\s,;]+/);
     return words.filter((word) => word !== "").map(Number);
 }
 
-/** The box of eight numbers, the ranges of x, y, z and w; undefined if there are more or fewer, or others. */
+/** The box with these ranges of x, y, z and w; undefined unless they are eight finite numbers. */
 export function boxOf(numbers: number[]): Box | undefined {
     if (numbers.length !== 8 || !numbers.every(Number.isFinite)) return undefined;
     return [0, 2, 4, 6].map((i) => [numbers[i]!, numbers[i + 1]!]) as Box;
@@ -88,7 +88,7 @@ export function queryOf({ formula, box, values }: FormulaField, look: FieldLook)
         ...(fog && fog.length > 0 && { fog: textOfFog(fog) }),
         ...frameQuery(look),
     };
-    // Of the characters that an address may contain, those that formulas use stay readable.
+    // Characters that formulas use stay readable, if an address may contain them.
     const encoded = (text: string): string =>
         encodeURIComponent(text).replace(/%(5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
     return Object.entries(parameters)

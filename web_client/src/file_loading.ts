@@ -8,10 +8,10 @@ import { byId, element } from "./element";
 import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, tooLarge } from "./files";
 import { toSentence } from "./format";
 
-const kProgressInterval = 100; // milliseconds
+const kProgressInterval = 100; // milliseconds between two updates of the progress
 const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
-const kMaxKept = 8; // as many as a session holds
-const kMaxExcerptWidth = 120; // characters of a line of the file
+const kMaxKept = 8; // files, as many as a session holds objects
+const kMaxExcerptWidth = 120; // characters that are shown of a line of the file
 
 export class FileLoading {
     private readonly root = byId("loading");
@@ -25,7 +25,7 @@ export class FileLoading {
 
     constructor(
         private readonly client: Client,
-        private readonly showState: (state: State) => Promise<unknown>, // in the session
+        private readonly showState: (state: State) => Promise<unknown>, // shows a state in the session
     ) {
         this.chooser.addEventListener("change", () => {
             this.enqueue([...(this.chooser.files ?? [])]);
@@ -90,8 +90,8 @@ export class FileLoading {
     }
 
     /**
-     * A button that loads an object again so that it turns about the origin of its file; none if it does so already, or if
-     * another object is shown.
+     * A button that loads an object again so that it turns about the origin of its file. No button if the object turns
+     * about it already, or if another object is shown.
      */
     private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });

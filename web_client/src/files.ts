@@ -24,14 +24,14 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await textOf(file);
     const message = { name: nameOf(file), format: formatOf(file.name, data), data };
-    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // allows for the other members
+    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // and room for the other members
     if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
     return message;
 }
 
 /**
- * The encoding of UTF-16, which is known by its byte order mark, or by one zero among the first two bytes; else undefined.
- * The server tells it in the same way.
+ * The encoding of a file in UTF-16, which has a byte order mark or one zero among the first two bytes; undefined for
+ * other files. The server recognizes UTF-16 in the same way.
  */
 export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
     if (first === undefined || second === undefined) return undefined;
@@ -45,7 +45,7 @@ async function textOf(file: File): Promise<string> {
     return new TextDecoder(utf16Of(bytes) ?? "utf-8").decode(bytes);
 }
 
-/** The start of a PNG file, and of a JSON object. */
+/** The start of a PNG file, or of a JSON object. */
 const kStateStart = /^(?:\x89PNG|\s*\{)/;
 
 /**
@@ -75,13 +75,13 @@ function formatOf(name: string, data: string): LoadContent["format"] {
     return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
 }
 
-/** The name under which a file is loaded. */
+/** The name under which a file is loaded: the last characters of the file's name. */
 export function nameOf({ name }: File): string {
     const text = [...name.replace(/\p{C}/gu, "")].slice(-kMaxNameLength).join("").trim();
     return text === "" ? "file" : text;
 }
 
-/** Says that a file of this size exceeds the limit. */
+/** The message that a file of this size exceeds the limit; both are in bytes. */
 export function tooLarge(bytes: number, limit: number): string {
     const size = (count: number): string =>
         count < 2 ** 20 ? `${Math.ceil(count / 2 ** 10)} KiB` : `${(count / 2 ** 20).toFixed(1)} MiB`;

@@ -6,7 +6,7 @@ import { byId } from "./element";
 
 const kVisitedKey = "oval4d.visited"; // in localStorage
 
-/** Commands for the view of a first visit. The last rotation is one that may be repeated: it turns a little. */
+/** Commands for the view of a first visit. The last rotation turns only a little, because keys may repeat it. */
 export const kFirstView = ["polytope 24-cell", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "rotate xy,zw"];
 
 /** Whether this browser opens the page for the first time. False if the browser forbids storage. */
@@ -18,7 +18,7 @@ export function isFirstVisit(): boolean {
     }
 }
 
-/** The line, which closes when its advice has been followed: the object was turned, and the focus moved. */
+/** The line of welcome. It closes when its advice has been followed: the object was turned, and the focus moved. */
 export class WelcomeLine {
     private readonly root = byId("welcome");
     private since = 0; // the revision of the first view
@@ -51,7 +51,7 @@ export class WelcomeLine {
         }
     }
 
-    /** Tells that the state with this revision, and no earlier one, shows the first view. */
+    /** Tells that the first view is complete from this revision on. */
     viewShown(revision: number): void {
         this.since = revision;
         this.first = undefined;

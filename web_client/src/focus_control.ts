@@ -46,7 +46,7 @@ export class FocusControl {
         this.isUnsent = false;
     }
 
-    /** Follows the focus of the session. Returns whether something else has moved it. */
+    /** Follows the focus of the session. Returns whether something other than this control has moved it. */
     update({ revision, section: { w }, slices }: State): boolean {
         this.seen = { w, revision };
         const isSame = (other = NaN): boolean => Math.abs(w - other) <= kSame * slices.spacing;

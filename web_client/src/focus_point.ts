@@ -10,7 +10,7 @@ import { originInFile } from "./origin";
 export type Point4 = State["point"];
 
 export interface FocusPointEvents {
-    /** Called when a gesture begins, which may move the focus slice. */
+    /** Called when a gesture begins. The gesture may move the focus slice. */
     began(): void;
     failed(error: Error): void;
 }
@@ -25,7 +25,7 @@ export class FocusPoint {
     private continues = false; // whether the next move belongs to the undo step of the last one
     private current = kOrigin; // in the session
     private readonly lastChange = new LastChange();
-    private origin = kOrigin; // to add to the coordinates in the picture
+    private origin = kOrigin; // to add to coordinates in the picture to get those of the object's file
 
     constructor(
         private readonly client: Client,
@@ -34,7 +34,7 @@ export class FocusPoint {
 
     /** Follows the focus point of the session. */
     update(state: State): void {
-        if (!this.lastChange.isAfter(state)) this.current = state.point;
+        if (!this.lastChange.isNewerThan(state)) this.current = state.point;
         this.origin = originInFile(state);
     }
 
@@ -48,7 +48,7 @@ export class FocusPoint {
         this.events.began();
     }
 
-    /** Changes some coordinates of the point: pairs of an axis, 0 to 3, and a coordinate in the picture. */
+    /** Changes some coordinates of the point. Each pair is an axis, 0 to 3, and a coordinate in the picture. */
     move(coordinates: readonly (readonly [axis: number, value: number])[]): void {
         const point: Point4 = [...this.point];
         for (const [axis, value] of coordinates) point[axis] = this.origin[axis]! + value;

@@ -14,9 +14,9 @@ export interface SliderEvents {
     failed(error: Error): void;
 }
 
-const kSnapDistance = 4; // pixels from a mark
+const kSnapDistance = 4; // pixels: a drag this near to a mark snaps to the mark
 const kKeySteps = 200; // steps of the arrow keys from one end to the other
-const kMaxMarks = 60; // critical values; of more, the density is shown
+const kMaxMarks = 60; // more critical values are shown as a density
 const kDensityBins = 80;
 const kSweepTime = 8; // seconds from one end to the other at the speed 1
 const kMaxInterval = 0.1; // seconds between two animation frames, if the page was too busy
@@ -32,7 +32,7 @@ export class FocusSlider {
     private state: State | undefined;
     private isDragged = false;
     private mayNotSnap = false; // while a modifier key is held
-    private playedAt: number | undefined; // milliseconds; undefined while the motion is not played
+    private playedAt: number | undefined; // the time of the last step in milliseconds; undefined while not playing
     private direction = 1;
 
     constructor(

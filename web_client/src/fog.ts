@@ -10,7 +10,7 @@ export const kMaxFogPoints = 8;
 /** The distribution of a field's values. */
 export interface ValueDistribution {
     range: [number, number];
-    /** From the least value to the greatest, evenly spaced; each from 0 to 1. */
+    /** How often the values occur, 0 to 1, at evenly spaced values from the least to the greatest. */
     tones: number[];
 }
 
@@ -53,8 +53,8 @@ export function hexOf(color: number): string {
 }
 
 /**
- * The color of point i: its own, or that of the scale, which extends from the first point to the last, in a picture of
- * this scheme.
+ * The color of point i in a picture of this scheme: its own or, if it has none, the color of its value on the scale,
+ * which extends from the first point to the last.
  */
 export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
     const { value, color } = points[i]!;
@@ -72,7 +72,7 @@ export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
 
 type Scale = [least: number, middle: number, most: number];
 
-/** Whether the server accepts these points: their values increase. */
+/** Whether the server accepts these points: increasing finite values, and opacities from 0 to 1. */
 export function isTransferFunction(points: FogPoint[]): boolean {
     return points.every(
         ({ value, opacity }, i) =>
@@ -80,7 +80,7 @@ export function isTransferFunction(points: FogPoint[]): boolean {
     );
 }
 
-/** Moves point i, as far as its neighbors and these ends of the values allow. */
+/** Moves point i as far as its neighbors and `ends`, the least and the greatest value, allow. */
 export function withPoint(points: FogPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;
     const least = i > 0 ? points[i - 1]!.value + gap : ends[0];
@@ -91,7 +91,7 @@ export function withPoint(points: FogPoint[], i: number, value: number, opacity:
     return isTransferFunction(result) ? result : points;
 }
 
-/** Adds a point in the middle of the longest segment. */
+/** Adds a point in the middle of the two neighbors with the largest difference of values. */
 export function withNewPoint(points: FogPoint[]): FogPoint[] {
     const lengths = points.slice(1).map(({ value }, i) => value - points[i]!.value);
     const at = lengths.indexOf(Math.max(...lengths));

@@ -43,7 +43,7 @@ export class FogEditor {
     private dragged: number | undefined; // the index of the point that is dragged
     private isContinued = false; // whether the next change belongs to the undo step of the last one
 
-    /** `set` changes settings; it throws an Error whose message is shown. */
+    /** `set` changes settings; it rejects with an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
         this.addButton.addEventListener("click", () => this.change(withNewPoint(this.points)));
         this.showButton.addEventListener("click", () => this.change(this.usual()));
@@ -63,8 +63,8 @@ export class FogEditor {
     update(state: State): void {
         this.state = state;
         this.showButton.disabled = state.fog === undefined;
-        const isOld = this.lastChange.isAfter(state);
-        if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // the editor is newer
+        const isOld = this.lastChange.isNewerThan(state);
+        if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // what the editor shows is newer
         this.points = state.fog ?? [];
         this.draw();
     }

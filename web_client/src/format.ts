@@ -3,7 +3,7 @@
 import type { State } from "@oval4d/protocol";
 
 const kMinus = "\u2212";
-const kMaxPlanes = 3; // that are listed of a rotation
+const kMaxPlanes = 3; // the number of planes that are listed of a rotation
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
@@ -39,7 +39,7 @@ export function focusW({ section, slices }: State): string {
     return formatW(section.w, slices.spacing);
 }
 
-/** The w of a slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
+/** The w of a slice, rounded like its label in the picture (labelNumber() in server/scene/slice_label.cpp). */
 export function formatW(w: number, spacing: number): string {
     const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
     const text = new Intl.NumberFormat("en-US", {
@@ -53,8 +53,8 @@ export function formatW(w: number, spacing: number): string {
 }
 
 /**
- * A rotation such as "xw 22.5°, yz 81.42°". That of a gesture can turn in all six planes: only the planes with the three
- * largest angles are listed.
+ * A rotation such as "xw 22.5°, yz 81.42°". The rotation of a gesture may turn in all six planes: only the planes with
+ * the three largest angles are listed.
  */
 export function formatRotation(last: NonNullable<State["last"]>): string {
     const turns = last.planes.map((plane, i) => ({ plane, angle: last.angles[i] ?? 0 }));

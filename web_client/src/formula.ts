@@ -4,7 +4,7 @@
 export interface Constant {
     name: string;
     value: number;
-    /** Where the text of the value begins and ends. */
+    /** The indices in the text at which the value begins and ends. */
     from: number;
     to: number;
 }
@@ -58,7 +58,7 @@ export function around(text: string, at: number, reach: number): [before: string
     ];
 }
 
-/** A range for the slider of a constant: from 0 to twice its value, and a step that is a power of ten. */
+/** A range for the slider of a constant: from 0 to about twice its value; its step is a power of ten. */
 export function rangeFor(value: number): { min: number; max: number; step: number } {
     const reach = 2 * Math.abs(value) || 1;
     const step = 10 ** Math.floor(Math.log10(reach / 50));

@@ -33,7 +33,7 @@ export class FormulaText {
         this.input.value = text;
     }
 
-    /** Shows an error of the server, and marks the wrong character. */
+    /** Shows an error of the server, and marks the wrong character if the message names it; undefined clears both. */
     showError(message: string | undefined): void {
         const mistake = message === undefined ? undefined : mistakeOf(message);
         const where = mistake ? `Character ${mistake.at + 1}: ${mistake.what}` : (message ?? "");

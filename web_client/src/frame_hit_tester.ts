@@ -1,5 +1,5 @@
-// The hit tester of the pictures that the server draws. The page requests the slices for it only when it needs it,
-// because the answer is as large as a picture of the geometry stream.
+// The hit tester of the pictures that the server draws. It is made from a slices message. The page requests this
+// message only when it needs the hit tester, because the message is as large as a picture of the geometry stream.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -9,7 +9,7 @@ import type { Stage } from "./picture/stage";
 export class FrameHitTester {
     private state: State | undefined;
     private known: HitTester | undefined;
-    private knownFor = ""; // what the known or requested hit tester depends on
+    private knownFor = ""; // what the known or requested hit tester depends on, as JSON
 
     /** `onKnown` is called when a hit tester that `current` requested has arrived. */
     constructor(
@@ -22,7 +22,7 @@ export class FrameHitTester {
         this.state = state;
     }
 
-    /** The hit tester if it is known; otherwise requests it, and returns undefined. */
+    /** The hit tester. If it is not known, requests it, and returns undefined. */
     get current(): HitTester | undefined {
         if (!this.state) return undefined;
         const { slices, view, shown, projection, polytope } = this.state;

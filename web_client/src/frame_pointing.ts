@@ -1,7 +1,8 @@
-// The element under the pointer in the pictures that the server draws. The page asks the server for its name.
+// The element under the pointer in the pictures that the server draws. The page asks the server which element it is.
 //
-// The server handles the messages of a page one after the other, so that a key waits for an answer that is being made.
-// The page therefore asks about one point at a time, and only while the picture rests and no command is unanswered.
+// The server handles the messages of a page one after the other, so a key that is pressed meanwhile waits until the
+// answer is complete. The page therefore asks about one point at a time, and only while the picture rests and no
+// command is unanswered.
 
 import type { At, Client } from "@oval4d/protocol";
 
@@ -16,7 +17,7 @@ const kFollow = 24; // pixels within which the label goes along with the pointer
 
 export class FramePointing {
     private pointer: Point | undefined;
-    private named: Point | undefined; // the point of the element that the label names
+    private named: Point | undefined; // the point whose element the label names
     private revision: number | undefined; // of the picture, once it rests
     private asked = ""; // the pixel of the last request about this picture
     private isAsking = false;
@@ -42,7 +43,7 @@ export class FramePointing {
         }, kRest);
     }
 
-    /** Forgets the picture and its element. */
+    /** Forgets the picture, and hides the label. */
     reset(): void {
         clearTimeout(this.resting);
         this.revision = undefined;
@@ -80,7 +81,7 @@ export class FramePointing {
         this.isAsking = false;
     }
 
-    /** The pixel of the picture to ask about, if any. */
+    /** The pixel of the picture to ask about; undefined if there is nothing to ask. */
     private nextPixel(): Point | undefined {
         const { pointer, revision } = this;
         if (!pointer || revision === undefined || !this.isIdle(revision)) return undefined;
@@ -108,7 +109,7 @@ export class FramePointing {
     }
 
     private hide(): void {
-        if (!this.named) return; // otherwise the label belongs to the page's own picture
+        if (!this.named) return; // a label that is shown belongs to the page's own picture
         this.named = undefined;
         this.label.hide();
     }

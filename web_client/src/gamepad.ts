@@ -9,7 +9,7 @@ const kPause = 300; // milliseconds at rest after which a gesture has ended
 const kMaxInterval = 100; // milliseconds between two polls, if the page was too busy to poll
 
 export function listenForGamepads(rotation: RotationControl): void {
-    let polledAt: number | undefined; // milliseconds; undefined while no gamepad is polled
+    let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled
     let turnedAt = -Infinity;
     const rested = new Set<number>(); // the gamepads that have been at rest
     const poll = (now: number): void => {

@@ -10,10 +10,10 @@ import { type Ball, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ba
 import type { RotationControl } from "./rotation";
 import { TwoFingers } from "./two_fingers";
 
-const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel
-const kLineHeight = 16; // pixels
+const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
+const kLineHeight = 16; // pixels, for wheels that count lines
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
-const kLongPress = 600; // milliseconds
+const kLongPress = 600; // milliseconds of touch after which the menu opens
 const kButtons = { left: 0, middle: 1, right: 2 }; // of a mouse
 const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
 
@@ -90,7 +90,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     // Some systems open the menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
     drawing.addEventListener("mousedown", (event) => {
-        if (event.button === kButtons.middle) event.preventDefault(); // it would scroll
+        if (event.button === kButtons.middle) event.preventDefault(); // otherwise the browser would scroll
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
@@ -119,7 +119,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         (event) => {
             if (event.ctrlKey) return; // the browser's own zoom
             event.preventDefault();
-            const delta = event.deltaY || event.deltaX; // some systems exchange them while Shift is held
+            const delta = event.deltaY || event.deltaX; // while Shift is held, some systems report deltaX instead
             const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? delta : delta * kLineHeight;
             if (!event.altKey) {
                 orbit.zoomBy(Math.exp(-pixels * kWheelZoom));

@@ -77,7 +77,7 @@ export class Help {
         );
     }
 
-    /** Opens the dialog; with a `topic`, with only the lines that mention it. */
+    /** Opens the dialog. With a `topic`, shows only the lines that mention it, as filter() does. */
     open(topic = ""): void {
         this.filter(topic);
         if (!this.dialog.open) this.dialog.showModal();
@@ -122,7 +122,7 @@ function commandSection(): HTMLElement {
     return element("section", { class: "commands" }, title, element("dl", {}, ...lines));
 }
 
-/** A row of a table. A topic finds it also by `searchTerms`. */
+/** A row of a table. filter() finds a topic in its texts and in `searchTerms`. */
 function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: RowOptions = {}): HTMLElement {
     const head = element("th", { scope: "row" }, element(tag, {}, name));
     return element("tr", { "data-search-terms": searchTerms || undefined }, head, element("td", {}, text));

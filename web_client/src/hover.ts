@@ -6,7 +6,7 @@ export interface Point {
     y: number;
 }
 
-/** Calls `moved` with the pointer's place; with undefined when it leaves, while a button is down, and for touch. */
+/** Calls `moved` with the pointer's place; with undefined if the pointer leaves, a button is down, or it is a touch. */
 export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
         const { left, top } = area.getBoundingClientRect();

@@ -10,9 +10,9 @@ const kSingleKeysKey = "oval4d.single_keys"; // lasting storage key of whether k
 
 interface Actions {
     send: (command: Command) => void;
-    /** A key is about to move the focus. */
+    /** Called before a key moves the focus. */
     focusMoves: () => void;
-    /** The key Escape was pressed outside dialogs. */
+    /** Called when Escape was pressed outside dialogs. */
     escape: (event: KeyboardEvent) => void;
     /** Executes an action of the camera; returns false if it is another action. */
     camera: (action: string) => boolean;
@@ -65,7 +65,7 @@ export class Keyboard {
         else for (const stroke of strokesOfBinding(binding, inverse)) this.send(stroke, false);
     }
 
-    /** Sends a key to the server. One that is held repeats only when the picture of its last press is shown. */
+    /** Sends a key to the server. A held key repeats only after the picture of its last press has been presented. */
     send(stroke: KeyStroke, held: boolean): void {
         if (held && !this.repeat.mayRepeat) return;
         if (this.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key))) this.actions.focusMoves();

@@ -7,7 +7,7 @@ import type { KeyBinding } from "@oval4d/protocol";
 const kTextFields = "textarea, select, [contenteditable], input:not([type=radio], [type=checkbox], [type=range])";
 const kButtons = "button, a[href]";
 const kButtonKeys = /^( |Enter)$/;
-const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // of radio buttons and sliders
+const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // of sliders, radio buttons and checkboxes
 
 /** The members of a `key` message. */
 export interface KeyStroke {
@@ -26,7 +26,7 @@ export function isForControl({ key, target }: KeyboardEvent): boolean {
     return target.matches(kButtons) ? kButtonKeys.test(key) : target.matches("input") && kInputKeys.test(key);
 }
 
-/** The action of Ctrl-Z, Ctrl-Shift-Z and Ctrl-Y; on a Mac, of Cmd-Z and so on. */
+/** The action of Ctrl-Z, Ctrl-Shift-Z and Ctrl-Y or, on a Mac, of Cmd-Z and so on; undefined for other keys. */
 export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined {
     if (event.isComposing || event.altKey || event.ctrlKey === event.metaKey) return undefined;
     const letter = typedCharacter(event).toLowerCase();
@@ -35,9 +35,10 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 }
 
 /**
- * The keystroke of an event; undefined for composition, for other modifiers and for keys that are not in the table. A
- * character of the table counts, whichever key types it: "(" and "-" on the digit keys of a French keyboard. Otherwise a
- * digit key counts as its digit, and a key that types a letter of another script as the American key in its place.
+ * The keystroke of an event; undefined while a text is composed, for other modifiers, and for keys that are not in the
+ * table. A character of the table counts, whichever key types it: "(" and "-" on the digit keys of a French keyboard.
+ * Otherwise a digit key counts as its digit, and a key that types a letter of another script counts as the American key
+ * in its place.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
@@ -82,8 +83,8 @@ function isNamed({ key }: KeyBinding): boolean {
 }
 
 /**
- * The character that the event types, or that of its place on an American keyboard; "\0" if there is neither. Shift
- * decides whether a letter is a capital, whether or not Caps Lock is on.
+ * The character that the event types or, if it is not ASCII, the character of this key on an American keyboard; "\0" if
+ * there is neither. Shift decides whether a letter is a capital, whether or not Caps Lock is on.
  */
 function typedCharacter(event: KeyboardEvent): string {
     const character = /^[ -~]$/.test(event.key) ? event.key : characterOfPlace(event);

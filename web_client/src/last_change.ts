@@ -1,5 +1,5 @@
-// Tells which states are older than a change that this page has made. States are sent with pictures, so one from before a
-// change may arrive after the answer to the change; a control that showed it would jump back for a moment.
+// Tells which states are older than a change that this page has made. States are sent with pictures, so a state from
+// before a change may arrive after the answer to the change. A control that showed it would jump back for a moment.
 
 import type { State } from "@oval4d/protocol";
 
@@ -17,8 +17,8 @@ export class LastChange {
         this.revision = this.seen = 0;
     }
 
-    /** Whether this state, the newest one, is from before the last change. */
-    isAfter({ revision }: State): boolean {
+    /** Whether the last change was made after this state, which must be the newest one. */
+    isNewerThan({ revision }: State): boolean {
         if (revision < this.seen) this.revision = 0; // the revisions of another session
         this.seen = revision;
         return revision < this.revision;

@@ -1,5 +1,5 @@
-// Determines what the page shows at the start: a shared session (URL fragment), the session that this entry of the
-// browser's history had, as after a reload or Back, or a view (URL query).
+// Determines what the page shows at the start: a shared session (URL fragment); the session that this entry of the
+// browser's history or this tab had before, as after a reload or Back; or a view (URL query).
 
 import type { Credentials } from "@oval4d/protocol";
 
@@ -20,6 +20,7 @@ export interface InitialView {
 
 interface StoredSession {
     credentials: Credentials;
+    /** The query of the address when the session was stored. */
     query: string;
 }
 
@@ -43,8 +44,8 @@ export function readInitialView(): InitialView {
 }
 
 /**
- * The session of a shared link in the address bar, if any; removes it from there. `fault` says what is wrong with a link
- * that was cut or changed on its way.
+ * The session of a shared link in the address bar, if there is one; removes its token from the address bar. `fault`
+ * says what is wrong with a link that was cut or changed on its way.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
@@ -117,7 +118,7 @@ function repaired(text: string): string {
     return text.replaceAll("&amp;", "&").replace(/%25(?=[0-9a-f]{2})/gi, "%");
 }
 
-/** Whether a parameter was appended to the address by another site. */
+/** Whether a parameter is one that other sites append to addresses. */
 function isIgnored(name: string): boolean {
     return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
 }
@@ -146,7 +147,7 @@ function parametersOf(query: string): [name: string, value: string][] {
         .filter(([name]) => !isIgnored(name));
 }
 
-/** The field of a query such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2". */
+/** The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without a formula. */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(parametersOf(query));
     if (formula === undefined) return { faults: [] };

@@ -1,4 +1,4 @@
-// Sends values one at a time: while one is on its way, only the newest of those that follow is kept.
+// Sends values one at a time: while a value is on its way, only the newest of the later values is kept.
 
 export class NewestOnly<T> {
     private waiting: T | undefined;
@@ -13,7 +13,7 @@ export class NewestOnly<T> {
         return this.isSending || this.waiting !== undefined;
     }
 
-    /** Sends a value after a delay in milliseconds without another value, and after the answer to the previous one. */
+    /** Sends a value when no other follows within `delay` milliseconds, and the previous one has been answered. */
     submit(value: T, delay: number): void {
         this.waiting = value;
         clearTimeout(this.timer);

@@ -29,7 +29,7 @@ export class ObserverControls {
     };
     private continues = false; // whether the next pace belongs to the undo step of the last one
 
-    /** `set` changes settings; it throws an Error whose message is shown. */
+    /** `set` changes settings; it rejects with an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
         for (const begin of ["pointerdown", "keydown"]) {
             this.pace.addEventListener(begin, () => (this.continues = false));
@@ -46,7 +46,7 @@ export class ObserverControls {
         }
     }
 
-    /** Shows the frame of a state. What is being typed stays. */
+    /** Shows the frame of reference of a state, but does not change a field in which the user types. */
     update(state: State): void {
         if (document.activeElement !== this.pace) this.pace.value = String(Math.log10(state.pace));
         this.showPace(state.pace);

@@ -9,18 +9,18 @@ import type { Stage } from "./picture/stage";
 
 const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
-const kLeastVisible = 0.5; // the part of the slices that orbiting and zooming keep in the picture
+const kLeastVisible = 0.5; // the least fraction of the slices that orbiting and zooming keep in the picture
 const kBisections = 10;
 const kLeastZoom = 1e-3; // the least relative change that counts as zooming
 
-const kAngleStep = Math.PI / 36; // of a key, in radians
+const kAngleStep = Math.PI / 36; // radians per key press
 const kZoomStep = 1.1;
 
 export class OrbitControl {
     private sending = false;
     private unsent = false;
     private readonly lastChange = new LastChange();
-    private lastLimited: Orbit | undefined; // the orbit before the first move that no hit tester has limited
+    private lastLimited: Orbit | undefined; // the orbit before the moves that no hit tester has limited yet
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
@@ -43,7 +43,7 @@ export class OrbitControl {
         private readonly stopped: (reason: string) => void,
     ) {}
 
-    /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
+    /** Orbits by a drag in CSS pixels: half the height of the picture is a quarter turn. */
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.shownHeight);
         this.orbitBy(-dx * part, dy * part);
@@ -95,8 +95,8 @@ export class OrbitControl {
     }
 
     /**
-     * The orbit after a change, or after as large a part of it as leaves kLeastVisible of the slices visible, or as
-     * many as before if these were fewer.
+     * The orbit after a change. If less than kLeastVisible of the slices would then be visible, and fewer than before,
+     * makes only the largest part of the change that avoids this.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };
@@ -114,7 +114,7 @@ export class OrbitControl {
 
     /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
     adoptCamera(state: State): void {
-        const isOld = this.lastChange.isAfter(state);
+        const isOld = this.lastChange.isNewerThan(state);
         if (isOld || this.sending || this.unsent) return; // the page's orbit is newer
         this.stage.orbit = state.camera;
     }
@@ -139,7 +139,7 @@ export class OrbitControl {
     }
 }
 
-/** The orbit between two others: the first at 0, the second at 1. */
+/** The orbit between two others: the first if `part` is 0, the second if it is 1. */
 function mix(from: Orbit, to: Orbit, part: number): Orbit {
     const between = (a: number, b: number): number => (part === 1 ? b : a + (b - a) * part);
     return {

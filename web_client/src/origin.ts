@@ -1,4 +1,4 @@
-// The coordinates of pictures, whose origin is the center of the object, and those of the file that it was loaded from.
+// Converts coordinates. In pictures, the origin is the center of the object; in its file, it may be elsewhere.
 
 import type { State } from "@oval4d/protocol";
 

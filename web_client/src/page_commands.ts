@@ -1,9 +1,9 @@
 // The commands of the command line that the page executes itself.
 
 export interface PageCommands {
-    /** Opens the help, or shows what it says about a topic. */
+    /** Opens the help. If the topic is not "", shows only the lines that mention it. */
     help(topic: string): void;
-    /** Saves a file that a format and options describe, such as "stl fit=5", or opens the export dialog for "". */
+    /** Saves the file that a format and options describe, such as "stl fit=5". For "", opens the export dialog. */
     exportFile(description: string): Promise<void> | undefined | void;
 }
 

@@ -7,13 +7,13 @@ import { isFirstVisit, kFirstView } from "./first_visit";
 import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
 
 interface Actions {
-    /** The page shows another session, of which nothing is known yet. */
+    /** Called when the page joins another session, of which nothing is known yet. */
     joined: () => void;
     /** Loads a field, which the panel of fields then shows. */
     loadField: (field: FormulaField) => Promise<void>;
     /** Reloads a file that this page had loaded into the lost session. */
     reloadFile: (name: string) => Promise<unknown>;
-    /** A command of the initial view has produced this revision. */
+    /** Called when a command of the initial view has produced this revision. */
     viewShown: (revision: number) => void;
     tell: (messages: string[]) => void;
 }
@@ -39,7 +39,7 @@ export class PageSession {
         return true;
     }
 
-    /** Joins the session of a link that was pasted into the address bar, which does not load the page again. */
+    /** Joins the session of a link that was pasted into the address bar, because this does not load the page again. */
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tell([fault]);
@@ -47,13 +47,13 @@ export class PageSession {
         else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
     }
 
-    /** Returns to the session of an entry of the browser's history that does not load the page again. */
+    /** Returns to the session of an entry of the browser's history, if this does not load the page again. */
     joinSessionOfEntry(): void {
         const credentials = sessionOfEntry();
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
     }
 
-    /** Notes that the session is lost. `state` is its last state; the next session gets its view. */
+    /** Notes that the session is lost. `state` is its last state; the new session gets the same view. */
     lost(reason: string, state: State | undefined): void {
         this.lostState = state;
         this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored

@@ -14,7 +14,7 @@ const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
 export class Picker {
-    /** The polytopes, as of the last time that they were listed. */
+    /** The catalogue as it was listed last; empty before. */
     catalogue = new Catalogue([]);
     private readonly dialog = new Dialog("picker");
     private readonly input = byId<HTMLInputElement>("picker-search");
@@ -29,8 +29,8 @@ export class Picker {
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /**
-     * `choose` shows the object of this name, which is an array of the server's data folder if `isData`; it throws an
-     * Error whose message is shown to the user.
+     * `choose` shows the object of this name, which is an array of the server's data folder if `isData` is true. It
+     * rejects with an Error whose message is shown to the user.
      */
     constructor(private readonly choose: (name: string, isData: boolean) => Promise<unknown>) {
         this.input.addEventListener("input", () => this.search());
@@ -70,7 +70,7 @@ export class Picker {
         if (this.isOpen) this.search();
     }
 
-    /** Says why the catalogue is not available. The entries of the previous one, if any, stay in the list. */
+    /** Shows why the catalogue is not available. Entries that were listed before stay in the list. */
     showFailure(reason: string): void {
         this.failure = reason;
         this.showError(reason);
@@ -92,7 +92,7 @@ export class Picker {
         const isName = text === "" || this.catalogue.findByName(text) !== undefined;
         this.typedOption.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
         this.typedOption.dataset["name"] = text;
-        // Similar names come after the text: it may be a name that only the server knows.
+        // Similar names come after the typed text, because the text may be a name that only the server knows.
         const typed = isName ? [] : [this.typedOption];
         this.list.replaceChildren(...(found.length > 0 ? [...groups, ...typed] : [...typed, ...groups]));
         const shown = this.listedOptions.length - typed.length;

@@ -8,11 +8,11 @@ import type { Point } from "./hover";
 
 /** An element, and what is known of its shape and its place. */
 export interface ElementDescription extends PolytopeElement {
-    /** The name of a cell's kind. */
+    /** Of a cell: the name of its kind. */
     kind?: string | undefined;
     /** Of a vertex: x, y, z, w. */
     coordinates?: readonly number[] | undefined;
-    /** The length of an edge. */
+    /** Of an edge: its length. */
     length?: number | undefined;
     /** The least and the greatest w of its vertices. */
     range?: readonly [number, number] | undefined;

@@ -32,11 +32,11 @@ export class Pointing {
         followHover(drawing, (at) => this.moveTo(at));
     }
 
-    /** The element at a point of the drawing, in pixels. */
+    /** The element at a point of the drawing, in pixels; undefined if there is none. */
     elementAt(x: number, y: number, hitTester: HitTester): Pointed | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
-        // A state may be newer than the picture.
+        // The state may be newer than the picture, and of another object.
         if (polytope?.cells !== hitTester.picture.scene.colors.cells.length) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
         const column = hitTester.columnAt(x * ratio, y * ratio, size);
@@ -46,10 +46,10 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of what a finger has tapped until the next touch. The picture may change meanwhile, because a tap moves
-     * the focus.
+     * Shows the name of what a finger has tapped until the next touch. The picture may change meanwhile, because a tap
+     * moves the focus.
      */
-    name(tapped: Pointed, hitTester: HitTester, at: Point): void {
+    showName(tapped: Pointed, hitTester: HitTester, at: Point): void {
         const state = this.state()!;
         const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).showing(tapped);
         this.isTapped = true;
@@ -85,7 +85,7 @@ export class Pointing {
         return !isSame;
     }
 
-    /** Updates once in each animation frame. */
+    /** Updates at most once in each animation frame. */
     private moveTo(at: Point | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;

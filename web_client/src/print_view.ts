@@ -11,7 +11,7 @@ export class PrintView {
     private isPrepared = false;
     private focused: HTMLElement | undefined; // the last element with the focus, which printing takes away
 
-    /** `title` returns the title of the picture. */
+    /** `title` returns the heading to print. `failed` is called if there is no picture to print. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
@@ -25,7 +25,7 @@ export class PrintView {
         document.addEventListener("focusin", ({ target }) => (this.focused = target as HTMLElement));
     }
 
-    /** When the server draws the pictures, gets one on white before the browser prints. */
+    /** If the server draws the pictures, requests one on white when Ctrl-P is pressed, and prints it. */
     private keydown(event: KeyboardEvent): void {
         const isPrintKey = !event.repeat && event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
         if (!isPrintKey || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;

@@ -15,7 +15,7 @@ export function spokenFrame({ pace, follow, boost }: State): string {
     return parts.filter((part) => part !== "").join(", ");
 }
 
-/** The settings of a frame of reference in an address, without those that it has at first. */
+/** The parameters of an address for a frame of reference, without those that have their initial values. */
 export function frameQuery({ pace = 1, follow, boost }: Pick<Settings, "pace" | Velocity>): Record<string, string> {
     const moves = (velocity: Vector | undefined): velocity is Vector => velocity?.some((v) => v !== 0) ?? false;
     return {

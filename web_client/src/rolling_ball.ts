@@ -12,7 +12,7 @@ export type Ball = "4-D" | "3-D";
 
 const kWheelTurn = 0.0015; // radians per pixel
 const kStickRate = Math.PI / 2; // radians per second
-const kStickDeadZone = 0.15;
+const kStickDeadZone = 0.15; // of the range from 0 to 1
 
 /** Turns by a drag of (dx, dy) pixels, right and down, on a picture of this height: half a turn per height. */
 export function turnsOfDrag(ball: Ball, dx: number, dy: number, height: number): Turns {

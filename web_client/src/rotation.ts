@@ -8,8 +8,9 @@ import type { Turns } from "./rolling_ball";
 type Rotation = Extract<Request, { type: "rotate" }>;
 
 interface Gesture {
-    /** Whether a rotation of the gesture has been executed, to whose undo step the others belong. */
+    /** Whether a rotation of the gesture has been executed. The later ones then belong to its undo step. */
     hasStep: boolean;
+    /** The angles to send, in radians. */
     unsent: Map<Plane, number>;
 }
 

@@ -28,7 +28,7 @@ export class Sharing {
         }
     }
 
-    /** Copies a Python script that opens the present view and saves its picture, for a page with this color scheme. */
+    /** Copies a Python script that opens the present view and saves its picture, with this size and color scheme. */
     async copyPython(objectName: string, { width, height }: Viewport, scheme: Scheme): Promise<void> {
         try {
             const { link, joins } = await this.linkForScript();
@@ -54,7 +54,10 @@ export class Sharing {
         await this.copy("link", link, effect);
     }
 
-    /** The link that opens the view or, if the object is from a file, which only this session has, the session's. */
+    /**
+     * The link that opens the view. If the object is from a file, only this session has it. Then `link` joins the
+     * session, and `joins` is true.
+     */
     private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {
             const { query } = await this.client.request({ type: "get", what: "address" });
@@ -66,7 +69,7 @@ export class Sharing {
         }
     }
 
-    /** Copies a text, or shows it for copying. */
+    /** Copies a text. If the browser forbids this, shows the text so that the user can copy it. */
     private async copy(what: string, text: string, effect: string): Promise<void> {
         try {
             await navigator.clipboard.writeText(text);

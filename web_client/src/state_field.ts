@@ -8,7 +8,7 @@ const kMargin = 4; // pixels between the note and the edge of the window
 export interface StateFieldEvents {
     /** The value for editing. */
     editable(): string;
-    /** Applies what the user has typed; throws an Error whose message is shown at the field. */
+    /** Applies what the user has typed; rejects with an Error whose message is shown at the field. */
     apply(text: string): Promise<unknown>;
 }
 

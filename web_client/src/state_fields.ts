@@ -20,6 +20,7 @@ interface StateFieldDescription {
     /** Describes what can be typed. */
     hint: string;
     value(state: State): string;
+    /** What a screen reader says of the value; "" if nothing. */
     spoken(state: State): string;
     /** The value for editing; by default, as it is shown. */
     editable?(state: State): string;
@@ -76,10 +77,10 @@ export class StateFields {
     private readonly announcer = byId("spoken");
     private readonly fields = new Map<string, StateField>();
     private state: State | undefined;
-    private announced: string[] | undefined; // by announcementsOf()
+    private announced: string[] | undefined; // what announcementsOf() returned at the last announcement
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** `run` executes a command; it throws an Error whose message is shown at the field. */
+    /** `run` executes a command; it rejects with an Error whose message is shown at the field. */
     constructor(run: (command: string) => Promise<unknown>) {
         for (const { name, symbol, meaning, hint, value, editable = value, command } of kStateFields) {
             const stateField = new StateField(name, symbol, meaning, hint, {

@@ -200,7 +200,7 @@ export class Tools {
         };
     }
 
-    /** Presses the key at a click, and repeatedly while the button is held down. */
+    /** Presses the key at a click; if its action may repeat, also repeatedly while the button is held down. */
     private bindPresses(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
         let timer: ReturnType<typeof setTimeout> | undefined;
         let repeated = false;
@@ -231,7 +231,7 @@ function uncapitalized(text: string): string {
     return text.charAt(0).toLowerCase() + text.slice(1);
 }
 
-/** The column of a plane, or of its perpendicular plane. */
+/** The index in kRotationColumns of a plane, or of its perpendicular plane. */
 function columnOf(plane: Plane): number {
     const column = kRotationColumns.indexOf(plane);
     return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));

@@ -1,5 +1,5 @@
 // A tour of the page: a panel beside what it explains. The page stays usable during the tour. The steps are in
-// index.html: each lists the elements to point at, of which the first visible one is used, and may select a part of its
+// index.html. Each step lists selectors of elements, and points at the first one that is visible, or at a part of its
 // height.
 
 import { byId } from "./element";

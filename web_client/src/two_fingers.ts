@@ -10,10 +10,10 @@ export interface Finger {
 }
 
 interface Placement {
-    x: number; // of the middle
+    x: number; // of the point in the middle between the fingers, in pixels
     y: number;
     distance: number;
-    angle: number; // clockwise
+    angle: number; // radians, clockwise
 }
 
 export class TwoFingers {
@@ -27,7 +27,10 @@ export class TwoFingers {
         this.last = placementOf(a, b);
     }
 
-    /** The changes since the last call: the movement of the middle in pixels, the factor of the distance, the angle. */
+    /**
+     * Returns the changes since the last call: the movement of the midpoint in pixels, the ratio of the distances
+     * (`spread`), and the rotation in radians (`twist`). Inside its dead zone, a movement or a twist counts as 0.
+     */
     update(a: Finger, b: Finger): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
         const now = (this.last = placementOf(a, b));

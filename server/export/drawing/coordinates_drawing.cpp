@@ -13,17 +13,17 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kAmplitude = 40;  // length of a line whose value is the circumradius
-constexpr double kMaxColumn = 48;  // bounds of the width of a vertex's column
+constexpr double kMaxColumn = 48;  // the maximum and the minimum width of a vertex's column
 constexpr double kMinColumn = 5;
 constexpr double kText = 7;                // font size
-constexpr double kNameRoom = 3.2 * kText;  // for the label of a vertex
+constexpr double kNameRoom = 3.2 * kText;  // the width of the label of a vertex
 
 /// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
 /// columns are arranged in rows.
 struct Columns {
     std::size_t count, perRow, rows;
-    double step, rowStep;    ///< from a column to the next, from a row to the next
-    std::size_t namedEvery;  ///< of how many columns one has room for its label: P0, P1, …
+    double step, rowStep;    ///< the distance from a column to the next, and from a row to the next
+    std::size_t namedEvery;  ///< one column in this number has a label: P0, P1, …
 
     explicit Columns(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;

@@ -14,9 +14,10 @@
 
 namespace oval4d::exports {
 
-// Lengths are in units that Drawing::size defines. Positions are measured from the upper left corner, with y downward.
+// Lengths and positions are in units of the drawing (see Drawing::unit()). Positions are measured from its upper left
+// corner, with y downward.
 
-/// The default of Drawing::size: about the width of the text on a page of A4.
+/// The default of Drawing::size in millimeters: about the width of the text on a page of A4.
 inline constexpr double kDrawingSize = 170;
 
 /// A straight line.
@@ -44,16 +45,16 @@ struct Disk {
 /// A line of text, centered at a position on its baseline. The characters are ASCII.
 struct TextLine {
     glm::dvec2 at;
-    double size = 7;  ///< of the font
+    double size = 7;  ///< the font size
     scene::Color color = 0;
     std::string text;
 };
 /// A raster image of a density strip (see scene::DensityPlot) or of a panel of a histogram (see
 /// slicing::CoordinateHistograms). The centers of the first and the last column lie on the left and right edges of the
-/// rectangle, those of the first and the last row on its upper and lower edges.
+/// rectangle, and the centers of the first and the last row on its upper and lower edges.
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
-    std::vector<std::uint8_t> tones;   ///< row by row; opacities from 0 to 255
+    std::vector<std::uint8_t> tones;   ///< opacities from 0 to 255, row by row from the top
     int columns = 1;                   ///< at least 2 in a drawing
     std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, and
                                        ///< interpolated between these positions
@@ -83,7 +84,7 @@ struct Drawing {
     double unit() const { return size / std::max(width, height); }
 };
 
-/// The width of drawings. A unit is about 1/72 inch if the drawing has its default size.
+/// The width of drawings in units. A unit is about 1/72 inch if the drawing has its default size.
 inline constexpr double kDrawingWidth = 480;
 inline constexpr double kDrawingMargin = 12;
 inline constexpr scene::Color kDrawingText = 0x444444;

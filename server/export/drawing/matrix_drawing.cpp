@@ -27,7 +27,7 @@ double tickSpacing(double reach) {
     return 5 * power;
 }
 
-/// Returns `multiple` steps with as many decimals as the step has.
+/// Returns the number multiple · step with as many decimals as `step` has.
 std::string numberText(double multiple, double step) {
     if (multiple == 0) return "0";
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
@@ -56,7 +56,7 @@ class SectionDrawer {
         };
         ShapeGroup group{{"xyzw"[row], "xyzw"[column]}, {}};
         drawFrame(center, group);
-        if (!scene_.crossing && !from.boundary.empty()) {
+        if (!scene_.isNonconvex && !from.boundary.empty()) {
             FilledPolygon polygon{{}, kFill};
             for (const std::uint32_t p : from.boundary) polygon.corners.push_back(place(from.points[p]));
             group.shapes.emplace_back(std::move(polygon));
@@ -86,7 +86,7 @@ class SectionDrawer {
     /// Draws numbers and marks at the outer edges of the outermost panels: at the left of each row, and below each
     /// column. Numbers with more than kNumberCharacters characters are smaller.
     ShapeGroup drawNumbers() const {
-        constexpr double kMark = 3, kWidth = 0.6;  // of a character, in text sizes
+        constexpr double kMark = 3, kWidth = 0.6;  // kWidth: of a character, as a fraction of the font size
         const double half = kPanel / 2;
         ShapeGroup numbers{"numbers", {}};
         const auto add = [&](const glm::dvec2& mark, const glm::dvec2& outward, const TextLine& text) {
@@ -113,7 +113,8 @@ class SectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis and, below it, what is to be added to its numbers.
+    /// Draws the name of an axis and, below it, the offset that must be added to the numbers at the axis, unless it is
+    /// 0.
     void drawName(int axis, std::vector<Shape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
@@ -130,7 +131,7 @@ class SectionDrawer {
                kPanel / 2;
     }
 
-    // Returns the number of steps that are subtracted from the numbers of an axis, so that they are short.
+    // Returns the number of steps to subtract from the numbers at an axis to shorten them; 0 if they are short enough.
     double offset(int axis) const {
         const double middle = std::round(origin_[axis] / step_);
         return static_cast<double>(numberText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;

@@ -7,9 +7,9 @@
 
 namespace oval4d::exports {
 
-/// Draws the matrix of planar sections, whose panels are arranged as in scene::MatrixLayout. Edges have the colors of
-/// their cells. The numbers at the axes are coordinates in the file of the object, whose `origin` is
-/// ObjectInfo::originInFile. The scene must show the matrix.
+/// Draws the matrix of planar sections, with the panels arranged as in scene::MatrixLayout. Edges have the colors of
+/// their cells. `origin` is ObjectInfo::originInFile: it is added to the numbers at the axes, which are coordinates in
+/// the object's file. The scene must show the matrix.
 Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin);
 
 }  // namespace oval4d::exports

@@ -17,7 +17,7 @@ namespace {
 using slicing::SliceSet;
 
 constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
-constexpr double kHaloWidth = 1.8;  // of the gap where a bar passes before another, as a multiple of its width
+constexpr double kHaloWidth = 1.8;  // width of the gap in a bar behind another one, in widths of the front bar
 
 scene::Color mix(scene::Color a, scene::Color b, double t) {
     scene::Color mixed = 0;
@@ -28,12 +28,12 @@ scene::Color mix(scene::Color a, scene::Color b, double t) {
     return mixed;
 }
 
-constexpr double kThickness = 0.8;  // of lines, relative to the bars of pictures
+constexpr double kThickness = 0.8;  // the width of lines, as a fraction of the width of bars in pictures
 
 class ProjectionDrawer {
   public:
     explicit ProjectionDrawer(const scene::Scene& scene) : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
-        // In world units, everything is within the radius of the placement.
+        // The projection lies in a sphere with the radius of its placement, in world units.
         scale_ = (kDrawingWidth / 2 - kDrawingMargin) / scene.projectionPlacement.radius;
     }
 
@@ -58,7 +58,7 @@ class ProjectionDrawer {
     glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
     static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
-    // The color of a part at a depth.
+    // Returns the color of a bar or ball of a part at this depth.
     scene::Color colorAt(std::size_t part, double depth) const {
         const scene::Color focus = scene_.style().axes[3];
         if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;
@@ -89,7 +89,7 @@ class ProjectionDrawer {
                              b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
-            // The halo leaves a gap in the bars behind, but not in those that meet this bar at its ends.
+            // The white halo makes a gap in the bars behind this one, but not in those that meet it at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
             add(depth, Line{.from = onPaper(a + gap),
                             .to = onPaper(b - gap),
@@ -115,8 +115,8 @@ class ProjectionDrawer {
 
     const scene::Scene& scene_;
     const glm::dmat3 view_;
-    double scale_ = 1;            // points per world unit
-    std::vector<double> depths_;  // of shapes_
+    double scale_ = 1;            // drawing units per world unit
+    std::vector<double> depths_;  // the depth of each of shapes_
     std::vector<Shape> shapes_;
 };
 

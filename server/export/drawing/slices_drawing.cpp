@@ -26,13 +26,13 @@ namespace {
 
 using slicing::SliceSet;
 
-// Shapes that are closer to the eye than this, in world units, are not drawn.
+// Shapes behind the eye, or less than this in front of it, in world units, are not drawn.
 constexpr double kNearest = 1e-3;
-constexpr double kDigitHeight = 0.73;            // of the font, as a fraction of its size
-constexpr std::size_t kTypicalShapeBytes = 150;  // of a file
+constexpr double kDigitHeight = 0.73;            // the height of a digit, as a fraction of the font size
+constexpr std::size_t kTypicalShapeBytes = 150;  // the approximate size of a shape in a file
 
-/// Returns the text in ASCII, which is all that the fonts of PDF files have in common.
-std::string asciiOf(const std::string& label) {
+/// Returns the label with hyphens in place of minus signs, because drawings contain only ASCII text.
+std::string withAsciiMinus(const std::string& label) {
     constexpr std::string_view kMinus = "\u2212";
     std::string text = label;
     for (std::size_t at = 0; (at = text.find(kMinus, at)) != std::string::npos; ++at)
@@ -49,10 +49,10 @@ class Paper {
           height_(kDrawingWidth / aspect_) {}
 
     double height() const { return height_; }
-    /// Returns the length on the paper of a length of 1 at the place of this point.
-    double scaleAt(const glm::dvec3& seen) const { return camera_.magnification() * height_ / -seen.z; }
+    /// Returns the length in the drawing of one world unit at this point of view space.
+    double scaleAt(const glm::dvec3& seen) const { return camera_.sizeAtUnitDepth() * height_ / -seen.z; }
     glm::dvec2 operator()(const glm::dvec3& seen) const {
-        const glm::dvec2 at = glm::dvec2(seen) * (camera_.magnification() / -seen.z) +
+        const glm::dvec2 at = glm::dvec2(seen) * (camera_.sizeAtUnitDepth() / -seen.z) +
                               glm::dvec2((0.5 + camera_.shiftX) * aspect_, 0.5 + camera_.shiftY);
         return {at.x * height_, (1 - at.y) * height_};
     }
@@ -77,9 +77,9 @@ class SliceDrawer {
         points_.clear();
         for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(seen(set_.vertices[v]));
         findSides();
-        if (scene_.look.parts.faces && !scene_.crossing) addFaces();
-        if (scene_.look.parts.faces && scene_.crossing) addPieces();
-        if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // those of a point cloud always
+        if (scene_.look.parts.faces && !scene_.isNonconvex) addFaces();
+        if (scene_.look.parts.faces && scene_.isNonconvex) addPieces();
+        if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // balls of a point cloud are always drawn
         if (scene_.look.parts.bars) addBars();
         std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
         ShapeGroup group{"slice_" + std::to_string(scene_.placements[slice].index), {}};
@@ -88,7 +88,7 @@ class SliceDrawer {
     }
 
   private:
-    /// The layers of a convex slice. Everything in a crossing slice is in one layer.
+    /// The layers of a convex slice, in drawing order. In a slice whose faces may cross, everything is in one layer.
     enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
     struct Item {
         Layer layer;
@@ -106,7 +106,7 @@ class SliceDrawer {
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
 
-    /// Returns twice the area of a polygon times its normal.
+    /// Returns twice the area of a polygon times its unit normal.
     static glm::dvec3 areaOf(std::span<const glm::dvec3> corners) {
         glm::dvec3 area(0);
         for (std::size_t i = 2; i < corners.size(); ++i)
@@ -124,7 +124,7 @@ class SliceDrawer {
     void findSides() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
-        if (scene_.crossing) return;
+        if (scene_.isNonconvex) return;
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
             const auto corners = cornersOf(f);
             if (corners.empty() || glm::dot(areaOf(corners), corners[0]) >= 0) continue;
@@ -135,7 +135,7 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a face with this normal, as in the picture.
+    /// Returns the color of a face as in the picture. `area` is a multiple of the normal of the face.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
@@ -188,13 +188,14 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the layer of bars and balls.
+    /// Returns the layer of a bar or ball. `toward`: whether it belongs to a face that is turned toward the eye.
     Layer frameLayer(bool toward) const {
-        if (scene_.crossing) return away_faces;
+        if (scene_.isNonconvex) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 
-    // A bar covers the ball at its far end, and the ball at its near end covers the bar: balls are added before bars.
+    // A bar has the depth of its far end, and shapes of equal depth keep their order. Balls are added before bars, so
+    // that a bar covers the ball at its far end. The ball at the near end covers the bar.
     void addBalls() {
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             const std::uint32_t v = set_.vertexBegin[slice_] + i;
@@ -250,7 +251,8 @@ ShapeGroup drawLabels(const scene::Scene& scene, const Paper& paper) {
         if (!placement.drawn || placement.label.empty() || at.z > -kNearest) continue;
         const double size = style.textHeight * placement.labelSize * paper.height();
         labels.shapes.emplace_back(TextLine{paper(at) + glm::dvec2(0, kDigitHeight * size), size,
-                                            placement.focus ? style.focusText : style.text, asciiOf(placement.label)});
+                                            placement.focus ? style.focusText : style.text,
+                                            withAsciiMinus(placement.label)});
     }
     return labels;
 }

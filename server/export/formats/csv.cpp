@@ -16,7 +16,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// `origin` is added to coordinates.
+// `origin`, ObjectInfo::originInFile, is added to w and to the centroid.
 void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';

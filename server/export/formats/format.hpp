@@ -18,21 +18,21 @@
 namespace oval4d::exports {
 
 /// The input of the writers of mesh formats (STL, PLY, …). The meshes already have their positions in the file,
-/// NamedMesh::at (see arrangement.hpp).
+/// PlacedMesh::at (see arrangement.hpp).
 struct MeshesToWrite {
-    std::span<const NamedMesh> solids;
+    std::span<const PlacedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
     const Budget& budget;
 
     /// Returns the color of a triangle of `solid`: the color of its cell, or the color of the solid if it has no cell.
-    scene::Color colorOf(const NamedMesh& solid, std::size_t triangle) const {
+    scene::Color colorOf(const PlacedMesh& solid, std::size_t triangle) const {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
     /// Returns whether any mesh has pointColors.
     bool havePointColors() const {
-        return std::ranges::any_of(solids, [](const NamedMesh& solid) { return !solid.mesh.pointColors.empty(); });
+        return std::ranges::any_of(solids, [](const PlacedMesh& solid) { return !solid.mesh.pointColors.empty(); });
     }
 };
 
@@ -43,7 +43,7 @@ struct SceneInput {
     const geometry::Rotation& orientation;
     ExportContents contents;
     const Budget& budget;
-    std::vector<std::string>& warnings;  ///< to which the writer adds what the file lacks (see ExportedFile::warnings)
+    std::vector<std::string>& warnings;  ///< the writer adds what the file lacks (see ExportedFile::warnings)
 };
 
 /// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a

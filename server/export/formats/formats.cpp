@@ -25,7 +25,8 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two are null.
+/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
+/// null. `takesSurfaces` is Format::takesSurfaces.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;

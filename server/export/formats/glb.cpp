@@ -71,7 +71,7 @@ glm::vec3 linearColor(scene::Color color) {
 }
 
 /// Adds a solid to the model. Triangles do not share vertices, so that each corner has its own normal and color.
-void addMesh(const NamedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
+void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
     VertexAttribute colors;
@@ -122,7 +122,7 @@ std::string glb(const MeshesToWrite& meshes) {
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model.materials.push_back(std::move(material));
-    for (const NamedMesh& solid : meshes.solids) addMesh(solid, meshes, model);
+    for (const PlacedMesh& solid : meshes.solids) addMesh(solid, meshes, model);
     std::ostringstream out;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
         throw std::runtime_error("tinygltf cannot write the file");

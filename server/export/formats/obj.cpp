@@ -6,7 +6,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// Returns a name without white space, which object names must not contain.
+// Returns a name without white space, because the names of objects in OBJ files must not contain any.
 std::string wordOf(std::string name) {
     for (char& c : name) {
         if (c == ' ' || c == '\n') c = '_';
@@ -19,7 +19,7 @@ std::string wordOf(std::string name) {
 std::string obj(const MeshesToWrite& meshes) {
     std::string out = "# oval4d, millimeters\n";
     std::size_t first = 1;
-    for (const NamedMesh& solid : meshes.solids) {
+    for (const PlacedMesh& solid : meshes.solids) {
         const Mesh& mesh = solid.mesh;
         out += "o " + wordOf(solid.name) + "\n";
         for (const glm::dvec3& point : mesh.points) {

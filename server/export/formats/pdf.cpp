@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kPointsPerMillimeter = 72 / 25.4;
 
-// libharu reports errors to this function, whose parameters it prescribes. `first` is the HPDF_STATUS that keeps the
+// libharu reports errors to this function, and prescribes its parameters. `first` is the HPDF_STATUS that keeps the
 // first error. After an error, the functions of libharu do nothing.
 void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
     auto& status = *static_cast<HPDF_STATUS*>(first);
@@ -66,7 +66,7 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // An image of the mixed colors, whose soft mask has the tones.
+    // Draws an image of the mixed colors. Its soft mask, which determines the opacity of each pixel, has the tones.
     void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
@@ -88,7 +88,7 @@ class PageWriter {
         const auto mask =
             HPDF_LoadRawImageFromMem(document_, density.tones.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
-        // Columns are centered on their axes, and rows on their values.
+        // The centers of the outer pixels lie on the edges of the rectangle (see DensityImage), so the image is larger.
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};
@@ -105,7 +105,7 @@ class PageWriter {
         HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
     }
 
-    // Opacities are properties of graphics states. Shapes of the same percentage share one.
+    // In PDF, an opacity is a property of a graphics state. Shapes with the same opacity in percent share one state.
     void setOpacity(double opacity) {
         const int percent = static_cast<int>(std::lround(100 * std::clamp(opacity, 0.0, 1.0)));
         if (percent == percent_) return;
@@ -150,8 +150,8 @@ std::string pdf(const Drawing& drawing) {
                                                                                           HPDF_Free);
     if (!document) throw std::runtime_error("libharu cannot create a document");
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
-    // ASCII is the same in all encodings. libharu takes no zero bytes, which UTF-16 needs, so the title is written in
-    // the place of another of the same length.
+    // libharu takes ASCII titles as they are, but no titles in UTF-16, because UTF-16 contains zero bytes. Therefore a
+    // title that is not ASCII replaces a placeholder of the same length in the finished file.
     const std::string title = isAscii(drawing.title) ? "" : textString(drawing.title);
     const std::string placeholder(title.size() - std::min<std::size_t>(title.size(), 2), 'T');
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, title.empty() ? drawing.title.c_str() : placeholder.c_str());

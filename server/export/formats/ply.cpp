@@ -12,7 +12,7 @@ void putColor(std::string& out, scene::Color color) {
     for (const unsigned shift : {16U, 8U, 0U}) put(out, static_cast<std::uint8_t>(color >> shift));
 }
 
-void putPoints(std::string& out, const NamedMesh& solid, bool colored) {
+void putPoints(std::string& out, const PlacedMesh& solid, bool colored) {
     const Mesh& mesh = solid.mesh;
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         put(out, mesh.points[p] + solid.at);
@@ -29,7 +29,7 @@ std::string ply(const MeshesToWrite& meshes) {
     const auto solids = meshes.solids;
     std::size_t points = 0;
     std::size_t triangles = 0;
-    for (const NamedMesh& solid : solids) {
+    for (const PlacedMesh& solid : solids) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
@@ -39,9 +39,9 @@ std::string ply(const MeshesToWrite& meshes) {
                       std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +
                       (colored ? colors + "property float value\n" : "") + "element face " + std::to_string(triangles) +
                       "\nproperty list uchar uint vertex_indices\n" + (colored ? "" : colors) + "end_header\n";
-    for (const NamedMesh& solid : solids) putPoints(out, solid, colored);
+    for (const PlacedMesh& solid : solids) putPoints(out, solid, colored);
     std::uint32_t first = 0;
-    for (const NamedMesh& solid : solids) {
+    for (const PlacedMesh& solid : solids) {
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
             put(out, std::uint8_t{3});
             for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);

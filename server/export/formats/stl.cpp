@@ -18,12 +18,12 @@ std::string stl(const MeshesToWrite& meshes) {
     constexpr std::size_t kHeader = 80;
     constexpr std::size_t kTriangle = 50;
     std::size_t count = 0;
-    for (const NamedMesh& solid : solids) count += solid.mesh.triangles.size();
+    for (const PlacedMesh& solid : solids) count += solid.mesh.triangles.size();
     std::string out = "oval4d, millimeters";
     out.reserve(kHeader + 4 + kTriangle * count);
     out.resize(kHeader, ' ');
     put(out, static_cast<std::uint32_t>(count));
-    for (const NamedMesh& solid : solids) {
+    for (const PlacedMesh& solid : solids) {
         for (const auto& triangle : solid.mesh.triangles) {
             const glm::dvec3 across = normalOf(solid.mesh, triangle);
             const double length = glm::length(across);

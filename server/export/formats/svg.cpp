@@ -95,7 +95,7 @@ struct ElementWriter {
                attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const DensityImage& density) const {
-        // Columns are centered on their axes, and rows on their values.
+        // The centers of the outer pixels lie on the edges of the rectangle (see DensityImage), so the image is larger.
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;

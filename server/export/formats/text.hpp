@@ -16,8 +16,8 @@ void append(std::string& out, float number);
 /// Appends three numbers separated by spaces.
 void append(std::string& out, const glm::dvec3& point);
 
-/// Returns a label of the hyperplane with the index i, such as "w = −0.25", with enough decimals (2 to 9) to
-/// distinguish the hyperplanes. `origin` is added to w: ObjectInfo::originInFile.
+/// Returns a label of the hyperplane with the index i (from 0), such as "w = −0.25", with enough decimals (2 to 9) to
+/// distinguish the hyperplanes. `origin`, the w of ObjectInfo::originInFile, is added to w.
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin = 0);
 
 /// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters, U+FFFE and

@@ -51,7 +51,7 @@ bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
     return !static_cast<const Budget*>(budget)->mustStop();
 }
 
-void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
+void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
     std::vector<MODELMESHVERTEX> points;
     points.reserve(solid.mesh.points.size());
     for (const glm::dvec3& p : solid.mesh.points) {
@@ -77,10 +77,10 @@ void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
 std::string threeMf(const MeshesToWrite& meshes) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
-    // The library escapes names, but writes metadata as they are.
+    // lib3mf escapes names, but not metadata.
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
-    for (const NamedMesh& solid : meshes.solids) addMesh(model.get(), solid);
+    for (const PlacedMesh& solid : meshes.solids) addMesh(model.get(), solid);
     const auto writer = owned<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
     check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&meshes.budget)),

@@ -20,46 +20,46 @@ namespace oval4d::exports {
 namespace {
 
 /// A regular lattice in a slice: points origin + spacing · (i, j, k).
-struct Image {
+struct Lattice {
     glm::dvec3 origin{0}, spacing{1};
     glm::ivec3 points{1};
 
     std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
 };
 
-/// Returns the lattice in the bounding box of the domain's slice, whose cells are at most `step` wide.
-Image imageOf(const slicing::SliceSet& slices, double step) {
+/// Returns a lattice that fills the bounding box of the domain's slice. Neighboring points are at most `step` apart.
+Lattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;
     for (const glm::dvec3& vertex : slices.vertices) {
         low = glm::min(low, vertex);
         high = glm::max(high, vertex);
     }
-    Image image;
-    image.origin = low;
+    Lattice lattice;
+    lattice.origin = low;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = high[axis] - low[axis];
         const int cells = std::max(1, static_cast<int>(std::ceil(size / step - 1e-9)));
-        image.points[axis] = size > 0 ? cells + 1 : 1;
-        image.spacing[axis] = size > 0 ? size / cells : step;
+        lattice.points[axis] = size > 0 ? cells + 1 : 1;
+        lattice.spacing[axis] = size > 0 ? size / cells : step;
     }
-    return image;
+    return lattice;
 }
 
-/// Returns the values at the points of the image, x fastest; NaN outside of the domain.
-std::vector<float> sample(const fields::Field& field, const Image& image, const glm::dmat4& toFunction, double w,
+/// Returns the values at the points of the lattice, x fastest; NaN outside of the domain.
+std::vector<float> sample(const fields::Field& field, const Lattice& lattice, const glm::dmat4& toFunction, double w,
                           const Budget& budget) {
-    std::vector<float> values(image.size());
-    const auto row = static_cast<std::size_t>(image.points.x);
+    std::vector<float> values(lattice.size());
+    const auto row = static_cast<std::size_t>(lattice.points.x);
     std::array<std::vector<float>, 4> at;
     for (auto& coordinates : at) coordinates.resize(row);
     const glm::dvec4 tolerance = 1e-9 * (field.box.max - field.box.min);
     std::vector<bool> isOutside(row);
     float* out = values.data();
-    for (int k = 0; k < image.points.z; ++k) {
+    for (int k = 0; k < lattice.points.z; ++k) {
         budget.checkTime();
-        for (int j = 0; j < image.points.y; ++j, out += row) {
+        for (int j = 0; j < lattice.points.y; ++j, out += row) {
             for (std::size_t i = 0; i < row; ++i) {
-                const glm::dvec3 p = image.origin + image.spacing * glm::dvec3(static_cast<double>(i), j, k);
+                const glm::dvec3 p = lattice.origin + lattice.spacing * glm::dvec3(static_cast<double>(i), j, k);
                 const glm::dvec4 q = field.center + toFunction * glm::dvec4(p, w);
                 isOutside[i] = glm::any(glm::lessThan(q, field.box.min - tolerance)) ||
                                glm::any(glm::greaterThan(q, field.box.max + tolerance));
@@ -87,17 +87,17 @@ std::string vti(const SceneInput& source) {
         refuse("the slice at " + labelOfW(slices.planes, 0) + " is empty: move the focus or turn the field");
     }
     const fields::Field& field = *slicing::fieldIn(source.object);
-    const Image image = imageOf(slices, 2 * field.circumradius / kCells);
-    source.budget.checkBytes(3 * sizeof(float) * image.size());  // the values, and about 4/3 of their size in Base64
+    const Lattice lattice = latticeOf(slices, 2 * field.circumradius / kCells);
+    source.budget.checkBytes(3 * sizeof(float) * lattice.size());  // more than the values and their Base64 text need
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
-    const std::vector<float> values = sample(field, image, toFunction, slices.planes.w(0), source.budget);
+    const std::vector<float> values = sample(field, lattice, toFunction, slices.planes.w(0), source.budget);
 
     std::string extent;
-    for (int axis = 0; axis < 3; ++axis) extent += (axis > 0 ? " 0 " : "0 ") + std::to_string(image.points[axis] - 1);
+    for (int axis = 0; axis < 3; ++axis) extent += (axis > 0 ? " 0 " : "0 ") + std::to_string(lattice.points[axis] - 1);
     std::string attributes = " WholeExtent=\"" + extent + "\" Origin=\"";
-    append(attributes, image.origin);
+    append(attributes, lattice.origin);
     attributes += "\" Spacing=\"";
-    append(attributes, image.spacing);
+    append(attributes, lattice.spacing);
     attributes += "\"";
     std::string elements = "<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"value\">\n";
     appendVtkArray(elements, "value", 1, std::span<const float>(values));

@@ -15,7 +15,7 @@ std::string vtkFile(std::string_view type, std::string_view attributes, std::str
 
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes) {
-    // The size of the data comes first, and is encoded together with them.
+    // The size of the data in bytes comes first, and is encoded together with the data.
     std::string data;
     data.reserve(sizeof(std::uint64_t) + bytes.size());
     put(data, std::uint64_t{bytes.size()});
@@ -23,7 +23,7 @@ void appendVtkArray(std::string& out, std::string_view type, std::string_view na
     out.append("<DataArray type=\"").append(type).append("\" Name=\"").append(xmlEscaped(name));
     out.append("\" NumberOfComponents=\"").append(std::to_string(components)).append("\" format=\"binary\">\n");
     const std::size_t begin = out.size();
-    const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);  // with a 0
+    const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);  // with a final 0
     out.resize(begin + size);
     sodium_bin2base64(out.data() + begin, size, reinterpret_cast<const unsigned char*>(data.data()), data.size(),
                       sodium_base64_VARIANT_ORIGINAL);

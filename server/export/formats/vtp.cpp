@@ -52,7 +52,7 @@ void addFaces(const SceneInput& source, int slice, PolyData& out) {
     }
 }
 
-/// Adds the points of a surface, and returns the number of the first one.
+/// Adds the points of a surface, and returns the index of the first one in the file.
 std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& place, PolyData& out) {
     const auto first = static_cast<std::int64_t>(out.points.size() / 3);
     for (std::size_t p = 0; p < surface.points.size(); ++p) {
@@ -66,7 +66,9 @@ std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& p
     return first;
 }
 
-/// Adds the points of caps once more, with the mean normals of the caps. Returns the number of the copy of each point.
+/// Adds each point of a cap once more, with the mean normal of the caps at this point, because the point itself has the
+/// normal of the level set. `first` is the index of the first point of the surface in the file. Returns, for each point
+/// of the surface, the index of its copy in the file, or −1 if it is in no cap.
 std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
     std::vector<std::int64_t> copies(surface.points.size(), -1);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {

@@ -15,7 +15,7 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
-void appendBody(std::string& out, const NamedMesh& solid, const MeshesToWrite& meshes) {
+void appendBody(std::string& out, const PlacedMesh& solid, const MeshesToWrite& meshes) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
     const std::vector<scene::Color>& colors = solid.mesh.pointColors;
@@ -44,7 +44,7 @@ std::string x3d(const MeshesToWrite& meshes) {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +
         xmlEscaped(meshes.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
-    for (const NamedMesh& solid : meshes.solids) {
+    for (const PlacedMesh& solid : meshes.solids) {
         meshes.budget.checkTime();
         appendBody(out, solid, meshes);
     }

@@ -27,8 +27,9 @@ struct Face {
     glm::dvec3 middle{0};  // centroid
 };
 
-/// A placement of the text on a face. `middle` is the center of the text, `right` the reading direction, and `height`
-/// the height of a capital letter in millimeters.
+/// A placement of the text on a face. `middle` is the center of the text, `right` the reading direction, `up` the
+/// direction from the feet of the letters to their tops, `normal` the outward normal of the face, `height` the height
+/// of a capital letter, and `depth` the depth of the letters, both in millimeters.
 struct TextPlacement {
     std::uint32_t cell = kNoCell;
     const Lettering* text = nullptr;
@@ -36,7 +37,7 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh, indexed by cell. Omits faces that have more than one boundary loop.
+/// Returns the faces of the mesh, indexed by cell. Omits faces without area, and faces with several boundary loops.
 std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, Face> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -127,7 +128,7 @@ bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, c
     std::vector<Contour> letters;
     std::vector<std::uint32_t> boundary = face.loop;  // the mesh point of each corner of `holed`
     std::vector<std::uint32_t> bottoms;               // the mesh point at the bottom of each corner of `letters`
-    std::vector<std::uint32_t> tops;                  // likewise at the top
+    std::vector<std::uint32_t> tops;                  // the mesh point at the top of each corner of `letters`
     for (const std::uint32_t p : face.loop) holed[0].push_back(flat(mesh.points[p]));
     Mesh result = mesh;
     for (const Contour& outline : placement.text->contours) {
@@ -213,7 +214,8 @@ Mesh LabelText::plate(double size, const Grid& grid) const {
         }
     }
     Mesh mesh = hullOf(corners, grid);
-    // The faces of the box are numbered by axis and side.
+    // The faces of the box are numbered by axis and side: 2 · axis, plus 1 for the side in the positive direction.
+    // Therefore face 5 is the top.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const glm::dvec3 normal = normalOf(mesh, mesh.triangles[t]);
         for (std::uint32_t axis = 0; axis < 3; ++axis) {

@@ -18,8 +18,8 @@ class LabelText {
     /// std::runtime_error if the font cannot be read.
     LabelText(const std::string& name, const std::string& w);
 
-    /// Engraves the text into the face of a convex body that allows the largest letters. Triangles with the same entry
-    /// in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
+    /// Engraves the text into a convex body, on the face where the letters can be largest. Triangles with the same
+    /// entry in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
     /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
     /// too thin, or if the letters would be less than 1 mm high.
     bool engrave(Mesh& mesh, double size, const Grid& grid) const;
@@ -31,7 +31,7 @@ class LabelText {
     Mesh plate(double size, const Grid& grid) const;
 
   private:
-    std::vector<Lettering> versions_;
+    std::vector<Lettering> versions_;  // the text in one line, and in two lines
 };
 
 }  // namespace oval4d::exports

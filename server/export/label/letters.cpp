@@ -88,8 +88,8 @@ class Pen {
     int curve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
         const glm::dvec2 a = out_->back().back();
         const glm::dvec2 d = place(to);
-        // A quadratic Bézier curve equals the cubic one whose control points lie two thirds of the way from its ends to
-        // its own control point.
+        // Converts a quadratic Bézier curve to an equal cubic one. The control points of the cubic curve lie two thirds
+        // of the way from the ends to the control point of the quadratic curve.
         const glm::dvec2 b = degree == 3 ? place(first) : glm::mix(a, place(first), 2.0 / 3);
         const glm::dvec2 c = degree == 3 ? place(second) : glm::mix(d, place(second), 2.0 / 3);
         for (int i = 1; i <= kPieces; ++i) {
@@ -107,7 +107,7 @@ class Pen {
     std::vector<Contour>* out_ = nullptr;
 };
 
-/// Removes repetitions of a point in a closed contour.
+/// Removes consecutive repetitions of a point in a closed contour.
 void removeDuplicates(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

@@ -14,8 +14,8 @@ struct Lettering {
     glm::dvec2 size{0};             ///< width and height of the bounding box
 };
 
-/// Returns the outlines of lines of UTF-8 text, each line centered below the previous one. Returns no contours if no
-/// character of the text has an outline. Throws std::runtime_error if the font cannot be read.
+/// Returns the outlines of lines of UTF-8 text, each line centered below the previous one. The result has no contours
+/// if no character of the text has an outline. Throws std::runtime_error if the font cannot be read.
 Lettering letteringOf(const std::vector<std::string>& lines);
 
 }  // namespace oval4d::exports

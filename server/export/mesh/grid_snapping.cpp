@@ -86,7 +86,7 @@ class HalfEdges {
         }
     }
 
-    /// Moves points that coincide with others to the nearest free points of the grid.
+    /// Moves points that coincide with others to free grid points nearby.
     void separatePoints() {
         std::unordered_set<std::uint64_t> taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
@@ -123,7 +123,7 @@ class HalfEdges {
 
     void pairTwins() {
         struct Side {
-            std::uint64_t ends;  // the smaller one first
+            std::uint64_t ends;  // two points, the one with the smaller index first
             std::uint32_t edge;
             bool upward;
         };
@@ -150,7 +150,7 @@ class HalfEdges {
         }
     }
 
-    // Gives the half-edges around each fan of triangles a point of their own.
+    // Gives each fan of triangles a point of its own, from which the half-edges of the fan start.
     void separateFans(std::span<const glm::dvec3> points) {
         std::vector<bool> seen(origins_.size());
         std::vector<std::uint32_t> pointOf(origins_.size());
@@ -178,8 +178,8 @@ class HalfEdges {
         std::ranges::sort(out);
     }
 
-    // Joins the ends of an edge, if no points except the two opposite to the edge are neighbors of both ends, and this
-    // part of the surface is not a tetrahedron.
+    // Collapses an edge into its origin, and returns true. Returns false and changes nothing if a point other than the
+    // two opposite to the edge is a neighbor of both ends, or if this part of the surface is a tetrahedron.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -216,7 +216,7 @@ class HalfEdges {
     }
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
-    // Replaces an edge by one between the two points opposite to it, unless they are already neighbors or a new
+    // Replaces an edge by one between the two points opposite to it, unless these points are already neighbors or a new
     // triangle would be degenerate.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
@@ -263,11 +263,11 @@ class HalfEdges {
 
     const Grid& grid_;
     const Budget& budget_;
-    std::vector<std::uint32_t> origins_, twins_;  // of the half-edges
+    std::vector<std::uint32_t> origins_, twins_;  // per half-edge: its first point, its twin
     std::vector<bool> removed_;                   // per triangle
-    std::vector<glm::ivec3> at_;                  // of the points, in grid steps
-    std::vector<std::uint32_t> sources_;          // of the points
-    std::vector<std::uint32_t> outgoing_;         // a half-edge from each point; kNone for points that were collapsed
+    std::vector<glm::ivec3> at_;                  // per point: its position in grid steps
+    std::vector<std::uint32_t> sources_;          // per point: the input point from which it was made
+    std::vector<std::uint32_t> outgoing_;         // per point: a half-edge from it; kNone if it was collapsed
     std::vector<std::uint32_t> neighbors_, otherNeighbors_, common_;
 };
 

@@ -24,7 +24,7 @@ struct SnappedSurface {
 /// - Edges whose ends coincide on the grid are collapsed, unless that would join different parts of the surface (the
 ///   link condition: T. Dey et al., "Topology preserving edge contraction", 1999).
 /// - Triangles whose corners lie on a line are removed by flipping their longest edge, where possible.
-/// - Other points that coincide are moved to the nearest free points of the grid.
+/// - Other points that coincide are moved to free grid points nearby.
 /// - Connected parts that are smaller than 4 grid steps along all axes are removed.
 ///
 /// Throws ExportRefused if the time limit is exceeded or a stop is requested, and std::invalid_argument if the surface

@@ -7,9 +7,9 @@
 
 namespace oval4d::exports {
 
-/// Returns the convex hull of points that lie on the grid. The computation uses integers and has no rounding errors, so
-/// that the mesh is closed, 2-manifold and convex for all inputs. Along each axis, the extent of the points must be at
-/// most 2^18 grid steps, or the integers would overflow. Returns an empty mesh if all points lie in one plane.
+/// Returns the convex hull of points that lie on the grid. The computation uses integers and has no rounding errors.
+/// Therefore the mesh is closed, 2-manifold and convex for all inputs. Along each axis, the extent of the points must
+/// be at most 2^18 grid steps; otherwise the integers overflow. Returns an empty mesh if all points lie in one plane.
 Mesh hullOf(const std::vector<glm::dvec3>& points, const Grid& grid);
 
 }  // namespace oval4d::exports

@@ -27,8 +27,8 @@ std::uint64_t keyOf(const glm::ivec3& point) {
     return part(block.z) << 40U | part(block.y) << 20U | part(block.x);
 }
 
-// Returns the position of a cube's corner relative to the cube's lowest corner, or the direction of an edge. `bits` has
-// one bit per axis: 1 for x, 2 for y, 4 for z.
+// Returns the position of a cube's corner relative to the cube's lowest corner, or the direction of an edge, in steps
+// of the field. `bits` has one bit per axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
 // The six tetrahedra of a cube, positively oriented. The corners of each lie on a path from corner 0 to corner 7 that
@@ -72,8 +72,8 @@ class MarchingTetrahedra {
     }
 
   private:
-    // Sets `inside_` for the block at `corner`: which corners of its cubes are inside. The cubes of a block are those
-    // whose lowest corner is in the block, so they also have corners in adjacent blocks.
+    // Sets `inside_` for the block at `corner`: whether each corner of the block's cubes is inside. The cubes of a
+    // block are the cubes whose lowest corner is in the block. Therefore they also have corners in adjacent blocks.
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
@@ -130,7 +130,8 @@ class MarchingTetrahedra {
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // Keeps crossings near a common end of their edges several grid steps apart.
+            // The least distance of a crossing from each end of its edge, as a fraction of the edge. It keeps crossings
+            // on edges with a common end several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
@@ -151,8 +152,9 @@ class MarchingTetrahedra {
     }
 
     using Ids = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
-    // Returns the indices of mesh points on the edges of the block that contains `point`: seven for each point of the
-    // block, kNone where there is none. Creates them on first use.
+    // Returns the table of mesh points of the block that contains `point`. The table has seven entries for each field
+    // point of the block, one for each edge from this point to a point with greater coordinates: the index of the mesh
+    // point on the edge, or kNone. Creates the table on first use.
     Ids& blockIdsOf(const glm::ivec3& point) {
         const std::uint64_t key = keyOf(point);
         if (last_ == nullptr || lastKey_ != key) {

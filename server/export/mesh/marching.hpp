@@ -2,9 +2,9 @@
 // Marching tetrahedra (A. Doi, A. Koide, IEICE Transactions E74, 1991): extracts the surface where a field sampled on a
 // cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
-// tetrahedron is a triangle or a quadrilateral. It has one corner on each edge of the tetrahedron whose ends differ in
-// sign. The polygons around a corner form one ring, because the tetrahedra around the corner's edge do. Therefore the
-// surface is closed and 2-manifold and does not intersect itself, whatever the field is.
+// tetrahedron is a triangle or a quadrilateral. It has one corner on each tetrahedron edge that joins an inside point
+// to an outside point. The polygons around a corner form one ring, because the tetrahedra around that edge form one
+// ring. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever the field is.
 
 #include <array>
 #include <cstdint>

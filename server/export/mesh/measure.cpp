@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// A volume up to this fraction of the cube of the slice's extent, or an area up to this fraction of its square, is a
-// rounding error.
+// With the extent e of a slice, a volume up to this fraction of e³ or an area up to this fraction of e² is a rounding
+// error.
 constexpr double kRoundingError = 1e-12;
 
 struct Mean {
@@ -41,7 +41,7 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1];) {
         const std::uint32_t cell = slices.faceSource[f];
         glm::dvec3 area(0);
-        glm::dvec3 moment(0);  // the sum over triangles of signed area times centroid
+        glm::dvec3 moment(0);  // the sum of the triangles' centroids times their signed areas
         double signedArea = 0;
         for (; f < slices.faceBegin[i + 1] && slices.faceSource[f] == cell; ++f) {
             const auto at = [&](std::uint32_t corner) { return points[slices.corners[corner]] - base; };
@@ -52,8 +52,8 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
                 const glm::dvec3 r = at(c + 1);
                 const glm::dvec3 part = glm::cross(q - p, r - p) / 2.0;
                 ofVolume.add((p + q + r) / 4.0, glm::dot(p, glm::cross(q, r)) / 6);
-                // The area vectors of a planar face are parallel. A triangle whose vector is opposite to the sum so far
-                // counts as negative.
+                // The area vectors of the triangles of a planar face are parallel. A triangle whose vector is opposite
+                // to the sum so far counts as negative.
                 const double size = std::copysign(glm::length(part), glm::dot(part, area) < 0 ? -1.0 : 1.0);
                 area += part;
                 moment += size * (p + q + r) / 3.0;

@@ -9,15 +9,15 @@
 
 namespace oval4d::exports {
 
-/// The measurements of a slice, in the polytope's units. A region that the faces of a star enclose several times counts
-/// as many times, as is usual for the content of star polytopes.
+/// The measurements of a slice, in the polytope's units. A region that the faces of a star enclose n times counts n
+/// times, as is usual for the volume of star polytopes.
 struct SliceMeasurements {
     std::size_t faces = 0;     ///< the number of faces; all loops that were cut from one cell count as one face
     double volume = 0;         ///< 0 for a flat slice
     double area = 0;           ///< surface area; for a flat slice, the area of one side
     bool hasCentroid = false;  ///< false for an empty slice
-    /// The centroid of the volume. If the volume is 0, the centroid of the area; if the area is also 0, that of the
-    /// edges; if the length of the edges is also 0, that of the points.
+    /// The centroid of the volume. If the volume is 0, the centroid of the area; if the area is also 0, the centroid of
+    /// the edges; if the length of the edges is also 0, the centroid of the points.
     glm::dvec3 centroid{0};
 };
 

@@ -9,8 +9,9 @@
 namespace oval4d::exports {
 
 Grid::Grid(double size, double extent) {
-    // A float32 has 24 significant bits, so it represents multiples of extent / 2^23 exactly. size / 131,072 is half a
-    // micrometer for a size of 60 mm.
+    // A float32 has 24 significant bits. Therefore it represents all multiples of a step ≥ extent / 2^23 from −extent
+    // to extent exactly. With a step ≥ size / 2^17 (0.46 µm for a size of 60 mm), the object spans at most 2^17 steps
+    // along each axis, which hullOf() can process.
     const double needed = std::max(size / 131'072, extent / 8'388'608);
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
@@ -21,15 +22,15 @@ glm::dvec3 Grid::snap(const glm::dvec3& point) const {
 }
 
 bool isClosedManifold(const Mesh& mesh) {
-    // `fans` has, for each point, the other two corners of each triangle around the point: the next and the previous
-    // one. In the ring around the point, a triangle with the previous corner c is followed by the triangle with the
-    // next corner c.
+    // `fans` has, for each point, one entry for each triangle around it: the next and the previous corner of the
+    // triangle, counted from the point. In the ring around the point, the triangle whose previous corner is c is
+    // followed by the triangle whose next corner is c. The entries of point p begin at begin[p].
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) begin[i + 1] += begin[i];
-    std::vector<std::array<std::uint32_t, 2>> fans(3 * mesh.triangles.size());  // next, previous corner
+    std::vector<std::array<std::uint32_t, 2>> fans(3 * mesh.triangles.size());  // next and previous corner
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
     for (const auto& t : mesh.triangles) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
@@ -75,7 +76,7 @@ glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 }
 
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
-    constexpr double kLeastCosine = 0.766;  // of 40°
+    constexpr double kLeastCosine = 0.766;  // the cosine of 40°
     const std::size_t count = mesh.triangles.size();
     std::vector<glm::dvec3> across;
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);

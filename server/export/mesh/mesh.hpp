@@ -21,9 +21,9 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffU;
 struct Mesh {
     std::vector<glm::dvec3> points;                       ///< millimeters
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
-    std::vector<std::uint32_t> cells;                     ///< the cell that each triangle was cut from, or kNoCell
+    std::vector<std::uint32_t> cells;                     ///< per triangle: the cell from which it was cut, or kNoCell
     /// For the surface of a field: the color of each point, and the value of the function at each point. Otherwise both
-    /// are empty.
+    /// lists are empty.
     std::vector<scene::Color> pointColors;
     std::vector<float> pointValues;
 
@@ -34,10 +34,10 @@ struct Mesh {
 };
 
 /// One body of a file.
-struct NamedMesh {
+struct PlacedMesh {
     std::string name;
     Mesh mesh;
-    scene::Color color;  ///< the color of the triangles whose cell is kNoCell
+    scene::Color color;  ///< the color of triangles without a cell and of points without a color
     glm::dvec3 at{0};    ///< the position of the mesh's origin in the file, in millimeters; lies on the grid
 };
 
@@ -46,8 +46,9 @@ struct NamedMesh {
 /// equal, and a mesh remains closed for a program that identifies points by their coordinates.
 class Grid {
   public:
-    /// Chooses the step. `size` is the diameter of the object's circumscribed sphere and `extent` the largest absolute
-    /// coordinate in the file, both in millimeters.
+    /// Chooses the step: the smallest power of two that is at least size / 2^17 and extent / 2^23. `size` is the
+    /// diameter of the object's circumscribed sphere and `extent` the largest absolute coordinate in the file, both in
+    /// millimeters.
     Grid(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.
@@ -63,11 +64,11 @@ class Grid {
 /// opposite directions, and the triangles around every point form one ring.
 bool isClosedManifold(const Mesh& mesh);
 
-/// Returns the volume that the mesh encloses; negative if its triangles face inward.
+/// Returns the volume that the mesh encloses, in cubic millimeters; negative if its triangles face inward.
 double volumeOf(const Mesh& mesh);
 
-/// Returns whether the mesh has a volume that rounding cannot have caused: its mean thickness, which is the volume
-/// divided by half the surface area, must exceed 4 grid steps.
+/// Returns whether the volume of the mesh is more than a rounding error: the mean thickness of the mesh, which is the
+/// volume divided by half the surface area, must exceed 4 grid steps.
 bool hasVolume(const Mesh& mesh, const Grid& grid);
 
 /// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.

@@ -58,16 +58,17 @@ class OuterSurface {
     }
 
   private:
-    // A crossing of a line with a triangle: its position on the line, the change of the winding number, and the cell.
+    // A crossing of a line with a triangle. `at` is its position on the line: x in fill(), and in cross() the fraction
+    // of the way from the outside point to the inside point. `windingChange` is the change of the winding number there.
     struct Hit {
         double at;
-        int turns;
+        int windingChange;
         std::uint32_t cell;
     };
 
-    // Returns −1 or 1 if the edge from a to b, projected onto the yz-plane, crosses the ray y = row.y, z > row.z; else
-    // 0. The edge from b to a gives exactly the negative. Therefore, despite rounding, a closed surface crosses every
-    // line along x equally often in both directions.
+    // Returns −1 (toward +y) or 1 (toward −y) if the edge from a to b, projected onto the yz-plane, crosses the ray y =
+    // row.y, z > row.z; else 0. The edge from b to a gives exactly the negative. Therefore, despite rounding, a closed
+    // surface crosses every line along x equally often in both directions.
     int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
         if (a > b) return -signedCrossing(b, a, row);
         const glm::dvec3& p = points_[a];
@@ -91,11 +92,12 @@ class OuterSurface {
             for (int k = least.z; k <= most.z; ++k) {
                 for (int j = least.y; j <= most.y; ++j) {
                     const glm::dvec3 row = field.positionOf({0, j, k});
-                    const int turns = signedCrossing(a, b, row) + signedCrossing(b, c, row) + signedCrossing(c, a, row);
-                    if (turns == 0) continue;
+                    const int windingChange =
+                        signedCrossing(a, b, row) + signedCrossing(b, c, row) + signedCrossing(c, a, row);
+                    if (windingChange == 0) continue;
                     const glm::dvec3 to = row - points_[a];
                     const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;
-                    lines[key(j, k)].push_back({std::clamp(x, box.min.x, box.max.x), turns, triangle.cell});
+                    lines[key(j, k)].push_back({std::clamp(x, box.min.x, box.max.x), windingChange, triangle.cell});
                 }
             }
         }
@@ -106,13 +108,13 @@ class OuterSurface {
             const int k = static_cast<int>(where & 0xffffffffU) - kShift;
             int winding = 0;
             for (std::size_t h = 0; h + 1 < hits.size(); ++h) {
-                winding += hits[h].turns;
+                winding += hits[h].windingChange;
                 if (winding == 0) continue;
                 const int first = field.floorIndex({hits[h].at, 0, 0}).x + 1;
                 const int last = field.floorIndex({hits[h + 1].at, 0, 0}).x;
                 for (int i = first; i <= last; ++i) field[{i, j, k}] = -1;
                 // marchTetrahedra() visits a cube only if the block of its lowest corner exists. Creates that block for
-                // each cube that has one of these points as a corner.
+                // each cube that has one of the points set above as a corner.
                 for (int i = first - 1; i <= last; ++i) {
                     for (const int n : {j - 1, j}) {
                         field.ensureBlock({i, n, k});
@@ -123,7 +125,7 @@ class OuterSurface {
         }
     }
 
-    /// Lists, for each box of a cubic grid of this width, the triangles that may intersect the box.
+    /// Lists, for each box of a grid of cubic boxes of this width, the triangles that may intersect the box.
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
@@ -183,7 +185,7 @@ class OuterSurface {
         std::ranges::sort(hits, {}, &Hit::at);
         int winding = 0;
         for (const Hit& hit : hits) {
-            winding += hit.turns;
+            winding += hit.windingChange;
             if (winding != 0) return {1 - hit.at, hit.cell};
         }
         return {};

@@ -28,18 +28,18 @@ struct Capsule {
 };
 
 /// Adds a capsule to a field of distances. Considers each point that is inside the capsule or shares a cube with a
-/// point inside it. If the distance of the point from the capsule is less than the value at the point, the distance
-/// replaces the value.
+/// point inside the capsule. If the distance of the point from the capsule is less than the value at the point, the
+/// distance replaces the value.
 void include(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
     const glm::ivec3 most = field.floorIndex(glm::max(capsule.from, capsule.to) + reach) + 1;
-    // Visits the lines of points along x; on each line, only the points near the capsule.
+    // Visits the lines of points along x and, on each line, only the points near the capsule.
     const glm::dvec3 along = capsule.to - capsule.from;
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
             const glm::dvec3 row = field.positionOf({0, j, k});
-            // The part of the capsule's axis whose y and z are within reach of this line.
+            // The part of the capsule's axis whose y and z are within reach of this line, as fractions of the axis.
             double low = 0;
             double high = 1;
             for (const int axis : {1, 2}) {
@@ -94,7 +94,7 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
             area += 2 * std::numbers::pi * radii.bar * std::max(0.0, length - 2 * radii.ball);
         }
     }
-    constexpr double kPerSquare = 9;  // triangles per square of the bar radius, as measured
+    constexpr double kPerSquare = 9;  // measured: triangles on an area of radii.bar²
     return kPerSquare * area / (radii.bar * radii.bar);
 }
 

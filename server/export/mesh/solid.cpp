@@ -50,7 +50,7 @@ bool isConvex(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = crossOf(slices, i, f);
-        // The normal of a sliver is unreliable. The tests of its neighboring faces are sufficient.
+        // The normal of a sliver, a face with almost no area, is unreliable. The tests of its neighbors are sufficient.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
         for (std::size_t v = 0; v < count; ++v) {
@@ -60,7 +60,7 @@ bool isConvex(const slicing::SliceSet& slices, int i) {
     return true;
 }
 
-/// The vertices of a slice, snapped to the grid; equal points are merged.
+/// The vertices of a slice in millimeters, rounded to the grid; equal points are merged.
 class Welded {
   public:
     Welded(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
@@ -72,7 +72,7 @@ class Welded {
             index_.push_back(at->second);
         }
     }
-    /// Returns a loop of the slice as indices into points(), without edges of length zero.
+    /// Converts a loop of vertices of the slice to indices into points(), without edges of length zero.
     Loop loop(std::span<const std::uint32_t> corners) const {
         Loop out;
         for (const std::uint32_t corner : corners) {
@@ -119,8 +119,8 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Gri
 }
 
 /// Returns the convex hull of the points of `faces`, and assigns each triangle to the cell of the slice face with the
-/// most similar normal. The hull is used instead of `faces` if points of a convex slice coincide on the grid, because
-/// two faces may then share more than one edge.
+/// most similar normal. `faces` are the rounded faces of a convex slice. The hull is used instead of them if points of
+/// the slice coincide on the grid, because two faces may then share more than one edge.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
     Mesh hull = hullOf(faces.points, grid);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;

@@ -9,10 +9,12 @@ namespace oval4d::exports {
 
 namespace {
 
-// The data of the callbacks of GLU's tessellator, which needs no OpenGL context. The tessellator passes vertex pointers
-// to the callbacks: the pointers that it was given, and those that `combine` creates where contours cross.
+// The data that the callbacks of GLU's tessellator share. (This tessellator needs no OpenGL context.) The tessellator
+// passes pointers to elements of `corners` to the callback `vertex`: the pointers that tessellate() gave to it, and
+// those that the callback `combine` made where contours cross.
 struct Tessellation {
-    // A deque, because pointers to elements must remain valid.
+    // Each corner has its position and its index; corners made by `combine` have the index 0xffffffff. The container is
+    // a deque, because pointers to its elements remain valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
     std::vector<std::uint32_t> out;
     std::vector<Contour> contours;
@@ -31,7 +33,7 @@ void vertex(void* data, void* to) {
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
 
-// Does nothing, but its registration makes GLU output only independent triangles, no strips or fans.
+// Does nothing. However, its registration makes GLU output independent triangles only, not strips or fans.
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {

@@ -14,13 +14,13 @@ using Contour = std::vector<glm::dvec2>;
 
 /// Returns the boundary of the region in which the winding number of `contours` is not 0. The returned contours have
 /// the region on their left: outer ones are counterclockwise, holes clockwise. They do not cross, and no two share an
-/// edge. Returns no contours if the tessellator fails.
+/// edge. Returns an empty list if the tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
-/// Returns counterclockwise triangles that fill the region bounded by the contours. The three indices of a triangle
-/// refer to the concatenated list of the corners of all contours. No corner is added or dropped: each edge of a contour
-/// is an edge of exactly one triangle. Returns no triangles if the contours cross or touch, or if the tessellator
-/// fails.
+/// Returns counterclockwise triangles that fill the region in which the winding number of `contours` is not 0. The
+/// three indices of a triangle refer to the concatenated list of the corners of all contours. No corner is added or
+/// dropped: each edge of a contour is an edge of exactly one triangle. Returns an empty list if the contours cross or
+/// touch, or if the tessellator fails.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours);
 
 }  // namespace oval4d::exports

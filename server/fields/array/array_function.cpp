@@ -23,8 +23,8 @@ Samples checked(Samples samples, const Shape& shape, bool eager) {
 }
 
 // Returns the indices of the first and the last sample on which the values at coordinates from `min` to `max` depend.
-// LatticeAxis::continuousIndex() is monotonic, so the position of every 32-bit float in the interval lies between those
-// of the rounded ends.
+// LatticeAxis::continuousIndex() is monotonic, so the position of every 32-bit float in the interval lies between the
+// positions of the rounded ends.
 std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
@@ -98,7 +98,7 @@ const ScalarFunction& ArrayFunction::forSteps(std::span<const glm::dvec4> steps)
 }
 
 void ArrayFunction::releasePages() const {
-    // To read the pages again takes longer than to interpolate; a smaller array may stay in memory.
+    // Only a large array's pages are released, because reading pages again takes longer than interpolating.
     if (!isEager() && samples_.file()) samples_.file()->releasePages();
 }
 
@@ -106,7 +106,7 @@ std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!isEager()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
-        coarser = bytes + bytes / 10;  // with its own bricks and coarser versions
+        coarser = bytes + bytes / 10;  // the selection, with its own bricks and coarser versions
     }
     return samples_.memoryBytes() + bricks_.memoryBytes() + coarser;
 }

@@ -20,8 +20,8 @@ namespace oval4d::fields {
 /// - Outside the box, the function has the value of the nearest point of the box. Along an axis with one sample, the
 ///   function is constant.
 /// - Samples that are NaN or infinite are missing. The function has no value wherever a missing sample has a nonzero
-///   weight. In a cell with the sample as a corner, this is the case in the interior, and on the faces and edges that
-///   contain the sample, but not on the other faces.
+///   weight. In a cell with a missing sample as a corner, this is the case in the interior, and on the faces and edges
+///   that contain this sample, but not on the other faces.
 /// - At a point with a NaN coordinate, the function has no value.
 /// - Values are computed with 32-bit floats. If all corners of a cell are equal, the value is exactly equal to them;
 ///   otherwise, it may be off by 2⁻¹⁹ of their range. It is the same on all processors, with and without AVX2.
@@ -46,14 +46,15 @@ class ArrayFunction final : public ScalarFunction {
 
     /// See ScalarFunction. The gradient is that of the cell that contains the point; on a face between two cells, that
     /// of the cell with the greater coordinates. Outside the box, it is the gradient at the nearest point of the box,
-    /// so it is continuous there. It is (0, 0, 0, 0) if a corner of the cell is missing. Its component along an axis
-    /// with one sample is 0.
+    /// so it does not jump at the surface of the box. It is (0, 0, 0, 0) if a corner of the cell is missing. Its
+    /// component along an axis with one sample is 0.
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
 
     /// See ScalarFunction. The bounds are those of all bricks that meet the region (see BrickBounds), widened by the
-    /// rounding error of the interpolation. `total` is also false if their difference exceeds the largest float. If the
-    /// minimum or maximum of the region along an axis is NaN, the region extends along the whole axis.
+    /// rounding error of the interpolation. `total` is also false if the difference of the bounds exceeds the largest
+    /// float. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend along the
+    /// whole axis.
     Bounds boundsIn(const Box& region) const override;
 
     /// Returns the coarsest version of this array in which each step is at least one cell long: the array itself, or
@@ -67,9 +68,9 @@ class ArrayFunction final : public ScalarFunction {
 
     EvaluationCost cost() const override { return {10, 25, 100}; }
 
-    /// Returns the sum of the memory of the bricks, of the coarser versions (at most about 1/15 of that of the
-    /// samples), and of the samples unless they are in a mapped file. If the constructor has not read the array,
-    /// returns the maximum that the bricks and the selection may take instead.
+    /// Returns the sum of the memory, in bytes, of the bricks, of the coarser versions (at most about 1/15 of that of
+    /// the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
+    /// read, the sum contains the maximum that the bricks and the selection may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
@@ -77,15 +78,16 @@ class ArrayFunction final : public ScalarFunction {
     std::span<const float> samples() const { return samples_.values(); }
     const Samples& storage() const { return samples_; }
 
-    /// Returns the range of the samples and the number of missing ones: of all samples if rangeIsExact() is true,
-    /// otherwise of about 260,000 of them.
+    /// Returns the range of the samples and the number of missing ones. If rangeIsExact() is true, this includes all
+    /// samples; otherwise, about 260,000 of them.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     bool rangeIsExact() const { return isEager(); }
 
     /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. Along each axis, a
     /// sample is the mean of the interpolant over the length of one coarse cell around it; the first and the last
-    /// sample along the axis are not averaged. Missing samples are left out of a mean; if all are missing, so is the
-    /// mean. Reads all samples once, in order. Returns an equal array if no axis has more than one cell.
+    /// sample along the axis are not averaged. Missing samples are left out of a mean; if all samples of a mean are
+    /// missing, the result is missing. Reads all samples once, in order. Returns an equal array if no axis has more
+    /// than one cell.
     std::shared_ptr<const ArrayFunction> downsampled() const;
 
   private:

@@ -16,9 +16,9 @@ constexpr std::size_t kCells = BrickBounds::kCells;
 constexpr std::size_t kRun = 64;  // the number of bricks along x that are read at once
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
-// An entry packs the minimum and the maximum of a brick into 8 bytes, so that threads can write it atomically. The
-// lowest bit of the maximum is set if and only if a sample is missing; where this changes the maximum, it is rounded
-// up. No entry is 0, because 0 means "unknown".
+// An entry packs the minimum (high half) and the maximum of a brick into 8 bytes, so that threads can write it
+// atomically. The lowest bit of the maximum is set if and only if a sample is missing; where this changes the maximum,
+// it is rounded up. A minimum of 0 is stored as −0, so that no entry is 0, because 0 means "unknown".
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;
@@ -54,7 +54,7 @@ const float* rowAt(const SampledLattice& from, const std::array<std::size_t, 4>&
     return from.samples + at[0] + at[1] * axes[1].stride + at[2] * axes[2].stride + at[3] * axes[3].stride;
 }
 
-// Calls `visit` for each row along x, with a pointer to its first sample and the indices of that sample.
+// Calls `visit` for each row of `range` along x, with a pointer to its first sample and the indices of that sample.
 template <typename Visit>
 void visitRows(const SampledLattice& from, const SampleRange& range, const Visit& visit) {
     auto at = range.first;
@@ -83,8 +83,8 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleRange& ran
     return statistics;
 }
 
-// Reads bricks that follow one another along x; `range` contains all of them. Bricks with missing samples are then read
-// again to count these.
+// Writes the statistics of bricks that follow one another along x; `range` contains all of them. A brick with missing
+// samples is then read again, to leave these samples out of its bounds and to count them.
 void readRun(const SampledLattice& from, const SampleRange& range, std::span<SampleStatistics> bricks) {
     std::array<float, kRun * kCells + 1> low, high, sum;  // sum: of zeros, or NaN if there is a missing sample
     const std::size_t count = range.last[0] - range.first[0] + 1;
@@ -116,7 +116,7 @@ void readRun(const SampledLattice& from, const SampleRange& range, std::span<Sam
     }
 }
 
-// Returns the number of missing samples of a brick, without those that it shares with an earlier brick.
+// Returns the number of missing samples of a brick, without those on its lower faces, which an earlier brick shares.
 std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
     SampleRange range = rangeOf(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
@@ -140,11 +140,11 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
         return;
     }
     slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(Slot));
-    // Unlike new, calloc takes memory only as it is written.
+    // With calloc, unlike with new, the slots take memory only when they are written.
     slots_.reset(static_cast<Slot*>(std::calloc(slotCount_, sizeof(Slot))));  // NOLINT(cppcoreguidelines-no-malloc)
     if (!slots_) throw std::bad_alloc();
     levels_.push_back(bricks);
-    readSelection();
+    sampleStatistics();
 }
 
 void BrickBounds::readAll() {
@@ -169,9 +169,9 @@ void BrickBounds::readAll() {
     }
 }
 
-void BrickBounds::readSelection() {
+void BrickBounds::sampleStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    constexpr double kGoldenRatio = 0.6180339887498949;  // distributes the runs evenly, and not at a fixed distance
+    constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 are evenly spread, not equidistant
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {
         const double part = std::fmod(static_cast<double>(run) * kGoldenRatio, 1.);
@@ -180,7 +180,7 @@ void BrickBounds::readSelection() {
     }
 }
 
-// Adds a level to the pyramid.
+// Adds the next coarser level to the pyramid.
 void BrickBounds::joinBricks() {
     const Level fine = levels_.back();
     Level coarse;
@@ -206,7 +206,7 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const Index& brick) const
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
-    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // of 2⁶⁴; distributes neighbors
+    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; spreads neighbors over the slots
     Slot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);

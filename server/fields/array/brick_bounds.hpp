@@ -31,10 +31,11 @@ struct SampleRange {
 /// face.
 ///
 /// Small arrays are read once, by the constructor. A pyramid of coarser bricks, each of which joins up to 2⁴ bricks of
-/// the level below, then answers queries of any size from at most kMaxEntries entries. Large arrays may be files that
-/// are larger than the memory; a brick of them is read when a query first needs it. A query that would need more than
-/// kMaxLazyBricks gets no bounds, because it would have to read a large part of the file. The bounds of these bricks
-/// are kept in a cache of at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
+/// the level below, then answers queries of any size from at most kMaxEntries entries (an entry is the bounds of one
+/// brick). Large arrays may be files that are larger than the memory; a brick of them is read when a query first needs
+/// it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because it would have to
+/// read a large part of the file. The bounds of these bricks are kept in a cache of at most kMaxLazyBytes, in which a
+/// brick may replace another one. Thread-safe.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -61,13 +62,15 @@ class BrickBounds {
   private:
     using Index = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
 
+    // A level of the pyramid; `entries` are the packed bounds of its bricks, empty unless eager_.
     struct Level {
         Index size;  // the number of bricks along each axis
         std::span<std::uint64_t> entries;
     };
 
     void readAll();
-    void readSelection();
+    /// Adds samples that are spread evenly over the array to the statistics, if the array is too large to read whole.
+    void sampleStatistics();
     void joinBricks();
     std::uint64_t entryAt(const Level& level, const Index& brick) const;
 
@@ -76,17 +79,17 @@ class BrickBounds {
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
     // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
-    // implementation for parallel search": `check` is the brick's index XOR its entry, so that a slot whose halves were
-    // written by different threads matches no index.
+    // implementation for parallel search": `check` is the brick's index XOR its entry. Therefore, a slot whose halves
+    // were written by different threads practically never matches an index.
     struct Slot {
         std::uint64_t check, entry;
     };
     struct Free {
         void operator()(Slot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
     };
-    std::unique_ptr<Slot[], Free> slots_;  // zero-initialized; no brick has the entry 0; null if eager
+    std::unique_ptr<Slot[], Free> slots_;  // zero-initialized: the entry 0 means an empty slot; null if eager
     std::size_t slotCount_ = 0;            // a power of 2
-    std::vector<Level> levels_;            // from fine to coarse; only the first one unless eager_
+    std::vector<Level> levels_;            // from fine to coarse; only the finest one unless eager_
 };
 
 }  // namespace oval4d::fields

@@ -18,8 +18,9 @@ inline bool isFinite(float value) { return std::abs(value) <= std::numeric_limit
 /// The number of rows of a cell. A row is a pair of samples that are neighbors along x.
 inline constexpr std::size_t kRows = 8;
 
-/// For each row of a cell, the distance in memory from the cell's first sample to the row's first sample. Bits 0, 1 and
-/// 2 of the row's index are set if the row lies at the upper end of the cell along y, z and w, respectively.
+/// For each row of a cell, the distance in memory from the cell's first sample to the row's first sample, in samples.
+/// Bits 0, 1 and 2 of the row's index are set if the row lies at the upper end of the cell along y, z and w,
+/// respectively.
 using RowOffsets = std::array<std::size_t, kRows>;
 
 inline RowOffsets rowOffsets(const Lattice& lattice) {
@@ -70,7 +71,8 @@ struct CellPoint {
         return isFinite(weighted) ? weighted : kNoValue;
     }
 
-    /// Returns the interpolated value and its derivatives. If any corner is not finite, none of them is finite.
+    /// Returns the interpolated value and its derivatives. If any corner is not finite, none of these numbers is
+    /// finite.
     Jet jet() const {
         std::array<std::array<float, 4>, 2> ends{};  // at the lower and upper x: value, derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {

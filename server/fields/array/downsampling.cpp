@@ -35,7 +35,8 @@ double hatIntegral(double x) {
     return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
 }
 
-// Returns the weights for an axis with these numbers of samples. The weights of each coarse sample sum to 1.
+// Returns the weights for an axis that is downsampled from `fine` to `coarse` samples. The weights with which fine
+// samples contribute to a coarse sample sum to 1.
 AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
     AxisWeights weights;
     const double length =
@@ -78,7 +79,7 @@ void addTimes(std::span<const float> row, float weight, float* to) {
     for (std::size_t i = 0; i < row.size(); ++i) to[i] += weight * row[i];
 }
 
-// Announces the samples at these distances from `first`.
+// Advises the system that the samples at these distances from the sample `first` are needed soon.
 void prefetchRow(const Samples& samples, std::size_t first, std::span<const std::size_t> places) {
     if (!samples.file()) return;
     constexpr std::size_t kPage = 4096 / sizeof(float);
@@ -133,7 +134,7 @@ Shape selectionShape(Shape shape, std::size_t maxSamples) {
 }
 
 std::vector<float> selectSamples(const Shape& shape, const Samples& samples, const Shape& size) {
-    std::array<std::vector<std::size_t>, 4> places;  // for each axis, the distances in memory from the first sample
+    std::array<std::vector<std::size_t>, 4> places;  // for each axis, the memory offsets of the selected samples
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < 4; stride *= shape[axis++]) {
         const std::size_t last = size[axis] - 1;
@@ -145,7 +146,8 @@ std::vector<float> selectSamples(const Shape& shape, const Samples& samples, con
     const std::span<const float> from = samples.values();
     for (const std::size_t w : places[3]) {
         for (const std::size_t z : places[2]) {
-            // The system reads these rows at the same time, which takes much less time than one after the other.
+            // All rows are announced before the first is read: the system then reads them in parallel, in much less
+            // time.
             for (const std::size_t y : places[1]) prefetchRow(samples, w + z + y, places[0]);
             for (const std::size_t y : places[1]) {
                 for (const std::size_t x : places[0]) selected.push_back(from[w + z + y + x]);

@@ -17,11 +17,13 @@ Shape downsampledShape(const Shape& shape);
 /// `samples`.
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples);
 
-/// Halves the longest axis of `shape` until there are at most `maxSamples` samples, and returns the result.
+/// Halves the number of samples along the longest axis of `shape`, rounded up, until there are at most `maxSamples`
+/// samples in all, and returns the result.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
-/// Returns samples at equal distances, with the first and the last along each axis: those nearest to the positions of a
-/// lattice of the shape `size` in the same box. Reads no other samples.
+/// Returns a selection of `samples` with the shape `size`: for each point of a lattice of this shape in the same box,
+/// the nearest sample. Along each axis with several points, this includes the first and the last sample. `shape` is the
+/// shape of `samples`. Reads no other samples.
 std::vector<float> selectSamples(const Shape& shape, const Samples& samples, const Shape& size);
 
 }  // namespace oval4d::fields

@@ -9,7 +9,7 @@
 
 namespace oval4d::fields {
 
-/// The instruction set that interpolation uses. The results are the same with all of them, bit for bit.
+/// The instruction set that interpolation uses. The results of all instruction sets are the same, bit for bit.
 enum class InstructionSet : std::uint8_t {
     portable,  ///< runs on every processor
     avx2,      ///< must not be used unless fastestInstructions() returns it
@@ -18,10 +18,10 @@ enum class InstructionSet : std::uint8_t {
 /// Returns the fastest instruction set that this processor has.
 InstructionSet fastestInstructions();
 
-/// The samples to interpolate.
+/// A lattice, and the samples at its points, which are interpolated.
 struct SampledLattice {
     const Lattice& lattice;
-    const float* samples;  ///< sampleCount(lattice.shape) numbers
+    const float* samples;  ///< sampleCount(lattice.shape) numbers, in the order of Lattice
 };
 
 /// Writes the values of the quadrilinear interpolant at the points, as ArrayFunction::evaluate() specifies.

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kLanes = ScalarFunction::kLanes;
 
-// While a group of 8 points is computed, the samples of the group kAhead groups later are prefetched. This is done only
-// for every second point, because neighboring points often share cache lines.
+// While a group of 8 points is computed, the samples of the group that comes kAhead groups later are prefetched. This
+// is done only for every second point, because neighboring points often share cache lines.
 constexpr std::size_t kAhead = 4;
 
 // The members of LatticeAxis, each copied to all lanes.
@@ -39,11 +39,11 @@ struct Cells {
     __m256 t[4], nan;
 };
 
-// The samples of one row of four cells each, or numbers interpolated from them. Each pair of numbers belongs to one
-// cell: the number at the lower x, then the one at the upper x.
+// One row of samples from each of four cells, or numbers interpolated from such rows. Each pair of numbers belongs to
+// one cell: the number at the lower x, then the one at the upper x.
 using Pairs = __m256;
 
-// What remains of four cells after interpolation along w, z and y.
+// The results of the interpolation along w, z and y in four cells: the values and the derivatives along y, z and w.
 struct Reduced {
     Pairs value, dy, dz, dw;
 };
@@ -52,14 +52,15 @@ OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
     return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
 }
 
-// Converts whole numbers from 0 to 2^51 to integers: after 2^52 is added, the low bits of the sum are the integer.
+// Converts whole numbers from 0 to 2^51 to integers: after 2^52 is added, the low bits of the floating-point sum are
+// the integer.
 OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
     const __m256d rounder = _mm256_set1_pd(0x1p52);
     const __m256d integers = _mm256_xor_pd(_mm256_add_pd(numbers, rounder), rounder);
     std::memcpy(to, &integers, sizeof integers);
 }
 
-// Finds the cells of the points from index `begin` on.
+// Finds the cells of the kLanes points from index `begin` on.
 OVAL4D_AVX2 inline void locate(const Axis* axes, const PointBatch& points, std::size_t begin, Cells& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
@@ -98,7 +99,8 @@ OVAL4D_AVX2 inline Pairs rowAt(const float* samples, const std::int64_t* first) 
                                           pairAt(samples + first[1]), pairAt(samples + first[0])));
 }
 
-// Interpolates along w, z and y in four cells. y, z and w are the positions in the cells.
+// Interpolates along w, z and y in four cells. `first` are the indices of the cells' first samples; y, z and w are the
+// positions in the cells, each position twice, once for each number of a pair.
 template <bool kGradient>
 OVAL4D_AVX2 inline void reduce(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
                                const __m256& y, const __m256& z, const __m256& w, Reduced& out) {
@@ -164,7 +166,7 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
     const RowOffsets offsets = rowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
-    Cells upcoming[kAhead];  // of the groups from i on; that of group g is at g % kAhead
+    Cells upcoming[kAhead];  // the cells of the groups from point i on; those of group g are at g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
         locate(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {

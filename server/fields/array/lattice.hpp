@@ -11,15 +11,15 @@ namespace oval4d::fields {
 
 /// One axis of a lattice. Maps a coordinate to a position: 0 at the first sample, 1 at the second, and so on.
 struct LatticeAxis {
-    float origin = 0;        ///< the first sample's coordinate, rounded
+    float origin = 0;        ///< the first sample's coordinate, rounded to a float
     float scale = 0;         ///< positions per unit of length; 0 for an axis with one sample
     float shift = 0;         ///< corrects the position for the rounding of `origin`
     float last = 0;          ///< the last sample's position
     float lastCell = 0;      ///< the position of the last cell's first sample; 0 for an axis with one sample
-    std::size_t stride = 0;  ///< from a sample to the next one in memory, in samples; 0 for an axis with one sample
+    std::size_t stride = 0;  ///< the distance of neighbors in memory, in samples; 0 for an axis with one sample
 
     /// Returns the position of a coordinate, clamped to 0 … last; 0 for NaN. Each of the operations rounds
-    /// monotonically, so the function is monotonic: the positions of all points in an interval lie between the
+    /// monotonically, so the function is monotonic: the positions of all coordinates in an interval lie between the
     /// positions of its ends.
     float continuousIndex(float coordinate) const {
         float position = (coordinate - origin) * scale + shift;

@@ -16,8 +16,8 @@ namespace oval4d::fields {
 
 namespace {
 
-/// A mapped file in the list that the signal handler reads. It is free if `begin` is 0. Only atomic members, because a
-/// signal handler may not wait for a mutex.
+/// An entry in the list of mapped files that the signal handler reads. The entry is free if `begin` is 0. The handler
+/// reads only atomic members, because a signal handler may not wait for a mutex.
 struct MappedRange {
     std::atomic<std::uintptr_t> begin = 0;
     std::atomic<std::size_t> size = 0;
@@ -29,7 +29,7 @@ static_assert(std::atomic<std::uintptr_t>::is_always_lock_free && std::atomic<bo
 
 constexpr std::size_t kMaxFiles = 4096;
 std::array<MappedRange, kMaxFiles> mappedRanges;  // global, because signal handlers have no arguments of their own
-std::mutex mappedRangesMutex;                     // held by those who take or free an entry
+std::mutex mappedRangesMutex;                     // locked while an entry is taken or freed
 
 void onBusError(int number, siginfo_t* info, void* /*context*/) {
     const int fault = errno;
@@ -37,9 +37,9 @@ void onBusError(int number, siginfo_t* info, void* /*context*/) {
     for (MappedRange& range : mappedRanges) {
         const std::uintptr_t begin = range.begin.load();
         if (begin == 0 || address < begin || address - begin >= range.size.load()) continue;
-        // One mapping for the whole file, since a process may have only some thousands. The system call itself is safe
-        // in a handler; ThreadSanitizer replaces the function mmap, and takes it for a write that other threads, which
-        // read the file, had to wait for.
+        // One mapping replaces the whole file, because a process may have only a limited number of mappings. The system
+        // call itself is safe in a handler. The function mmap() is not used, because ThreadSanitizer replaces it, and
+        // reports it as a write that races with the threads that read the file.
         const long zeros = syscall(SYS_mmap, begin, range.size.load(), range.protection.load(),
                                    MAP_FIXED | MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (zeros == -1) break;
@@ -47,7 +47,7 @@ void onBusError(int number, siginfo_t* info, void* /*context*/) {
         errno = fault;
         return;
     }
-    std::signal(number, SIG_DFL);  // the instruction is repeated, and ends the process
+    std::signal(number, SIG_DFL);  // the instruction that failed is repeated, and ends the process
 }
 
 void handleBusErrors() {
@@ -127,14 +127,16 @@ MappedFile::~MappedFile() {
 bool MappedFile::isLost() const {
     const MappedRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
-    // Another process, which has mapped the same file, may have found it shorter than it is now.
+    // The file may have been shorter in the meantime, and another process that has mapped it may have read zeros then.
+    // Therefore any change since the mapping counts as a loss.
     struct stat status{};
     return fstat(file_->descriptor(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size_ ||
            status.st_mtim.tv_sec != range.modified.tv_sec || status.st_mtim.tv_nsec != range.modified.tv_nsec;
 }
 
 void MappedFile::releasePages() const {
-    // The pages of a shared mapping of a file are only taken out of the page table; changed ones are still written.
+    // For a shared mapping, this only takes the pages out of the page table; changed pages are still written to the
+    // file.
     if (!isLost()) madvise(at_, size_, MADV_DONTNEED);
 }
 

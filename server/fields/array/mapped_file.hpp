@@ -59,8 +59,9 @@ class MappedFile {
     std::span<std::byte> writableBytes() { return {at_, size_}; }
     int descriptor() const { return file_ ? file_->descriptor() : -1; }
 
-    /// Returns whether a part of the file could not be read; then all its bytes are 0. If this object keeps the file
-    /// open, also returns true if the file is now shorter than the mapping or has been modified since it was mapped.
+    /// Returns whether a part of the file could not be read; in that case, all of bytes() are 0. If this object keeps
+    /// the file open, also returns true if the file is now shorter than the mapping or has been modified since it was
+    /// mapped.
     bool isLost() const;
 
     /// Releases this process's resident pages of the file. They stay in the system's cache of files, so the next access
@@ -75,8 +76,8 @@ class MappedFile {
 
     std::byte* const at_;
     const std::size_t size_;
-    const std::shared_ptr<const FileHandle> file_;  // null if it is not needed
-    const std::size_t entry_;                       // in the list that the signal handler reads
+    const std::shared_ptr<const FileHandle> file_;  // null if the file need not stay open
+    const std::size_t entry_;                       // the index of this file in the list that the signal handler reads
 };
 
 using MappedFilePtr = std::shared_ptr<const MappedFile>;

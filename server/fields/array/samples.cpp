@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// Memory for samples that others follow. Nobody reads what lies behind the last sample, so that it may be written
-/// while the samples before it are read.
+/// Memory that the results of followedBy() share. Each result reads only its own samples, so another thread may write
+/// further samples behind them at the same time.
 struct Samples::Room {
     std::mutex mutex;
     std::vector<float> values;  // guarded by mutex; its capacity does not change
@@ -62,7 +62,7 @@ void Samples::advise(std::size_t first, std::size_t count, int advice) const {
     static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(values_.data() + first) / page * page;
     const auto end = reinterpret_cast<std::uintptr_t>(values_.data() + first + count);
-    // The advice does not change the memory, and it may fail.
+    // A failure is ignored, because the advice affects only the speed.
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 

@@ -28,12 +28,13 @@ class Samples {
     std::size_t memoryBytes() const { return file_ ? 0 : values_.size_bytes(); }
     /// Returns the mapped file that contains the samples; null if they are in memory.
     const MappedFilePtr& file() const { return file_; }
-    /// Returns the position of the first sample in the file, in bytes.
+    /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
     std::size_t offset() const;
 
-    /// Returns these samples, followed by `others`. Normally copies both into new memory, which has room for half as
-    /// many samples again. If these samples are such a result, still have enough room, and nothing has been appended to
-    /// them yet, copies only `others`, and the result shares the memory of these samples. Thread-safe.
+    /// Returns these samples, followed by `others`. Normally copies both into new memory, which has room for 1.5 times
+    /// as many samples. However, if these samples are the result of an earlier call, nothing has been appended to them
+    /// yet, and their memory still has enough room, copies only `others`, and the result shares the memory of these
+    /// samples. Thread-safe.
     Samples followedBy(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
@@ -41,7 +42,7 @@ class Samples {
     enum class Access : std::uint8_t { random, sequential };
     /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
     void expect(Access access) const;
-    /// Advises the system that `count` samples from number `first` on are needed soon. Does nothing for samples in
+    /// Advises the system that `count` samples from the index `first` on are needed soon. Does nothing for samples in
     /// memory.
     void prefetch(std::size_t first, std::size_t count) const;
 

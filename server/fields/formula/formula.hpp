@@ -17,11 +17,11 @@ namespace oval4d::fields {
 /// A formula with the values of its named constants. Copies are cheap.
 class Formula {
   public:
-    /// The named constants, in the order of the text.
+    /// The named constants: first those of a shared formula (see parseFormula()), then those of the text, in its order.
     const std::vector<FormulaConstant>& constants() const { return parsed_->constants; }
 
-    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if it has no constant
-    /// with one of the names; `out_of_range` if a value is not finite, or if the result exceeds a limit.
+    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if a name is not that
+    /// of a constant of the formula; `out_of_range` if a value is not finite, or if the result exceeds a limit.
     Result<Formula> with(std::span<const FormulaConstant> values) const;
 
     /// Returns the formula as normalized text, with the values of its constants. parseFormula() reads it as the same
@@ -29,7 +29,7 @@ class Formula {
     /// text.
     const std::string& text() const { return text_; }
 
-    /// Returns the parsed formula, from which parseSyntax() takes the names that another formula shares.
+    /// Returns the parsed formula. parseSyntax() needs it as `shared` if another formula uses the names of this one.
     const ParsedFormula& parsed() const { return *parsed_; }
 
     const Tape& tape() const { return *tape_; }

@@ -13,12 +13,12 @@ namespace {
 
 static_assert(ScalarFunction::kLanes == kKernelLanes);
 
-// A vector register of floats.
+// As many floats as a vector register holds, aligned for it.
 struct alignas(32) Lanes {
     std::array<float, kKernelLanes> values;
 };
 
-// Returns memory of the thread for at least `size` floats, which stays allocated.
+// Returns memory for at least `size` floats. Each thread has its own memory, which stays allocated.
 float* scratch(std::size_t size) {
     thread_local std::vector<Lanes> memory;
     const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
@@ -26,7 +26,8 @@ float* scratch(std::size_t size) {
     return memory.empty() ? nullptr : memory.front().values.data();
 }
 
-// Copies the points from `begin` on, fewer than kKernelLanes, and repeats the last one until there are kKernelLanes.
+// Returns the points from index `begin` on, which must be fewer than kKernelLanes, and copies of the last one, so that
+// there are kKernelLanes in all.
 using PaddedPoints = std::array<Lanes, 4>;
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
@@ -98,7 +99,7 @@ void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<f
 
 namespace {
 
-// The time of an operation for one point.
+// Returns the estimated time of an operation for one point.
 double nanosecondsOf(Operation operation) {
     switch (operation) {
         case Operation::power:
@@ -142,7 +143,7 @@ Bounds FormulaFunction::boundsIn(const Box& region) const {
         const Bounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
         const int exponent = next.operation == Operation::integer_power ? static_cast<int>(next.number) : 0;
         const Bounds result = intervalOf(next.operation, a, b, exponent);
-        // Not as a whole: see CMakeLists.txt.
+        // The members are copied one by one, not as a whole: fields/CMakeLists.txt says why.
         intervals[next.result].min = result.min;
         intervals[next.result].max = result.max;
         intervals[next.result].total = result.total;

@@ -16,13 +16,13 @@ struct BuiltinFunction {
     std::string_view arguments;  ///< the arguments as shown in help, such as "a, b"
     std::string_view meaning;    ///< the explanation shown in help
     std::size_t minArguments, maxArguments;
-    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);
+    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);  ///< adds a call; returns its node
 };
 
 /// Returns all functions.
 std::span<const BuiltinFunction> functions();
 
-/// Returns the index in functions() of the function with this name.
+/// Returns the index in functions() of the function with this name; an empty optional if there is none.
 std::optional<std::size_t> functionNamed(std::string_view name);
 
 }  // namespace oval4d::fields

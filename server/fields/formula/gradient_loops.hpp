@@ -45,10 +45,10 @@ class GradientLoops : private ValueLoops<Math> {
     using OperandForm = Instruction::OperandForm;
     using Size = std::size_t;
     using Loops::binary;
+    using Loops::choosesFirst;
     using Loops::compute;
     using Loops::halfIntegerPower;
     using Loops::integerPower;
-    using Loops::isFirst;
     using Loops::isHalfInteger;
     using Loops::map;
     using Loops::sign;
@@ -79,7 +79,9 @@ class GradientLoops : private ValueLoops<Math> {
         float value, byA, byB;
     };
 
-    // The chain rule. min and max take the derivative of one operand, even if the other derivative is not finite.
+    // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
+    // operands; they are not 0 everywhere if `byA` and `byB`, respectively. min and max take the derivative of one
+    // operand, even if the other derivative is not finite.
     static void combine(const Instruction& instruction, const Partials& partials, bool byA, bool byB, float* out,
                         const float* ofA, const float* ofB, Size size) {
         const Number zero{0};
@@ -169,11 +171,11 @@ class GradientLoops : private ValueLoops<Math> {
                     },
                     instruction, out, a, b, size);
             case Operation::min:
-                return fill([](float x, float y) { return choice(isFirst(x < y, x), x, y); }, instruction, out, a, b,
-                            size);
+                return fill([](float x, float y) { return choice(choosesFirst(x < y, x), x, y); }, instruction, out, a,
+                            b, size);
             case Operation::max:
-                return fill([](float x, float y) { return choice(isFirst(x > y, x), x, y); }, instruction, out, a, b,
-                            size);
+                return fill([](float x, float y) { return choice(choosesFirst(x > y, x), x, y); }, instruction, out, a,
+                            b, size);
             case Operation::atan2:
                 return arctangent2Partials(instruction, out, a, b, size);
             case Operation::power:
@@ -183,7 +185,9 @@ class GradientLoops : private ValueLoops<Math> {
                 return unaryPartials(instruction, out, a, size);
         }
     }
-    static Partial choice(bool isFirst, float x, float y) { return {isFirst ? x : y, isFirst ? 1.0F : 0.0F, 0}; }
+    static Partial choice(bool choosesFirst, float x, float y) {
+        return {choosesFirst ? x : y, choosesFirst ? 1.0F : 0.0F, 0};
+    }
 
     static void arctangent2Partials(const Instruction& instruction, Partials& out, const float* a, const float* b,
                                     Size size) {

@@ -8,7 +8,7 @@ namespace oval4d::fields {
 
 namespace {
 
-// For larger integer exponents, pow is used, because it is more accurate.
+// For larger integer exponents, pow is used, because it is more accurate than many multiplications.
 constexpr double kMaxIntegerExponent = 64;
 
 bool isPowerOfTwo(double value) {
@@ -72,7 +72,7 @@ Graph::Ref Graph::power(Ref a, double exponent) {
     return node(Operation::power, a, constant(exponent), 0);
 }
 
-// Commutative operations have a constant on the right only.
+// Returns a simpler node, or an empty optional. If the operation is commutative, only `b` may be a constant.
 std::optional<Graph::Ref> Graph::simplified(Operation operation, Ref a, Ref b) {
     const auto left = constantAt(a), right = constantAt(b);
     switch (operation) {

@@ -69,7 +69,7 @@ Bounds negate(const Bounds& a) { return {-a.max, -a.min, a.total}; }
 Bounds multiply(const Bounds& a, const Bounds& b) {
     const bool total =
         a.total && b.total && !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
-    // 0 · ∞ is NaN, but products of 0 and finite numbers near it are 0.
+    // An infinite end stands for large finite numbers, whose products with 0 are 0. `total` covers 0 · ∞, which is NaN.
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
     return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)}, total,
                 kCorrectlyRounded);
@@ -110,13 +110,13 @@ Bounds log(const Bounds& a) {
     return rounded(std::log(std::max(a.min, 0.0)), std::log(a.max), a.total && a.min >= 0, kFunction);
 }
 
-// Returns whether phase + k · period is in `a`, or so near it that rounding errors matter, for an integer k.
+// Returns whether, for some integer k, phase + k · period is in `a`, or so near to `a` that rounding errors matter.
 bool containsPhase(const Bounds& a, double phase, double period) {
     const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
 }
 
-// The interval of sin or cos; the function is greatest at `top`.
+// The interval of `f`, which is sin or cos, and which is greatest at `top`.
 template <typename F>
 Bounds sine(F f, double top, const Bounds& a) {
     constexpr double kLarge = 1e6;  // beyond it, the slack of containsPhase() is too large to be useful
@@ -146,7 +146,8 @@ Bounds hyperbolicCosine(const Bounds& a) {
     return rounded(std::cosh(size.min), std::cosh(size.max), a.total, kFunction);
 }
 
-// a^b for a ≥ 0. On the sides of the rectangle it is monotonic, and it has no extrema inside.
+// The interval of a^b for a ≥ 0. Its extrema over the rectangle of all (a, b) are at the corners, because a^b has none
+// inside, and is monotonic along each side.
 Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
     const bool total = a.total && b.total;
     if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, total};  // −0 to an odd negative power is −∞
@@ -158,7 +159,7 @@ Bounds power(const Bounds& a, const Bounds& b) {
     if (a.min >= 0) return powerOfPositive(a, b);
     const bool mayBeInteger = std::floor(b.max) >= b.min;
     if (!mayBeInteger) {
-        // In C, pow(−∞, b) is pow(∞, b), not NaN.
+        // For these b, which are not integers, pow(−∞, b) is pow(∞, b) in C, not NaN.
         if (a.max < 0 && a.min > -kInfinity) return kEmpty;
         const Bounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
         return powerOfPositive(positive, b);

@@ -3,12 +3,12 @@
 // computes for it.
 //
 // Proof by induction over the operations of a formula: the interval of each operand contains the exact value and the
-// float, and the interval of the result is computed such that it does, too. Let [m, M] contain the exact results for
-// all real operands in the intervals, and so also for the floats among them.
+// float, and the interval of the result is computed such that it contains both, too. Let [m, M] contain the exact
+// results for all real operands in the intervals, and so also for the floats among them.
 //
 // - Addition, subtraction, multiplication, division, squares and square roots are correctly rounded. The float is the
 //   exact result times 1 + δ, |δ| ≤ 2⁻²⁴; it is off by at most 2⁻¹⁵⁰ if it is subnormal, and infinite if it is beyond
-//   the largest float. Therefore the interval is widened by 2⁻²³ of its ends and by 2⁻¹⁴⁸, and an end beyond the
+//   the largest float. Therefore each end is moved outward by 2⁻²³ of its value and by 2⁻¹⁴⁸, and an end beyond the
 //   largest float becomes infinite. This also covers the error of computing m and M in double precision (2⁻⁵³ for
 //   arithmetic, a few times that for the functions of the C library). A correctly rounded result never has the wrong
 //   sign, so an end is never moved beyond 0.
@@ -32,9 +32,9 @@ Bounds intervalOf(double number);
 /// and its `total` is false.
 Bounds intervalOfCoordinate(double min, double max);
 
-/// Returns the interval of the results of an operation, which must be neither `constant` nor `variable`. If the
-/// operation has one operand, `b` is ignored. `exponent` is the exponent of integer_power. In the result, `total` is
-/// false if a result of the operation may be NaN.
+/// Returns the interval of the results of an operation, which must be neither `constant` nor `variable`. `a` and `b`
+/// are the intervals of the operands; `b` is ignored if there is only one. `exponent` is the exponent of integer_power.
+/// In the result, `total` is false if a result of the operation may be NaN.
 Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent);
 
 }  // namespace oval4d::fields

@@ -5,7 +5,8 @@
 
 namespace oval4d::fields {
 
-/// The result of an operation is NaN if an operand is NaN; so pow(1, NaN) and pow(NaN, 0) are NaN, unlike in C.
+/// An operation of a compiled formula on the operands a and b. Its result is NaN if an operand is NaN; so pow(1, NaN)
+/// and pow(NaN, 0) are NaN, unlike in C.
 enum class Operation : std::uint8_t {
     // without operands
     constant,  ///< a number

@@ -60,7 +60,7 @@ std::size_t positionOf(std::string_view text, std::size_t byte) {
 // A recursive-descent parser. Throws SyntaxError, which parseSyntax() catches.
 //   formula = sum [comparison sum] {(;|,) name = sum}   sum = product {(+|−) product}
 //   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
-// The formula and the named expressions are parsed to separate trees, which are joined at the end.
+// The formula and each definition are parsed to separate trees, whose nodes are then collected in one tree.
 class Parser {
   public:
     Parser(std::string_view text, const FormulaLimits& limits, const ParsedFormula* shared)
@@ -144,7 +144,8 @@ class Parser {
             return {add(Kind::power, {value, exponent}), isNegative};
         }
         if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
-        // A negated expression in parentheses: its negation is the last node, which is removed.
+        // The operand is a negation in parentheses. Its node is the last one; it is removed, because the result has the
+        // sign.
         const Index operand = tree_.operands.back();
         tree_.operands.pop_back();
         tree_.nodes.pop_back();
@@ -189,7 +190,7 @@ class Parser {
         constexpr std::string_view kVariables = "xyzwr";
         const std::size_t variable = name == "t" ? 3 : (name.size() == 1 ? kVariables.find(name) : kVariables.npos);
         if (variable != kVariables.npos) {
-            isNumber_ = false;
+            isConstantDefinition_ = false;
             return add(Kind::variable, {}, static_cast<Index>(variable));
         }
         if (contains(kUnits, name)) failAt(start, text::inQuotes(name) + " is expected after a number");
@@ -225,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name that is used before it is defined. Until all definitions are parsed, the index in its nodes is its index
-    // in uses_.
+    // A name that the formula uses, before it is defined. Until all definitions are parsed, SyntaxNode::index of the
+    // nodes of this name is its index in uses_.
     struct NameUse {
         std::string_view name;
         std::size_t byte;
@@ -240,7 +241,7 @@ class Parser {
     }
     // A name in the definition of another name. It must be defined earlier.
     Index earlierName(std::string_view name, std::size_t byte) {
-        isNumber_ = false;
+        isConstantDefinition_ = false;
         if (const auto found = definitionOf(name)) return add(found->kind, {}, found->index);
         failAt(byte, "nothing before this is called " + text::inQuotes(name) + suggestion(name) +
                          "; a definition may use only names that are defined before it");
@@ -258,12 +259,12 @@ class Parser {
         if (!take("=")) fail("'=' is expected after " + name);
         skipBlanks();
         const std::size_t valueStart = at_;
-        isInDefinition_ = isNumber_ = true;
+        isInDefinition_ = isConstantDefinition_ = true;
         tree_ = {};
         tree_.left = sum();
         isInDefinition_ = false;
         if (isAtComparison()) fail("the value of a name may not contain a comparison");
-        if (isNumber_) {
+        if (isConstantDefinition_) {
             defineConstant(std::move(name), start, valueStart);
         } else {
             if (expressions_.expressions.size() - expressions_.sharedExpressions == limits_.expressions)
@@ -385,7 +386,7 @@ class Parser {
         for (const auto& function : functions()) known.push_back(function.name);
         return text::commaSeparated(known);
     }
-    // Explains a name that has no value.
+    // Returns the end of the message about a name that is not defined: how to correct it.
     static std::string explanation(std::string_view name) {
         if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
             std::string product(1, name[0]);
@@ -417,9 +418,9 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     bool isInDefinition_ = false;
-    bool isNumber_ = false;   // whether the current definition contains neither coordinates nor names
-    SyntaxTree tree_;         // of the formula or the current definition
-    SyntaxTree expressions_;  // of the shared definitions and the definitions before the current one
+    bool isConstantDefinition_ = false;  // whether the current definition contains neither coordinates nor names
+    SyntaxTree tree_;                    // of the formula or the current definition
+    SyntaxTree expressions_;             // of the shared definitions and the definitions before the current one
     std::vector<NameUse> uses_;
     std::vector<FormulaConstant> constants_;
 };

@@ -13,11 +13,11 @@ namespace oval4d::fields {
 
 /// Limits on the size of a formula.
 struct FormulaLimits {
-    std::size_t bytes = 2000;         ///< of the text
-    int nesting = 64;                 ///< of parentheses, calls and exponents
+    std::size_t bytes = 2000;         ///< the length of the text
+    int nesting = 64;                 ///< the depth of nested parentheses, calls and exponents
     std::size_t constants = 16;       ///< the number of named constants
     std::size_t expressions = 100;    ///< the number of named expressions
-    std::size_t instructions = 1000;  ///< of the compiled formula
+    std::size_t instructions = 1000;  ///< the number of instructions of the compiled formula
 };
 
 /// Says what is wrong with the text of a formula, and where.
@@ -37,9 +37,10 @@ struct ParsedFormula {
 /// - the variables x, y, z, w (also called t) and r = sqrt(x² + y² + z²), and the functions in functions();
 /// - at most one comparison =, <, <=, > or >=, outside of parentheses: a = b, a < b and a <= b mean the function a − b;
 ///   a > b and a >= b mean b − a, so that the inequality holds where the function is negative;
-/// - names of letters, digits and underscores, which are defined after the formula and begin with a letter. A name is a
-///   constant if its definition contains only numbers. Otherwise, it is a named expression, which may use coordinates
-///   and names defined before it: "a*x^2 + p < b; a=0.7, b=pi/2, p=y^2". ";" and "," mean the same.
+/// - names, which consist of letters, digits and underscores, begin with a letter, and are defined after the formula:
+///   "a*x^2 + p < b; a=0.7, b=pi/2, p=y^2" (";" and "," mean the same). A name is a constant if its definition contains
+///   neither variables nor defined names. Otherwise, it is a named expression, whose definition may use variables and
+///   names defined before it.
 /// If `shared` is not null, the formula may use the names that `shared` defines, but not define them again.
 std::variant<ParsedFormula, FormulaMistake> parseSyntax(std::string_view text, const FormulaLimits& limits,
                                                         const ParsedFormula* shared = nullptr);

@@ -36,7 +36,7 @@ Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<c
         case Kind::constant:
             return graph.constant(constants[node.index].value);
         case Kind::expression:
-            break;  // built already
+            break;  // buildGraph() has built it already
         case Kind::negate:
             return graph.negate(operands[0]);
         case Kind::add:
@@ -131,7 +131,8 @@ class Writer {
     std::string operand(const SyntaxNode& node, std::size_t i, Precedence least) {
         return std::move(written_[tree_.operandsOf(node)[i]]).atLeast(least);
     }
-    // The negation of a product is written −a·b. It is parsed as (−a)·b, which has the same value.
+    // The negation of a product is written −a·b, without parentheses. The parser moves the sign out of the product, so
+    // this gives the same tree.
     Written writeNegation(const SyntaxNode& node) {
         const bool isProduct = written_[tree_.operandsOf(node)[0]].precedence == Precedence::product;
         return {"-" + operand(node, 0, Precedence::product), isProduct ? Precedence::product : Precedence::negation};

@@ -25,7 +25,7 @@ enum class Relation : std::uint8_t { none, equal, less, less_equal, greater, gre
 
 struct SyntaxNode {
     enum class Kind : std::uint8_t {
-        number,  ///< not negative
+        number,  ///< the value is `number`, which is not negative
         pi,
         phi,
         variable,    ///< `index`: 0 … 3 for x … w; 4 for r
@@ -58,9 +58,9 @@ struct SyntaxTree {
 
     std::vector<SyntaxNode> nodes;  ///< each follows its operands, and is an operand of at most one node
     std::vector<std::uint32_t> operands;
-    std::vector<NamedExpression> expressions;  ///< each uses only earlier ones; their nodes come first
+    std::vector<NamedExpression> expressions;  ///< each uses only earlier ones; their nodes come before the formula's
     Relation relation = Relation::none;
-    std::uint32_t left = 0, right = 0;  ///< the sides of the comparison; if there is none, `left` is the formula
+    std::uint32_t left = 0, right = 0;  ///< the root nodes of both sides; without a comparison, only `left` is used
     /// The number of constants and the number of expressions that another formula defines; these come first in their
     /// lists.
     std::size_t sharedConstants = 0, sharedExpressions = 0;
@@ -75,8 +75,8 @@ struct SyntaxTree {
 Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants, Graph& graph);
 
 /// Returns the tree as text, with as few parentheses as possible and, if `isSpaced`, with spaces outside of
-/// parentheses. Parsing this text, with the same `shared` formula, gives the same function. The text never nests more
-/// deeply than the text from which the tree was parsed.
+/// parentheses. Parsing this text, with the same `shared` formula (see parseSyntax()), gives the same function. The
+/// text never nests more deeply than the text from which the tree was parsed.
 std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced);
 
 }  // namespace oval4d::fields

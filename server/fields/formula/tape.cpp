@@ -37,7 +37,8 @@ class Compiler {
     Tape take() { return std::move(tape_); }
 
   private:
-    // The last use of a node that the result does not depend on remains kNever.
+    // Sets lastUse_ of each node to the last node that needs it; it remains kNever if the result does not depend on the
+    // node.
     void findLastUses() {
         lastUse_[result_] = result_;
         for (Ref user = result_ + 1; user-- > 0;) {

@@ -99,9 +99,11 @@ class ValueLoops {
             case Operation::divide:
                 return map([](float x, float y) { return x / y; }, instruction, out, a, b, size);
             case Operation::min:
-                return map([](float x, float y) { return isFirst(x < y, x) ? x : y; }, instruction, out, a, b, size);
+                return map([](float x, float y) { return choosesFirst(x < y, x) ? x : y; }, instruction, out, a, b,
+                           size);
             case Operation::max:
-                return map([](float x, float y) { return isFirst(x > y, x) ? x : y; }, instruction, out, a, b, size);
+                return map([](float x, float y) { return choosesFirst(x > y, x) ? x : y; }, instruction, out, a, b,
+                           size);
             case Operation::mod:
                 return map([](float x, float y) { return x - y * __builtin_floorf(x / y); }, instruction, out, a, b,
                            size);
@@ -115,7 +117,7 @@ class ValueLoops {
 
     // Returns whether min or max returns its first operand. `compared` is whether this operand is the smaller one (for
     // min) or the larger one (for max). Also returns true if the operand is NaN.
-    static bool isFirst(bool compared, float first) {
+    static bool choosesFirst(bool compared, float first) {
         return static_cast<int>(compared) | static_cast<int>(first != first);
     }
     static float step(float x) { return x != x ? x : (x < 0 ? 0.0F : 1.0F); }

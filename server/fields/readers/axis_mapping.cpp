@@ -70,7 +70,8 @@ bool AxisMapping::isInOrder() const {
 }
 
 std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
-    // The slabs have one index of the first `divided` dimensions, and up to `group` indices of the one after them.
+    // Each slab has one index along each of the first `divided` dimensions, up to `group` indices along the next one,
+    // and all indices along the others.
     std::size_t divided = 0, inner = count() / layout_.size[0];
     for (; divided < 3 && inner > maxCount; inner /= layout_.size[divided]) ++divided;
     const std::size_t group = std::clamp<std::size_t>(maxCount / inner, 1, layout_.size[divided]);
@@ -97,7 +98,7 @@ std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
 Result<Samples> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
                                      const NumberFormat& format, const ReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
-    // The remainder of an address shows its alignment.
+    // Floats in memory must be aligned, but the bytes of a file may lie anywhere.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
     if (format.type == NumberType::f4 && native && aligned && format.isPlain() && isInOrder()) {
         if (file.file)

@@ -15,11 +15,12 @@
 
 namespace oval4d::fields {
 
-/// How many numbers are read and converted at once; after each slab, pages of mapped files are released.
+/// The maximum number of numbers in a slab, which is a part of an array that is read and converted at once. After each
+/// slab, pages of mapped files are released.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
-/// The size in bytes of the cache of decompressed chunks, which several slabs need, of the libraries for HDF5 and
-/// NetCDF.
+/// The size in bytes of the cache in which the libraries for HDF5 and NetCDF keep decompressed chunks, because several
+/// slabs may need the same chunk.
 inline constexpr std::size_t kChunkCacheSize = std::size_t{192} << 20U;
 
 /// A dimension of an array in a file.
@@ -29,10 +30,10 @@ struct Dimension {
     bool reversed = false;  ///< whether the coordinate decreases along the dimension
 };
 
-/// Returns the axes of an array's dimensions, in the order of its indices. `axes` has a letter for each dimension: x,
-/// y, z, w, or t for w. If it is empty, "tzyx", "zyx", "yx" or "x" is used. Errors: `bad_field` if there are no
-/// dimensions or more than 4; `out_of_range` if `axes` does not have as many letters as there are dimensions, or
-/// contains another letter, or an axis twice.
+/// Returns the axis, 0 … 3 for x, y, z, w, of each dimension of an array, in the order of its indices. `axes` has a
+/// letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, "tzyx", "zyx", "yx" or "x" is used. Errors:
+/// `bad_field` if there are no dimensions or more than 4; `out_of_range` if `axes` does not have as many letters as
+/// there are dimensions, or contains another letter, or an axis twice.
 Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimensions);
 
 /// A part of an array that is read at once.
@@ -42,7 +43,8 @@ struct Slab {
     std::size_t first;  ///< the index of its first number among the samples of the field
 };
 
-/// Maps the dimensions of an array in a file to the axes of the samples of a field, and thus says where the numbers go.
+/// Maps the dimensions of an array in a file to the axes of the samples of a field. This determines where each number
+/// of the file belongs among the samples.
 class AxisMapping {
   public:
     /// `dimensions` are the dimensions of the array from the slowest to the fastest; their axes must differ. Errors:
@@ -53,23 +55,23 @@ class AxisMapping {
     const Shape& shape() const { return shape_; }
     std::size_t count() const { return sampleCount(shape_); }
 
-    /// Returns the sizes and target strides of the whole array. An array with fewer than 4 dimensions gets leading
-    /// dimensions of size 1.
+    /// Returns the sizes of the array's dimensions, and their strides among the samples. An array with fewer than 4
+    /// dimensions gets leading dimensions of size 1.
     const StridedLayout& layout() const { return layout_; }
-    /// Returns the index of the first number among the samples.
+    /// Returns the index of the array's first number among the samples; 0 unless a dimension is reversed.
     std::size_t first() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
     /// Lattice).
     bool isInOrder() const;
 
-    /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. Each has as many numbers
-    /// as possible, because parts of compressed files are decompressed for each slab.
+    /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. Each slab has as many
+    /// numbers as possible, because each may decompress the same parts of a compressed file again.
     std::vector<Slab> slabs(std::size_t maxCount) const;
 
-    /// Returns the samples whose stored numbers are `bytes`, a part of the file with at least count() numbers. Uses
-    /// them in place if they are in order and are plain 32-bit floats (see NumberFormat::isPlain()) in this processor's
-    /// byte order; otherwise, converts them. Errors: those of SampleBuffer.
+    /// Returns the samples whose stored numbers are `bytes`, a part of the file with at least count() numbers. Uses the
+    /// bytes in place if they are aligned, in order, and plain 32-bit floats (see NumberFormat::isPlain()) in this
+    /// processor's byte order; otherwise, converts them. Errors: those of SampleBuffer.
     Result<Samples> samples(const FileContents& file, std::span<const std::byte> bytes, const NumberFormat& format,
                             const ReadOptions& options) const;
 

@@ -75,7 +75,7 @@ std::vector<std::size_t> cfAxes(std::span<const CfDimension> dimensions) {
 
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings) {
-    constexpr double kUnevenness = 1e-3;  // of a cell, which coordinates may be off
+    constexpr double kUnevenness = 1e-3;  // the accepted distance from an even spacing, in cells
     const double step = at.size() > 1 ? (at.back() - at.front()) / static_cast<double>(at.size() - 1) : 1;
     double largest = 0;  // the largest distance from an even spacing, in cells
     bool monotone = std::isfinite(step) && step != 0 && std::isfinite(at.front());

@@ -15,12 +15,12 @@ struct CfDimension {
     std::string name, axis, standardName, units, positive;
 };
 
-/// Returns the axis of a dimension, 0 … 3 for x, y, z, t, if the file states it.
+/// Returns the axis of a dimension, 0 … 3 for x, y, z, t; an empty optional if the file does not state it.
 std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 
 /// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest. A
-/// dimension gets the axis that the file states, unless an earlier dimension has it. Then the other dimensions, from
-/// the fastest to the slowest, each get the first axis of x, y, z, t that is left.
+/// dimension gets the axis that the file states, unless an earlier dimension has got this axis. Then the other
+/// dimensions, from the fastest to the slowest, each get the first axis of x, y, z, t that is left.
 std::vector<std::size_t> cfAxes(std::span<const CfDimension> dimensions);
 
 /// The first and the last of the coordinates along a dimension.
@@ -28,8 +28,9 @@ struct CoordinateEnds {
     double first, last;
 };
 
-/// Returns the first and the last of the coordinates of the dimension `name`, of which there must be at least one;
-/// nothing if they are not monotonic. Adds a warning if they are not monotonic or not evenly spaced.
+/// Returns the first and the last of `at`, the coordinates along the dimension `name`, which must not be empty. Returns
+/// an empty optional if the coordinates are not monotonic. Adds a warning if they are not monotonic or not evenly
+/// spaced.
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings);
 

@@ -18,11 +18,11 @@ enum class ChunkCodec : std::uint8_t {
     blosc,  ///< Blosc 1, with any of its compressors and shuffles
 };
 
-/// Returns the codec that has this name in Zarr's metadata; nothing if the name is unknown.
+/// Returns the codec that has this name in Zarr's metadata; an empty optional if the name is unknown.
 std::optional<ChunkCodec> chunkCodecNamed(std::string_view name);
 
-/// Decompresses a chunk into `to`, which must have exactly its decompressed size. Memory for the result is never taken
-/// from the chunk's own claim, so a chunk that claims another size is harmless. Error: `bad_field` if the chunk is
+/// Decompresses a chunk into `to`, which must have exactly the size of the decompressed chunk. The size that the chunk
+/// itself states is never used to allocate memory, so a wrong one is harmless. Error: `bad_field` if the chunk is
 /// damaged, too short or too long.
 Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
 

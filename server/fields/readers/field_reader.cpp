@@ -32,7 +32,7 @@ constexpr std::array<FieldFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
                                                {"hdf5", isHdf5Start, readHdf5},
                                                {"nifti", isNiftiOrGzipStart, readNifti}}};
 
-// Removes the number at the start of `rest`, which may have any length, and returns it without leading zeros.
+// Removes the digits at the start of `rest`, however many, and returns them without leading zeros.
 std::string_view takeNumber(std::string_view& rest) {
     const auto digits =
         static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), text::isDigit) - rest.begin());
@@ -59,7 +59,7 @@ bool comesBefore(const std::string& a, const std::string& b) {
 }
 
 // Sets the box of a series. `times` are the values of w of its files.
-void place(ReadField& series, std::span<const double> times, const ReadOptions& options) {
+void setSeriesBox(ReadField& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
@@ -76,7 +76,7 @@ std::span<const FieldFormat> fieldFormats() { return kFormats; }
 
 const FieldFormat* formatOfFile(std::span<const std::byte> start) {
     const auto* const format =
-        std::find_if(kFormats.begin(), kFormats.end(), [&](const FieldFormat& each) { return each.starts(start); });
+        std::find_if(kFormats.begin(), kFormats.end(), [&](const FieldFormat& each) { return each.isStart(start); });
     return format == kFormats.end() ? nullptr : format;
 }
 
@@ -127,7 +127,7 @@ Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOpti
     }
     series.shape[3] = files.size();
     series.samples = all->take();
-    place(series, times, options);
+    setSeriesBox(series, times, options);
     return series;
 }
 

@@ -15,8 +15,8 @@ namespace oval4d::fields {
 
 /// A file format. The functions have no side effects, except on the state of the libraries that they call.
 struct FieldFormat {
-    std::string_view name;                             ///< the name in messages and on the command line
-    bool (*starts)(std::span<const std::byte> start);  ///< whether the bytes are the start of such a file
+    std::string_view name;                              ///< the name in messages and on the command line
+    bool (*isStart)(std::span<const std::byte> start);  ///< whether the bytes are the start of such a file
     Result<ReadField> (*read)(const FileContents& file, const ReadOptions& options);
 };
 
@@ -33,12 +33,12 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start);
 /// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of the format.
 Result<ReadField> readField(const FileContents& file, const ReadOptions& options);
 
-/// Reads files with one time step each as one field. If the values of w that the files state increase from file to
-/// file, w is from the first to the last of these values, evenly spaced; otherwise, w is the number of the file, from 0
-/// on. All files must have the same shape, with one sample along w, and the same box in x, y and z. `options.axes`
-/// names the axes of each file; `options.box` is the box of the whole field. Errors: those of readField(), with the
-/// number of the file; `bad_field` if there are no files or if they differ; `too_large` if there are more than
-/// `options.maxSamples` samples in all.
+/// Reads a series of files, each with one time step, as one field. If the values of w that the files state increase
+/// from file to file, w extends from the first to the last of these values, evenly spaced; otherwise, w is the number
+/// of the file, from 0 on. If the files do not state their boxes, the box is defaultBox(). All files must have the same
+/// shape, with one sample along w, and the same box in x, y and z. `options.axes` names the axes of each file;
+/// `options.box` is the box of the whole field. Errors: those of readField(), with the number of the file; `bad_field`
+/// if there are no files or if they differ; `too_large` if there are more than `options.maxSamples` samples in all.
 Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:

@@ -17,7 +17,7 @@ struct GzipReader::State {
     inflate_state inflate;
     std::span<const std::byte> rest;
 
-    // Gives the library further bytes if it has used those before.
+    // Gives the library the next compressed bytes if it has used all that it got before.
     void refill() {
         if (inflate.avail_in > 0) return;
         const std::size_t count = std::min<std::size_t>(rest.size(), kStep);

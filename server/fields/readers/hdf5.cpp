@@ -22,7 +22,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxDatasets = 10'000;  // that are looked at
+constexpr std::size_t kMaxDatasets = 10'000;  // a file with as many datasets is refused
 
 // An identifier of an object of the library; the destructor closes it.
 class Handle {
@@ -42,8 +42,8 @@ class Handle {
     herr_t (*close_)(hid_t);
 };
 
-// The library calls these functions to get memory for a copy of the file. They return the bytes of the file themselves,
-// which the library only reads, because it opens the file for reading.
+// The library calls these functions to get memory for a copy of the file, and to fill it. There is no copy: they return
+// the bytes of the file themselves. The library only reads these, because it opens the file for reading.
 void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;
@@ -70,7 +70,7 @@ hid_t openBytes(std::span<const std::byte> bytes) {
 
 struct Contents {
     std::vector<std::string> datasets;
-    bool refers = false;  // to other files
+    bool refers = false;  // whether the file refers to other files
 };
 
 // The library calls these functions, so they must not throw.
@@ -106,7 +106,7 @@ std::optional<std::vector<std::size_t>> sizeOfDataset(hid_t dataset) {
     return std::vector<std::size_t>(size.begin(), size.begin() + dimensions);
 }
 
-// Returns how the file stores the numbers; nothing if it is not one of our types.
+// Returns how a file stores numbers of this HDF5 type; an empty optional if the type is none of NumberType.
 std::optional<NumberFormat> formatOf(hid_t type) {
     static constexpr std::array kSigned{NumberType::i1, NumberType::i2, NumberType::i4, NumberType::i8};
     static constexpr std::array kUnsigned{NumberType::u1, NumberType::u2, NumberType::u4, NumberType::u8};
@@ -138,7 +138,8 @@ std::optional<NumberFormat> formatOf(hid_t type) {
     return format;
 }
 
-// Returns the bytes of a dataset; nothing unless it is stored in one piece, without filters, in the file itself.
+// Returns the bytes of a dataset; an empty optional unless it is stored in one piece, without filters, in the file
+// itself.
 std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, hid_t dataset, std::size_t size) {
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation || H5Pget_layout(*creation) != H5D_CONTIGUOUS) return {};

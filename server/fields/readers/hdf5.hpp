@@ -13,11 +13,11 @@ namespace oval4d::fields {
 /// Returns whether the bytes are the start of an HDF5 file. This includes NetCDF-4 files.
 bool isHdf5Start(std::span<const std::byte> start);
 
-/// Reads a dataset with 1 to 4 dimensions of integers, real numbers, or Booleans as h5py writes them.
-/// `options.variable` is its path; if that is empty, the dataset with the most dimensions is read, and of several such,
-/// the first by path. The bytes of a dataset that is stored in one piece are used as in readNpy(), without the library;
-/// other datasets are read by slabs. The box is that of the options, or defaultBox(). NetCDF-4 files are passed to
-/// readNetcdf().
+/// Reads a dataset of integers, real numbers, or Booleans as h5py writes them, with 1 to 4 dimensions.
+/// `options.variable` is its path; if that is empty, the dataset with the most dimensions is read, and if several have
+/// the most, the first of these by path. The bytes of a dataset that is stored in one piece are used as in readNpy(),
+/// without the library; other datasets are read by slabs. The box is that of the options, or defaultBox(). NetCDF-4
+/// files are passed to readNetcdf().
 ///
 /// Refuses files that refer to other files: by external links, external storage or virtual datasets. Loads no plug-ins.
 /// Errors: `bad_field`, `too_large`, `not_found` for the path, `out_of_range` for the other options.

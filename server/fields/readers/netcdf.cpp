@@ -130,7 +130,7 @@ const TypeRow* rowOf(nc_type type) {
 NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     NumberFormat format;
     format.type = row.number;
-    format.bigEndian = std::endian::native == std::endian::big;  // the library converts
+    format.bigEndian = std::endian::native == std::endian::big;  // the library converts to this order
     format.missing = numbersOf(variable, "_FillValue");
     if (format.missing.empty() && !std::isnan(row.fill)) format.missing = {row.fill};
     for (const double number : numbersOf(variable, "missing_value")) format.missing.push_back(number);
@@ -150,7 +150,8 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns whether a variable is a coordinate variable (named like its only dimension) or holds the bounds of one.
+// Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
+// bounds of a coordinate variable.
 bool isCoordinate(const Variable& variable) {
     if (variable.dimensions.empty()) return true;
     const std::string dimension = dimensionName(variable.group, variable.dimensions.front());
@@ -248,7 +249,8 @@ Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, 
     const std::size_t skipped = 4 - variable.dimensions.size();
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
-    // Slabs that have parts of the same chunks follow one another. Files without chunks refuse this.
+    // The cache keeps chunks for the next slab, which often needs the same ones. The call fails for files without
+    // chunks.
     constexpr std::size_t kSlots = 4133;
     static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
     std::vector<std::byte> numbers;

@@ -25,9 +25,9 @@ constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes before th
 constexpr std::size_t kDimensions = 7;
 
 // Reads the numbers of a header by their offsets (see nifti1.h and nifti2.h of the NIfTI reference library).
-class HeaderBytes {
+class HeaderReader {
   public:
-    HeaderBytes(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
+    HeaderReader(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
 
     template <typename Number>
     Number at(std::size_t offset) const {
@@ -46,12 +46,12 @@ class HeaderBytes {
     bool bigEndian_;
 };
 
-// What both versions of the header contain.
+// The content of a header of either version.
 struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;
     std::array<std::int64_t, kDimensions> size{};
-    std::array<double, 5> spacing{};  // the sign of qfac, and the distances along the first four dimensions
+    std::array<double, 5> spacing{};  // qfac (only its sign counts), then the distances along the first four dimensions
     int type = 0, units = 0, qform = 0, sform = 0;
     double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
     std::array<double, 3> quaternion{}, offset{};
@@ -59,16 +59,17 @@ struct NiftiHeader {
     std::string quantity;
 };
 
-// Returns whether the byte order is big-endian; nothing if the first number is the header's length in neither order.
+// Returns whether the byte order is big-endian; an empty optional if the first number is not the header's length in
+// either byte order.
 std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t header) {
     if (start.size() < 4) return {};
     for (const bool bigEndian : {false, true}) {
-        if (HeaderBytes(start, bigEndian).at<std::uint32_t>(0) == header) return bigEndian;
+        if (HeaderReader(start, bigEndian).at<std::uint32_t>(0) == header) return bigEndian;
     }
     return {};
 }
 
-NiftiHeader parse1(const HeaderBytes& bytes) {
+NiftiHeader parse1(const HeaderReader& bytes) {
     NiftiHeader header;
     header.dimensions = bytes.at<std::int16_t>(40);
     for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int16_t>(42 + 2 * i);
@@ -90,7 +91,7 @@ NiftiHeader parse1(const HeaderBytes& bytes) {
     return header;
 }
 
-NiftiHeader parse2(const HeaderBytes& bytes) {
+NiftiHeader parse2(const HeaderReader& bytes) {
     NiftiHeader header;
     header.type = bytes.at<std::int16_t>(12);
     header.dimensions = bytes.at<std::int64_t>(16);
@@ -119,7 +120,7 @@ Result<NiftiHeader> parse(std::span<const std::byte> start) {
     const auto bigEndian = isBigEndian(start, size);
     if (!bigEndian) return badField("the file is not in the format NIfTI");
     if (start.size() < size) return badField("the header of the file is incomplete");
-    const HeaderBytes bytes(start, *bigEndian);
+    const HeaderReader bytes(start, *bigEndian);
     const std::string magic = bytes.textAt(size == kHeader1 ? 344 : 4, 3);
     if (magic == "ni1" || magic == "ni2")
         return badField("the header and the data are in two files; join them into one file .nii");
@@ -163,14 +164,14 @@ std::optional<NumberFormat> formatOf(const NiftiHeader& header) {
     return format;
 }
 
-double distance(const NiftiHeader& header, std::size_t dimension) {
+double spacingAlong(const NiftiHeader& header, std::size_t dimension) {
     const double spacing = std::abs(header.spacing[dimension + 1]);
     return spacing > 0 && std::isfinite(spacing) ? spacing : 1;
 }
 
 using Matrix = std::array<std::array<double, 4>, 3>;  // from indices to coordinates in space
 
-// Returns the orientation by method 3 of nifti1.h, or else by method 2.
+// Returns the orientation by method 3 of nifti1.h, or else by method 2; an empty optional if the file states neither.
 std::optional<Matrix> orientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};
@@ -181,14 +182,14 @@ std::optional<Matrix> orientation(const NiftiHeader& header) {
                    {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c}}};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
-            matrix[i][j] *= distance(header, j) * (j == 2 && header.spacing[0] < 0 ? -1 : 1);
+            matrix[i][j] *= spacingAlong(header, j) * (j == 2 && header.spacing[0] < 0 ? -1 : 1);
         matrix[i][3] = header.offset[i];
     }
     return matrix;
 }
 
-// Returns the axis of space to which each of the first three dimensions of the array is parallel; nothing if one of
-// them is oblique.
+// Returns the axis of space to which each of the first three dimensions of the array is parallel; an empty optional if
+// one of them is oblique.
 std::optional<std::array<std::size_t, 3>> parallelAxes(const Matrix& matrix) {
     constexpr double kTolerance = 1e-3;
     std::array<std::size_t, 3> axes{};
@@ -237,7 +238,7 @@ std::optional<Error> place(const NiftiHeader& header, const ReadOptions& options
     field.box = {glm::dvec4(0), glm::dvec4(0)};
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
         const auto axis = static_cast<glm::length_t>(dimensions[i].axis);
-        double length = distance(header, i) * static_cast<double>(dimensions[i].size - 1);
+        double length = spacingAlong(header, i) * static_cast<double>(dimensions[i].size - 1);
         double first = i == 3 ? (std::isfinite(header.firstTime) ? header.firstTime : 0) : -length / 2;
         if (parallel && i < 3) {
             const auto& row = (*matrix)[dimensions[i].axis];
@@ -253,7 +254,8 @@ std::optional<Error> place(const NiftiHeader& header, const ReadOptions& options
     return {};
 }
 
-// Decompresses the first `size` bytes of a file, of which `unzipped` has the first ones.
+// Returns the first `size` bytes of a decompressed file. `unzipped` has the first of them, which `gzip` has read
+// already.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
                            std::size_t size, const ReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;
@@ -273,7 +275,8 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
     return FileContents::of(MappedFilePtr(std::move(*to)));
 }
 
-// The bytes of the data: those of the file, or decompressed ones.
+// Returns the stored numbers: `size` bytes, from the byte `begin` of the file on. If `gzip` is not null, this is the
+// decompressed file.
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
                             std::size_t begin, std::size_t size, const ReadOptions& options) {
     if (gzip != nullptr) {
@@ -296,7 +299,7 @@ bool isNiftiStart(std::span<const std::byte> start) {
     const std::size_t size = headerSize(start);
     const auto bigEndian = isBigEndian(start, size);
     if (!bigEndian || start.size() < kHeader1) return false;
-    const std::string magic = HeaderBytes(start, *bigEndian).textAt(size == kHeader1 ? 344 : 4, 3);
+    const std::string magic = HeaderReader(start, *bigEndian).textAt(size == kHeader1 ? 344 : 4, 3);
     return magic == "n+1" || magic == "n+2" || magic == "ni1" || magic == "ni2";
 }
 

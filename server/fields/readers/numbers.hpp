@@ -32,8 +32,7 @@ struct NumberFormat {
 };
 
 /// Returns the format of a NumPy type string, such as "<f4": a byte order (< little, > big, = or | that of this
-/// processor), a kind and a size in bytes. Returns nothing if it is not a Boolean, an integer or a real number of one
-/// of the types.
+/// processor), a kind and a size in bytes. Returns an empty optional if the type is not one of NumberType.
 std::optional<NumberFormat> numberFormatOf(std::string_view descr);
 
 /// The sizes of a block of stored numbers, and where the numbers go: relative to the first number, the number with the

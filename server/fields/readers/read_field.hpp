@@ -32,14 +32,14 @@ struct ReadOptions {
     std::string variable = {};    ///< the variable of a NetCDF file, or the path of an HDF5 dataset; if empty, the
                                   ///< one with the most dimensions, and of several such, the first
     std::size_t maxSamples = kMaxSamples;  ///< larger arrays are refused
-    /// The samples of arrays that are larger than this remain in the file or, if they must be converted, are written to
-    /// a file from `newFile`.
+    /// The samples of arrays with more samples than this remain in the file or, if they must be converted, are written
+    /// to a file from `newFile`.
     std::size_t maxInMemory = kMaxSamples;
     NewFile newFile = {};        ///< null if all converted samples are kept in memory
     std::span<float> into = {};  ///< the memory for converted samples, if it has exactly the size of the array
 };
 
-/// A field read from a file. The samples may be in the file's bytes, which they share.
+/// A field read from a file. The samples may lie in the file's bytes, which they then keep valid.
 struct ReadField {
     Shape shape{1, 1, 1, 1};
     Box box;

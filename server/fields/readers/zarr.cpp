@@ -36,8 +36,8 @@ class ChunkReader {
   public:
     ChunkReader(const FolderReader& folder, const ZarrArray& array) : folder_(folder), array_(array) {}
 
-    // Converts all chunks. `stride` are the distances in `to` of neighbors along each dimension, `first` is the place
-    // of the first number. Calls `afterward` now and then.
+    // Converts all chunks. `stride` has, for each dimension, the distance of neighbors in `to`; `first` is the place of
+    // the array's first number in `to`. Calls `afterward` after about every kNumbers numbers.
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {
@@ -87,12 +87,12 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // Returns the numbers along a dimension of a chunk that are within the array.
+    // Returns how many of a chunk's numbers along a dimension are within the array.
     std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
         return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
     }
 
-    // Converts a chunk row by row; the rest of a row may be beyond the end of the array.
+    // Converts a chunk row by row. The end of a row may lie beyond the end of the array; it is left out.
     void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
@@ -102,20 +102,21 @@ class ChunkReader {
     }
 
     void fill(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, float* to) const {
-        // The fill value as a stored number, which is converted like all others.
+        // The fill value is converted like all other stored numbers.
         NumberFormat format = array_.format;
         format.type = NumberType::f8;
         format.bigEndian = std::endian::native == std::endian::big;
         float value = 0;
         convert(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
-        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // as new memory is
+        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // new memory is 0 already
         visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
             for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;
         });
     }
 
-    // Calls `visit` for each stored row that is in the array: with the number of its first item in the chunk, its
-    // place, its length and the distance of its items.
+    // Calls `visit` for each stored row of a chunk that begins within the array, with four numbers: the index in the
+    // chunk of the row's first item, the place of this item relative to that of the chunk, the number of items within
+    // the array, and the distance between their places.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {
@@ -141,8 +142,8 @@ class ChunkReader {
     std::vector<std::byte> chunk_;
 };
 
-// Reads the coordinates of a dimension from the array at `path`. It lies beside the array of the samples and has the
-// dimension's name. Returns nothing if there is none.
+// Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
+// dimension's name. Sets `units` and `stated` by its attributes. Returns an empty optional if there is no such array.
 std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {
@@ -154,7 +155,8 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};
     array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
-    // Times are large numbers that differ little: they are converted relative to the first one.
+    // Times are often large numbers with small differences, which floats would lose. Therefore they are converted
+    // relative to the first one.
     std::vector<float> values(size);
     const double offset = array.format.offset;
     const auto read = [&] { return ChunkReader(folder, array).read({1}, 0, values.data(), [] {}).operator bool(); };
@@ -169,7 +171,7 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     return at;
 }
 
-// Leaves out dimensions of size 1 while there are more than four.
+// Sets `kept` to the dimensions that remain when those of size 1 are left out while there are more than four.
 void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
     kept.resize(array.shape.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});

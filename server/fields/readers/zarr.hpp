@@ -13,22 +13,22 @@
 
 namespace oval4d::fields {
 
-/// Returns the contents of a file in a folder by its relative path, such as "temperature/c/0/0"; nothing if there is no
-/// such file. Errors: those of FileContents::map().
+/// Returns the contents of a file in a folder by its relative path, such as "temperature/c/0/0"; an empty optional if
+/// there is no such file. Errors: those of FileContents::map().
 using FolderReader = std::function<Result<std::optional<FileContents>>(const std::string& path)>;
 
 /// A Zarr folder contains at least one of these files.
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
 
 /// Reads an array from a Zarr folder, chunk by chunk: `options.variable` is its path in the folder. If that is empty,
-/// it is the folder itself, the finest level of a multiscale image (OME-Zarr), or the array with the most dimensions
-/// that the group's consolidated metadata list. Types: Booleans, integers and floats of either byte order. Chunks may
-/// be compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; those that are missing have the fill
-/// value.
+/// the array is the folder itself. If the folder is a group, it is the finest level of a multiscale image (OME-Zarr),
+/// or else the array with the most dimensions that the group's consolidated metadata list. Types: Booleans, integers
+/// and floats of either byte order. Chunks may be compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran
+/// order; in missing chunks, all numbers are the fill value.
 ///
-/// Axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr); coordinates of
-/// consolidated groups, and the scales of multiscale images, give the box. CF attributes apply: units, scale_factor and
-/// so on. Dimensions of size 1 are left out of arrays of more than 4 dimensions.
+/// The axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr). The box is
+/// given by the arrays of coordinates beside the array, or by the scales of a multiscale image. CF attributes apply:
+/// units, scale_factor and so on. Dimensions of size 1 are left out while there are more than 4.
 ///
 /// Errors: `bad_field` if the metadata are not valid, or if a chunk is damaged or does not have the stated size;
 /// `out_of_range` if there is no such variable; `unsupported_format` for other types, compressors and filters;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxZarrDimensions = 32;
 constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // of a decompressed chunk
-constexpr std::size_t kMaxArrays = 10'000;                       // of a group, that are looked at
+constexpr std::size_t kMaxArrays = 10'000;                       // of a group, among which one is chosen
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Error badMetadata(std::string reason) {
@@ -61,7 +61,7 @@ std::string textIn(const json& object, std::string_view name) {
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-// Sizes of dimensions: integers from `least` on.
+// Returns the sizes of dimensions in the member `name`: a list of integers from `least` on.
 Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view name, std::size_t least) {
     const json* const list = member(object, name);
     const auto what = std::string(name);
@@ -91,7 +91,8 @@ std::optional<double> numberIn(const json& value) {
     return {};
 }
 
-// The value of chunks that are missing. Version 3 may give the bits of a float, as a hexadecimal number.
+// Returns the value of missing chunks; NaN if there is none. Version 3 may give the bits of a float, as a hexadecimal
+// number.
 Result<double> fillIn(const json& metadata, const NumberFormat& format) {
     const json* const value = member(metadata, "fill_value");
     if (value == nullptr) return kNone;
@@ -276,7 +277,7 @@ Result<ZarrArray> checked(ZarrArray array) {
     return array;
 }
 
-// Returns whether a path consists of names, so that it cannot lead out of the folder.
+// Returns whether a path consists only of names, without . and .., so that it cannot lead out of the folder.
 bool isInside(std::string_view path) {
     for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());
@@ -344,7 +345,7 @@ Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) cons
     if (!fill) return fill.error();
     array->fill = *fill;
     applyAttributes(*array);
-    // xarray, which alone writes _ARRAY_DIMENSIONS, has its _FillValue there in version 2.
+    // Only xarray writes _ARRAY_DIMENSIONS. In version 2, it stores its _FillValue as fill_value.
     if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill)) array->format.missing.push_back(*fill);
     auto valid = checked(std::move(*array));
     if (!valid) return valid.error();
@@ -405,7 +406,7 @@ Result<ZarrFolder::Choice> ZarrFolder::choose() const {
             return choice;
         }
     }
-    // Consolidated metadata, of which only the paths are used here.
+    // The consolidated metadata contain the metadata of all arrays; only the paths of the arrays are used here.
     std::set<std::string> paths;
     if (const auto group = json("zarr.json"); group && *group) {
         const nlohmann::json* const all = member(**group, "consolidated_metadata");

@@ -16,23 +16,23 @@
 
 namespace oval4d::fields {
 
-/// Returns the text of a file in the folder by its relative path; nothing if there is no such file.
+/// Returns the text of a file in the folder by its relative path; an empty optional if there is no such file.
 using TextReader = std::function<Result<std::optional<std::string>>(const std::string& path)>;
 
 /// An array in a Zarr folder.
 struct ZarrArray {
     std::string path;  ///< of the array's folder, relative to the Zarr folder; empty if they are the same
-    std::vector<std::size_t> shape, chunk;  ///< the sizes of the array and of its chunks, in the order of its indices
-    std::vector<std::size_t> order;         ///< the dimensions as they are stored, from the slowest to the fastest
-    NumberFormat format;                    ///< with scale, offset and missing values by the CF attributes
-    std::optional<ChunkCodec> codec;        ///< nothing if chunks are not compressed
-    double fill;                            ///< the value of chunks that are missing, as a stored number; NaN for none
+    std::vector<std::size_t> shape, chunk;    ///< the sizes of the array and of its chunks, in the order of its indices
+    std::vector<std::size_t> order;           ///< the dimensions as they are stored, from the slowest to the fastest
+    NumberFormat format;                      ///< with scale, offset and missing values as the CF attributes state them
+    std::optional<ChunkCodec> codec;          ///< empty if chunks are not compressed
+    double fill;                              ///< the value of missing chunks, as a stored number; NaN if there is none
     std::vector<std::string> dimensionNames;  ///< empty, or one for each dimension
-    std::string chunkPrefix, separator;       ///< a chunk's name: the prefix, then its indices, separated
+    std::string chunkPrefix, separator;       ///< a chunk's name: the prefix, then its indices with separators between
 
     nlohmann::json attributes;
 
-    /// Returns an attribute that is a text; empty if there is none.
+    /// Returns the value of an attribute that is a string; an empty string if there is none.
     std::string text(std::string_view attribute) const;
     /// Returns the path of the chunk with these indices, relative to the Zarr folder.
     std::string chunkPath(const std::vector<std::size_t>& indices) const;
@@ -55,8 +55,8 @@ class ZarrFolder {
   public:
     explicit ZarrFolder(TextReader read) : read_(std::move(read)) {}
 
-    /// Returns the metadata of an array; nothing if there is none at this path. Errors: `bad_field`,
-    /// `unsupported_format`, `too_large`.
+    /// Returns the metadata of an array; an empty optional if there is none at this path. Errors: `bad_field`,
+    /// `unsupported_format`, `too_large`; `out_of_range` if the path leads out of the folder.
     Result<std::optional<ZarrArray>> array(const std::string& path) const;
 
     /// The path of the array to read if none is requested, and the paths of all arrays of the group.
@@ -68,7 +68,8 @@ class ZarrFolder {
     /// its arrays.
     Result<Choice> choose() const;
 
-    /// Returns the coordinates of an array if the folder is a multiscale image and the array is one of its levels.
+    /// Returns the coordinates of an array; an empty optional unless the folder is a multiscale image and the array is
+    /// one of its levels.
     std::optional<ZarrCoordinates> coordinatesOf(const std::string& path) const;
 
   private:

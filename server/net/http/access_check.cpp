@@ -33,7 +33,7 @@ AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget&
             field("Sec-Fetch-Dest")};
 }
 
-// Returns whether the offered subprotocols include that of the server, or none is offered. Names are case-sensitive
+// Returns whether the offered subprotocols include the one of the server, or none is offered. Names are case-sensitive
 // (RFC 6455, section 11.5).
 bool offersSubprotocol(const std::string& offered) {
     const http::token_list names(offered);
@@ -65,7 +65,8 @@ bool isRestricted(const RequestTarget& target) {
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
                                  Client& client, std::string& cookie) {
     AccessCheckInput fields = accessFieldsOf(request, target);
-    // Everybody may load the page's own files. Behind a proxy that changes Host, their requests have a foreign Origin.
+    // Everybody may load the page's own files. The Origin of such a request is not checked, because it differs from
+    // Host behind a proxy that changes Host.
     if (!isRestricted(target)) fields.origin = {};
     const auto now = Client::Clock::now();
     switch (access.check(fields)) {

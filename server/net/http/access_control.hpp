@@ -24,8 +24,8 @@ struct Authority {
     std::string_view port;  ///< digits, 0 to 65535; empty if none is given
 };
 
-/// Parses the host and port of a URL (RFC 3986, section 3.2). Returns nothing if the text is malformed or contains user
-/// information, a space or a port that is not a number.
+/// Parses the host and port of a URL (RFC 3986, section 3.2). Returns an empty optional if the text is malformed or
+/// contains user information, a space or a port that is not a number.
 std::optional<Authority> parseAuthority(std::string_view text);
 
 /// Decides whether requests are allowed. All requests except health probes are checked. The Origin check keeps out
@@ -33,8 +33,8 @@ std::optional<Authority> parseAuthority(std::string_view text);
 /// does not have it.
 class AccessControl {
   public:
-    /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names. If it is
-    /// empty, only loopback names are allowed if `loopback` is true, and all names if it is false. `origins`: the
+    /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names. If this list
+    /// is empty, only loopback names are allowed if `loopback` is true, and all names if it is false. `origins`: the
     /// allowed foreign origins; the server's own origin is always allowed. In both lists, "*" allows all. `token`: the
     /// required token; empty if none is required.
     AccessControl(std::vector<std::string> hosts, std::vector<std::string> origins, std::string token, bool loopback);
@@ -43,9 +43,9 @@ class AccessControl {
     /// Checks the host, then the origin, then the token, and returns the first failure.
     Verdict check(const AccessCheckInput& fields) const;
 
-    /// Returns whether a page of another site requests something for itself, according to the browser, and the origin
-    /// of that page is not an allowed foreign origin. Such requests must not cause expensive work. A link on such a
-    /// page that a person follows is no such request.
+    /// Returns whether, according to the browser, a page of another site makes the request, and the origin of that page
+    /// is not an allowed foreign origin. Such a request must not cause expensive work. Returns false if a person
+    /// follows a link on such a page.
     bool isCrossSite(const AccessCheckInput& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.

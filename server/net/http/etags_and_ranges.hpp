@@ -18,9 +18,9 @@ struct ByteRange {
     bool satisfiable = true;
 };
 
-/// Parses a Range field for a representation of `size` bytes. Returns nothing if the server should send the whole
-/// representation: for units other than bytes, for several ranges, and for malformed fields. A server may ignore all of
-/// these (RFC 9110, section 14.2).
+/// Parses a Range field for a representation of `size` bytes. Returns an empty optional if the server should send the
+/// whole representation: for units other than bytes, for several ranges, and for malformed fields. A server may ignore
+/// all of these (RFC 9110, section 14.2).
 std::optional<ByteRange> parseRange(std::string_view range, std::size_t size);
 
 }  // namespace oval4d::net

@@ -83,7 +83,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     bool first_ = true, reading_ = false, stopping_ = false;
 };
 
-/// Returns the reply to a request that could not be parsed; nothing if the client has disconnected.
+/// Returns the reply to a request that could not be parsed; an empty optional if the client has disconnected.
 std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
         return refusalReply(431, "the header is too long; at most 16 KiB are allowed\n");
@@ -106,7 +106,7 @@ asio::awaitable<void> HttpConnection::run() {
         registration_.setInUse(false);
         first_ = false;
     }
-    if (!stream_.socket().is_open()) co_return;  // a WebSocket has taken it over, or it was closed
+    if (!stream_.socket().is_open()) co_return;  // a WebSocket has taken the socket over, or it was closed
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
@@ -153,7 +153,8 @@ asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     co_return std::nullopt;
 }
 
-/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For.
+/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For, and checks the limit of that
+/// client's connections. Does nothing if the request does not come from a trusted proxy.
 void HttpConnection::identifyClient(const HttpRequest& request) {
     boost::system::error_code fault;
     const auto peer = stream_.socket().remote_endpoint(fault);
@@ -167,7 +168,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     admission_ = context_.connections.admit(*client_, 1);
 }
 
-/// Returns the reply to every request if this connection exceeds a limit; nothing if it is admitted.
+/// Returns the reply to every request if this connection exceeds a limit; an empty optional if it is admitted.
 std::optional<Reply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
@@ -209,8 +210,9 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     co_return reply;
 }
 
-/// Receives a file and loads it into a session, or restores the state in it. Checks everything before it reads the
-/// body. After a refusal, the connection is closed, because the body was not read.
+/// Receives an uploaded file, and loads it into a session or restores the state in it. Checks everything else before it
+/// reads the body. If the upload is refused before that, the connection is closed, because the body was not read.
+/// Returns whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     Upload upload;
     std::string token;
@@ -256,8 +258,8 @@ Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {
     return uploadErrorReply(applied.error());
 }
 
-/// Checks the header of an upload. If it is refused, returns the reply; otherwise sets `upload`, and `token` to the
-/// session's token.
+/// Checks the header of an upload. If the upload is refused, returns the reply. Otherwise, returns an empty optional,
+/// sets `upload`, and sets `token` to the session's token.
 std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const {
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
@@ -297,8 +299,8 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
                const SessionManager::JoinHandler& done) { sessions->join(credentials, client, done); };
 }
 
-/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Closes the stream if
-/// the client has disconnected or sends too slowly.
+/// Reads the body of a request whose header is valid. Returns the reply if the body is refused, else an empty optional.
+/// Closes the stream if the client has disconnected or sends too slowly.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
     MinReadRate rate(options());
@@ -407,7 +409,7 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
         const auto self = weak.lock();
         if (!self) return;
         if (reason == ConnectionRegistry::EndReason::stopping) {
-            self->stop();
+            self->closeForShutdown();
         } else {
             self->drop();
         }

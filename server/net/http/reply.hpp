@@ -19,26 +19,26 @@ struct Reply {
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// Returns a reply that caches must not keep without asking.
-Reply uncachedReply(std::string type, SharedBytes body, unsigned status = 200);
+/// Returns a reply that caches must not use again without asking the server (Cache-Control: no-cache).
+Reply revalidatedReply(std::string type, SharedBytes body, unsigned status = 200);
 
-/// Returns such a reply with a text of the type `type`.
+/// Like revalidatedReply(), with a text as the body. `type`: its media type.
 Reply textReply(std::string type, std::string body, unsigned status = 200);
 
-/// Returns a reply whose body is a message of the protocol.
+/// Like textReply(), with a JSON message of the oval4d protocol as the body.
 Reply jsonReply(std::string message);
 
-/// Returns a reply with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
+/// Like textReply(), with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
 /// derived from the error code.
 Reply errorReply(const Error& error, unsigned status = 0);
 
 /// Returns a reply with a plain text and no other headers, for requests that are refused before a route answers them.
 Reply refusalReply(unsigned status, std::string text);
 
-/// Returns such a reply with the status and the reason of a fault in the request's header.
+/// Like the function above, for a fault in the request's header: the reply has its status and its reason.
 Reply refusalReply(const HttpError& fault);
 
-/// Returns such a reply with status 429, which tells the client to wait for ten seconds.
+/// Like refusalReply(), with status 429 and a header field that tells the client to wait for ten seconds.
 Reply tooManyReply(std::string text);
 
 }  // namespace oval4d::net

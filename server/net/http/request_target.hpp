@@ -17,8 +17,8 @@ struct RequestTarget {
 };
 
 /// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
-/// Decodes percent escapes; see session::parseQuery(). Returns nothing if an escape is malformed, the authority is
-/// invalid, or the path does not begin with a slash.
+/// Decodes percent escapes; see session::parseQuery(). Returns an empty optional if an escape is malformed, the
+/// authority is invalid, or the path does not begin with a slash.
 std::optional<RequestTarget> parseRequestTarget(std::string_view text);
 
 }  // namespace oval4d::net

@@ -26,9 +26,9 @@ enum class BodyRule : bool {
     required,  ///< the header must state the length of the body
 };
 
-/// Validates a request header; returns nothing if it is valid. A valid header has at most one Host, Origin and
-/// Content-Length field, and announces no chunked body. After a refusal, the connection must be closed, because a proxy
-/// may disagree about where the request ends (request smuggling).
+/// Validates a request header; returns an empty optional if it is valid. A valid header has at most one Host, Origin
+/// and Content-Length field, and announces no chunked body. After a refusal, the connection must be closed, because a
+/// proxy may disagree about where the request ends (request smuggling).
 std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule body);
 
 /// Returns the length in bytes that a valid header announces for the body; 0 if it announces no body. Returns the
@@ -38,8 +38,8 @@ std::size_t bodyLength(const HttpRequest& request);
 /// Returns whether the request asks for an upgrade to WebSocket.
 bool isWebSocketUpgrade(const HttpRequest& request);
 
-/// Validates a WebSocket handshake (RFC 6455, section 4.2.1), but not its path or subprotocol; returns nothing if it is
-/// valid.
+/// Validates a WebSocket handshake (RFC 6455, section 4.2.1), but not its path or subprotocol; returns an empty
+/// optional if it is valid.
 std::optional<HttpError> validateHandshake(const HttpRequest& request);
 
 /// Returns the values of all fields with this name, joined by commas (RFC 9110, section 5.3); an empty string if there

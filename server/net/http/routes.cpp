@@ -69,8 +69,8 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
     return pipeline::checkViewport(viewport, limits);
 }
 
-/// Returns the value of the header field Export-Warnings: the warnings, which contain no semicolons, separated by them.
-/// Minus signs are hyphens, because clients read header fields as ASCII or ISO 8859-1.
+/// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons, which they do not
+/// contain. Replaces minus signs by hyphens, because clients read header fields as ASCII or ISO 8859-1.
 std::string warningsField(const std::vector<std::string>& warnings) {
     std::string value;
     for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
@@ -92,7 +92,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         scene::Viewport viewport,
                                                                         const ClientPtr& client, Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // a PNG file is rarely larger
+        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // PNG files are rarely larger
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
@@ -160,8 +160,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// Returns the state that a query describes; `others` are the names that it may have beside. Builds the polytope on a
-/// worker if necessary. Throws what runOnPool() throws.
+/// Returns the state that a query describes. `others`: the names of further parameters that the query may have. Builds
+/// the polytope on a worker if necessary. Throws what runOnPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
                                                       std::span<const std::string_view> others, ClientPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
@@ -202,7 +202,7 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr c
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
             pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
         if (!png) co_return countedError(kTooManyBytes);
-        co_return uncachedReply("image/png", std::move(*png));
+        co_return revalidatedReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
         co_return countedError(kTooManyJobs);
     } catch (const std::exception& fault) {
@@ -222,7 +222,7 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
             pipeline::exportCost(*requested, *exported));
         if (!*made) co_return countedError(made->error());
         const FinishedFile& finished = **made;
-        Reply answer = uncachedReply(format.mediaType, finished.bytes);
+        Reply answer = revalidatedReply(format.mediaType, finished.bytes);
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back("Content-Disposition",

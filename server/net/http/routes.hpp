@@ -24,7 +24,7 @@ class Routes {
     Routes(Services services, const WebFiles& files, const Readiness& readiness, const SessionManager& sessions)
         : services_(services), files_(files), readiness_(readiness), sessions_(sessions) {}
 
-    /// The parts of a request that the routes use.
+    /// The parts of a request that the routes use. Header fields that the request lacks are empty.
     struct ParsedRequest {
         std::string method;
         RequestTarget target;

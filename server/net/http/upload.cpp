@@ -23,7 +23,7 @@ namespace {
 constexpr std::string_view kSessions = "/api/v1/sessions/", kFields = "/fields/", kMoments = "/moments",
                            kState = "/state";
 
-// The number of bytes to reserve at a time, so that reading a few bytes does not lock the account each time.
+// The number of bytes to reserve in advance, so that the account is not locked for each small part of a body.
 constexpr std::size_t kReserved = 1U << 20U;
 
 const Error kNoUpload{ErrorCode::not_found,
@@ -31,7 +31,8 @@ const Error kNoUpload{ErrorCode::not_found,
                       "with POST to /api/v1/sessions/{session}/fields/{name}/moments; a picture or a state is restored "
                       "with PUT to /api/v1/sessions/{session}/state"};
 
-/// Sets the member of `load` that a query parameter specifies. Returns an error if the parameter is unknown or invalid.
+/// Sets the member of `load` that a query parameter specifies. Returns an error if the parameter is unknown or invalid,
+/// else an empty optional.
 std::optional<Error> setMember(session::LoadObject& load, const std::string& name, const std::string& value) {
     if (name == "format") {
         load.format = value;

@@ -21,7 +21,7 @@ namespace oval4d::net {
 /// A parsed upload request, without the file.
 struct Upload {
     std::string session;                      ///< id of the session
-    std::optional<session::LoadObject> load;  ///< without the file; nothing if the file contains a state
+    std::optional<session::LoadObject> load;  ///< without the file; empty if the file contains a state
 };
 
 /// Returns whether requests with this method and path upload a file, and therefore have a body: PUT and POST to a path
@@ -29,22 +29,23 @@ struct Upload {
 bool isUpload(std::string_view method, std::string_view path);
 
 /// Parses a request, for which isUpload() must be true. PUT …/fields/{name} loads a field; POST …/fields/{name}/moments
-/// adds time steps to a loaded field. PUT …/state, without a query, restores the state in a picture or a `state`
-/// message. Otherwise, the query may have `format`, `axes`, `box`, `variable`, `values` and `values_variable`; the
-/// server's `token` is ignored. Errors: `not_found` for any other path; `unsupported_format` if the format is not an
-/// array format; `bad_message` for an unknown or repeated name in the query; those of session::parseBox() and
-/// session::checkLoad().
+/// adds time steps to a loaded field. The query of these requests may have `format`, `axes`, `box`, `variable`,
+/// `values` and `values_variable`. PUT …/state restores the state in a picture or a `state` message; its query must be
+/// empty. The server's `token` in a query is ignored. Errors: `not_found` for any other path; `unsupported_format` if
+/// the format is not an array format; `bad_message` for an unknown or repeated name in the query; those of
+/// session::parseBox() and session::checkLoad().
 Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
-/// The maximum number of bytes of a picture or a `state` message. The largest picture that oval4d makes is smaller.
+/// The maximum number of bytes of an uploaded picture or `state` message. The largest picture that oval4d makes is
+/// smaller.
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
-/// Returns the command that restores the state in an uploaded file, which may have `maxMessage` bytes. Errors: those of
-/// wire::setFromFile(); `bad_field` if the file is empty.
+/// Returns the command that restores the state in an uploaded file. `maxMessage`: the maximum number of bytes of the
+/// `state` message in it. Errors: those of wire::setFromFile(); `bad_field` if the file is empty.
 Result<session::Set> stateIn(const fields::FileHandle& file, std::size_t maxMessage);
 
-/// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format` and 429 for
-/// `too_many`.
+/// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format`, and with
+/// status 429 and a time to wait for `too_many`.
 Reply uploadErrorReply(const Error& error);
 
 /// The body of an upload while it is received: a file in memory, whose bytes are reserved on the client's account. The

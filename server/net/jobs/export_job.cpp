@@ -9,7 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Counts a file as being made as long as this object exists; then records how long it took, if it succeeded.
+/// Counts a file in Metrics::filesUnderWay while this object exists. At the end, records how long the file took, if
+/// markSucceeded() was called.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

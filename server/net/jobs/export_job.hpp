@@ -19,12 +19,12 @@ struct FinishedFile {
     std::vector<std::string> warnings;
 };
 
-/// The file, or an error; empty only until the job is done.
+/// The file, or an error; an empty optional only until the job is done.
 using ExportResult = std::optional<Result<FinishedFile>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
-/// the last copy of the SharedBytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that the
-/// account has no room.
+/// the last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that
+/// the account has no room.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
                                                           const exports::ExportRequest& request,
                                                           const ClientPtr& client);

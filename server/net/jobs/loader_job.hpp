@@ -10,7 +10,7 @@
 
 namespace oval4d::net {
 
-/// Returns a job for a worker pool that calls ObjectLoader::loadPendingObject() of `loader`.
+/// Returns a job for a worker pool that calls loadPendingObject(stop) of `loader`.
 inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
                                                                    std::stop_token stop = {}) {
     return [loader, stop = std::move(stop)](std::size_t /*worker*/) {

@@ -1,5 +1,5 @@
 #pragma once
-// Parses long messages on workers.
+// Parses long messages on workers. A message is long if it has more than Options::maxRequestBytes bytes.
 
 #include <cstddef>
 #include <functional>
@@ -15,7 +15,7 @@ namespace oval4d::net {
 /// The result of parsing a message.
 using Parsed = std::variant<wire::Request, wire::BadRequest>;
 
-/// Returns the error for a message that is longer than messages of its type may be.
+/// Returns the error for a message that is longer than messages of its type may be. It states the maximum lengths.
 Error tooLong(const Options& options);
 
 /// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other

@@ -9,8 +9,8 @@ CriticalSearchRun::CriticalSearchRun(std::weak_ptr<Peer> by, const session::Stat
       arguments_(session::criticalArguments(state)),
       whenWorkersStop_(std::move(workersStop), RequestStop{stop_}) {}
 
-std::shared_ptr<CriticalSearchRun> CriticalSearches::begin(const std::shared_ptr<Peer>& by, const session::State& state,
-                                                           std::stop_token workersStop) {
+std::shared_ptr<CriticalSearchRun> CriticalSearches::add(const std::shared_ptr<Peer>& by, const session::State& state,
+                                                         std::stop_token workersStop) {
     std::erase_if(searches_, [](const auto& each) { return each.expired(); });
     auto search = std::make_shared<CriticalSearchRun>(by, state, std::move(workersStop));
     searches_.push_back(search);

@@ -1,5 +1,5 @@
 #pragma once
-// The searches for critical values of w in a session.
+// The searches of a session for critical values of w, where sections change their type.
 
 #include <memory>
 #include <stop_token>
@@ -14,11 +14,11 @@ namespace oval4d::net {
 /// A queued or running search for critical values of w.
 class CriticalSearchRun {
   public:
-    /// `by`: the connection that requested it, or null. The search stops when the workers are to stop.
+    /// `by`: the connection that requested the search, or null. `workersStop`: its stop request stops the search, too.
     CriticalSearchRun(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
-    /// Returns what the result depends on.
+    /// Returns the arguments that determine the result of the search.
     const session::CriticalArguments& arguments() const { return arguments_; }
     std::stop_token stopToken() const { return stop_.get_token(); }
     void stop() { stop_.request_stop(); }
@@ -37,12 +37,13 @@ class CriticalSearchRun {
 /// The searches of a session. Not thread-safe.
 class CriticalSearches {
   public:
-    /// Begins a search for the critical values of w of a state. It is registered here as long as the caller keeps it.
-    std::shared_ptr<CriticalSearchRun> begin(const std::shared_ptr<Peer>& by, const session::State& state,
-                                             std::stop_token workersStop);
-    /// Ends the searches that this connection has requested.
+    /// Registers a search for the critical values of w of a state. The caller must run the search, and keep the
+    /// returned pointer as long as it runs.
+    std::shared_ptr<CriticalSearchRun> add(const std::shared_ptr<Peer>& by, const session::State& state,
+                                           std::stop_token workersStop);
+    /// Requests a stop of the searches that this connection has begun.
     void stop(const std::shared_ptr<Peer>& by);
-    /// Ends the searches whose results this state does not need.
+    /// Requests a stop of the searches whose results this state does not need.
     void stopOthers(const session::State& state);
 
   private:

@@ -1,13 +1,14 @@
 #pragma once
-// When pictures of fields are drafts.
+// Decides when the pictures of fields are drafts, which have a lower quality.
 
 #include <chrono>
 #include <optional>
 
 namespace oval4d::net {
 
-/// Tells whether changes of a session follow each other so quickly that pictures of a field must be drafts to follow
-/// fast: from the second of two changes within kBurst until the session has rested for kRest.
+/// Tells whether pictures of a field must be drafts (slicing::Quality::draft), because the session changes in quick
+/// succession. A period of quick changes begins with a change that follows another one within kBurst. It ends when the
+/// session has not changed for kRest, or with a change that is not quick.
 class DraftTiming {
   public:
     using Clock = std::chrono::steady_clock;
@@ -28,7 +29,7 @@ class DraftTiming {
     void rest(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
 
     bool isQuick() const { return isQuick_; }
-    /// Returns the time at which the session reached its revision.
+    /// Returns the time at which the session reached its current revision.
     Clock::time_point changed() const { return changed_; }
     /// Returns the time at which rest() ends a period of quick changes, unless there is another change.
     Clock::time_point restEnds() const { return changed_ + kRest; }

@@ -13,11 +13,11 @@
 
 namespace oval4d::net {
 
-/// Sends an `error` message, and counts it. `id` is that of the request, if it answers one.
+/// Sends an `error` message, and counts it. `id`: the id of the request that it answers; empty if it answers none.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Logs that a picture of a state could not be made, and returns the error for the client: that its file is lost, which
-/// is no fault of the server, or else `otherwise`.
+/// Logs that a picture of a state could not be made because of `why`, and returns the error for the client. If the file
+/// of the state's field can no longer be read, which is no fault of the server, this is `bad_field`; else `otherwise`.
 Error pictureError(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                    const std::exception& why, const Error& otherwise);
 

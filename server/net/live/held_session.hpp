@@ -17,15 +17,16 @@ class HeldSession {
 
     const ClientPtr& client() const { return client_; }
 
-    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed the limit, forgets
-    /// the older half of the undo steps. `objectsChanged`: whether the session may have other objects than before.
+    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
+    /// account, forgets the older half of the undo steps. `objectsChanged`: whether the session may have other objects
+    /// than before.
     void updateReservation(bool objectsChanged);
 
     session::Session value;
 
   private:
     const ClientPtr client_;
-    std::size_t objectMemory_;             // session::ownObjectMemory() of the session
+    std::size_t objectMemory_;             // for objectMemory_ and the memory of the history
     ByteBudget::Reservation reservation_;  // of objectMemory_ and the memory of the history
 };
 

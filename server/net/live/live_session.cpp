@@ -39,7 +39,7 @@ Message doneMessage(LiveSession::RequestId id, std::uint64_t revision) {
     return textMessage(wire::doneMessage(id, revision));
 }
 
-/// The completion handler of a coroutine of a session, which keeps the session alive until then.
+/// The completion handler of a session's coroutine. It keeps the session alive until the coroutine has ended.
 struct KeepAlive {
     std::shared_ptr<LiveSession> session;
     void operator()(const std::exception_ptr& /*failure*/) const {}
@@ -152,7 +152,7 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
 
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id) {
     if (id) peer->send(doneMessage(id, revision()));
-    streams_->shown(*peer, shown.revision);
+    streams_->pictureShown(*peer, shown.revision);
     co_return;
 }
 
@@ -183,7 +183,7 @@ asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyO
     co_return applied;
 }
 
-/// Returns a loader that defers slow work.
+/// Returns a loader that defers slow work (ObjectLoader::Mode::deferred).
 std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
     const session::CriticalSearch search{&services_.critical, services_.options.file.time};
     return std::make_shared<session::ObjectLoader>(services_.options.session, services_.polytopes,
@@ -212,7 +212,8 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
             std::shared_ptr<CriticalSearchRun> search;
             if (loader->isSearchPending()) {
                 search = beginSearch(peer);
-                // The client's next message waits for this command, so otherwise nothing would be read from it.
+                // Without this call, nothing would be read from the client, because its next message waits for this
+                // command.
                 if (peer) peer->watchWhileExecuting();
             }
             if (auto refused = co_await loadPending(by, loader, std::move(search))) {
@@ -234,7 +235,7 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(Clock::now());
     searches_.stopOthers(session_.current);
-    // The draft of a field that is larger than memory comes much sooner than the first complete picture.
+    // If a field is larger than memory, its draft comes much sooner than its first complete picture.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) streams_->beginDrafts();
     scheduleSave();
@@ -254,11 +255,11 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
 /// Begins a search for the critical values of w of the current state.
 std::shared_ptr<CriticalSearchRun> LiveSession::beginSearch(const std::shared_ptr<Peer>& peer) {
     assertOnStrand();
-    return searches_.begin(peer, session_.current, services_.exportWorkers.stopToken());
+    return searches_.add(peer, session_.current, services_.exportWorkers.stopToken());
 }
 
-/// Builds or reads the loader's pending object on a worker, or runs its `search`, which is otherwise null. Returns an
-/// error if there is no room for the result.
+/// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it; `search` is then
+/// its registration, otherwise null. Returns an error if there is no room for the result, else an empty optional.
 asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
                                                                std::shared_ptr<session::ObjectLoader> loader,
                                                                std::shared_ptr<CriticalSearchRun> search) {
@@ -318,7 +319,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
             co_await answerWithFile(peer, get.file, id);
             break;
         case wire::GetTarget::critical:
-            // The client's further messages do not wait for it.
+            // The client's further messages do not wait for this answer.
             asio::co_spawn(strand_, answerWithCritical(peer, id), KeepAlive{shared_from_this()});
             break;
     }

@@ -28,8 +28,8 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value, applies commands, answers requests, and saves the session. Every
-/// command is applied when it arrives; PictureStreams sends the clients what it has changed. Its data is used only on
-/// its strand. Public functions may be called from any thread.
+/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. The
+/// data is used only on the session's strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
@@ -46,8 +46,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
-    /// Adds a client, or changes its stream if it was added before, and sends it the message `welcome`. The state and a
-    /// picture follow.
+    /// Adds a client, or changes its stream if it was added before. Sends the client the message `welcome`; the state
+    /// and a picture follow.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
@@ -64,8 +64,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// server has taken over the session. The awaited optional is never empty.
     boost::asio::awaitable<std::optional<Result<Applied>>> apply(ClientPtr client, session::Command command);
 
-    /// Removes the client `peer`, or none if it is null, then calls `left` with the value of the session; both happen
-    /// on the session's strand. `left` must return whether the session has no clients left. If it returns true, this
+    /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
+    /// the session's strand. `left` must return whether the session has no clients left. If it returns true, this
     /// object never writes the session to the store again.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
@@ -89,7 +89,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
-    // Each executes requests of one kind, and answers them.
+    // Each overload executes requests of one kind, and answers them.
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, session::Command command, RequestId id);
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id);
@@ -114,6 +114,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                              std::shared_ptr<CriticalSearchRun> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void scheduleSave();
+    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is
+    /// detached, saves nothing and destroys `written` without calling it.
     void saveNow(store::Written written = {});
 
     std::uint64_t revision() const { return session_.revision; }
@@ -126,7 +128,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     // Used only on the strand.
     const std::shared_ptr<HeldSession> held_;
-    session::Session& session_;  // that of held_
+    session::Session& session_;  // the value of held_
     const std::shared_ptr<PictureStreams> streams_;
     CriticalSearches searches_;
     OneShotTimer saveTimer_;

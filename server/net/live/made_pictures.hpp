@@ -12,8 +12,8 @@
 
 namespace oval4d::net {
 
-/// The newest snapshot of a session, and the pictures that have been made of it. Each is made once, and sent to all
-/// clients with the same StreamKey. Not thread-safe.
+/// The newest snapshot of a session, and the pictures that have been made of this snapshot. Each picture is made once,
+/// and sent to all clients with the same StreamKey. Not thread-safe.
 class MadePictures {
   public:
     using List = std::vector<std::pair<StreamKey, Message>>;
@@ -25,15 +25,15 @@ class MadePictures {
         const bool isKept = snapshot_ && snapshot_->revision == revision && snapshot_->quality == quality;
         return isKept ? snapshot_ : nullptr;
     }
-    /// Returns a picture of this revision, of at least this quality; null if there is none.
+    /// Returns the picture of this revision for `key`, if its quality is at least `atLeast`; null if there is none.
     const Message* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         if (!snapshot_ || snapshot_->revision != revision || snapshot_->quality < atLeast) return nullptr;
         const auto found = std::ranges::find(pictures_, key, &List::value_type::first);
         return found == pictures_.end() ? nullptr : &found->second;
     }
 
-    /// Adds pictures of a snapshot, which replaces an older one. Ignores those of an older snapshot. `snapshot` may be
-    /// null if there are no pictures.
+    /// Adds pictures of `snapshot`. If this snapshot is newer than the one that is kept, it replaces that one and its
+    /// pictures; if it is older, does nothing. `snapshot` may be null if there are no pictures.
     void add(const SnapshotPtr& snapshot, List pictures) {
         const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;

@@ -18,7 +18,7 @@ class Pacing {
 
     /// Returns whether one more picture may be sent, in addition to `pending` pictures that are still being made.
     bool hasRoom(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
-    /// Returns the newest revision that was sent or skipped; nothing if there is none.
+    /// Returns the newest revision that was sent or skipped; an empty optional if there is none.
     std::optional<std::uint64_t> newest() const { return newest_; }
 
     /// Records that the picture of this revision was queued for the client.
@@ -33,8 +33,8 @@ class Pacing {
     /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.
     void assumeShown(Clock::time_point now, Clock::duration timeout);
-    /// Returns the time from which assumeShown() marks the oldest unshown picture as shown. Returns nothing if there is
-    /// no such picture, or if that picture is not yet written.
+    /// Returns the time from which assumeShown() marks the oldest unshown picture as shown. Returns an empty optional
+    /// if there is no such picture, or if that picture is not yet written.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:

@@ -23,8 +23,8 @@ class Peer {
     /// Returns the client to whom the connection belongs. The jobs of the connection run in this client's lanes.
     virtual const ClientPtr& client() const = 0;
 
-    /// Makes the connection notice at once if its client leaves while it executes a request, and then call
-    /// LiveSession::stopSearches(). Without this call, the connection notices that only after the request.
+    /// Makes the connection notice at once if its client leaves while a request is being executed, and then call
+    /// LiveSession::stopSearches(). Without this call, the connection may notice that only after the request.
     virtual void watchWhileExecuting() = 0;
 
     /// Closes the connection with a WebSocket close code after the queued messages have been written.

@@ -63,7 +63,7 @@ void PictureStreams::closeAll(std::uint16_t code, const std::string& reason) {
     }
 }
 
-void PictureStreams::shown(const Peer& peer, std::uint64_t ofRevision) {
+void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
     assertOnStrand();
     const auto client = clients_.find(&peer);
     if (client == clients_.end()) return;
@@ -104,8 +104,8 @@ slicing::Quality PictureStreams::wantedQuality() const {
     return session_.current.moves() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the time when the session has rested. Until the timer runs, the quality stays
-/// the same, so that a busy server does not skip the draft right after a change.
+/// Schedules pictures of full quality for the time when the session has rested. Until the timer expires,
+/// wantedQuality() remains `draft`: otherwise a busy server, which makes the draft late, would skip it.
 void PictureStreams::scheduleRefinement() {
     if (session_.current.moves()) return;
     refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
@@ -172,7 +172,8 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// Returns the client to whose lane a job is charged. The clients that receive the pictures of a job take turns.
+/// Returns the client to whose lane a job for the pictures `wanted` is charged. The clients that receive the pictures
+/// of a job take turns.
 const PictureStreams::Subscriber& PictureStreams::clientToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, client] : clients_) {
@@ -244,7 +245,7 @@ void PictureStreams::onJobDone(JobResult result) {
     update();
 }
 
-/// Sends the state of the newest snapshot, followed by a picture of it.
+/// Sends the state of the newest snapshot, followed by `picture`, which was made of this snapshot.
 void PictureStreams::sendPicture(Subscriber& client, const Message& picture) {
     const auto peer = client.peer.lock();
     if (!peer) return;

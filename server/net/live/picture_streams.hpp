@@ -47,8 +47,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// `sessionId`: for the log. `held`: the session, whose owner calls sessionChanged() after each change.
     PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<HeldSession> held);
 
-    /// Sets what to call after each step of the motion, which changes the session. Must be set before a client is
-    /// added.
+    /// Sets the function to call after each step of the motion, because a step changes the session. Must be called
+    /// before a client is added.
     void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
 
     /// Adds a client, or changes its stream if it was added before.
@@ -67,7 +67,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// Begins with drafts, as if the session changed in quick succession.
     void beginDrafts() { draftTiming_.begin(); }
     /// Notes that a client shows the picture of this revision, and sends the next one.
-    void shown(const Peer& peer, std::uint64_t ofRevision);
+    void pictureShown(const Peer& peer, std::uint64_t ofRevision);
     /// Sends every client the newest state or picture, if the picture is ready and the client can receive it. Requests
     /// pictures that are missing. Must be called whenever the session may have changed, a client may have become able
     /// to receive a picture, or a worker may have become available.
@@ -140,13 +140,13 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     // Used only on the strand.
     const std::shared_ptr<HeldSession> held_;
-    session::Session& session_;  // that of held_
+    session::Session& session_;  // the value of held_
     std::map<const Peer*, Subscriber> clients_;
     DraftTiming draftTiming_;
     MotionTiming motionTiming_;
     PicturesInProgress inProgress_;
-    MadePictures pictures_;  // kept while a client waits for one, else empty
-    SharedBytes stateText_;  // the `state` message of stateRevision_, for clients without a stream or a scheme
+    MadePictures pictures_;  // kept while a client waits for a picture, else empty
+    SharedBytes stateText_;  // the `state` message of stateRevision_ in the dark scheme, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
 

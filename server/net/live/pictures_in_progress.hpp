@@ -10,8 +10,8 @@
 
 namespace oval4d::net {
 
-/// The picture jobs of a session. At most one is queued or being drawn; when its last picture is drawn, this picture is
-/// encoded while the next job may begin. Not thread-safe.
+/// The picture jobs of a session. At most one job is queued or being drawn. When its last picture has been drawn, the
+/// next job may begin while this picture is still being encoded. Not thread-safe.
 class PicturesInProgress {
   public:
     /// A picture that has been drawn and is being encoded.
@@ -25,9 +25,9 @@ class PicturesInProgress {
     bool isDrawing() const { return drawing_ != 0; }
     /// Returns the number of the job that is queued or being drawn, or else that of the next one. The first is 1.
     std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
-    /// Records that the job with the number job() was queued. There must be none.
+    /// Records that the job with the number job() was queued. No other job may be queued or being drawn.
     void queued() { drawing_ = ++jobs_; }
-    /// Records that the last picture of a job is drawn.
+    /// Records that the last picture of a job has been drawn and is being encoded.
     void drawn(const Encoding& picture) {
         if (drawing_ == picture.job) drawing_ = 0;
         encoding_.push_back(picture);
@@ -38,11 +38,11 @@ class PicturesInProgress {
         std::erase_if(encoding_, [&](const Encoding& each) { return each.job == job; });
     }
 
-    /// Returns the number of pictures of this kind that are being encoded.
+    /// Returns the number of pictures for this key that are being encoded.
     std::size_t countEncoding(const StreamKey& key) const {
         return static_cast<std::size_t>(std::ranges::count(encoding_, key, &Encoding::streamKey));
     }
-    /// Returns whether a picture of this revision, of at least this quality, is being encoded.
+    /// Returns whether a picture of this revision for this key, of at least this quality, is being encoded.
     bool isEncoding(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         return std::ranges::any_of(encoding_, [&](const Encoding& each) {
             return each.streamKey == key && each.revision == revision && each.quality >= atLeast;

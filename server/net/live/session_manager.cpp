@@ -19,8 +19,8 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
             options.storeQuota};
 }
 
-/// A store::ObjectLookup that decodes the objects of a stored record when they are first requested. keys() returns the
-/// keys of the decoded objects.
+/// A store::ObjectLookup that decodes an object of a stored record when it is first requested. keys() returns the keys
+/// of the decoded objects.
 class RecordObjects {
   public:
     RecordObjects(const store::Record& record, store::FileOpener open) : open_(std::move(open)) {
@@ -151,7 +151,7 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Cl
                            WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
 }
 
-/// Runs on the thread of the write-behind store, which must not be blocked: a worker decodes the record.
+/// Runs on the thread of the write-behind store. A worker decodes the record, because this thread must not be blocked.
 void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());

@@ -33,7 +33,7 @@ class SessionsByClient {
     std::size_t count(const std::string& client, Clock::time_point now);
 
     /// Returns the id of the unmodified closed session that was closed first. Considers only the sessions of `client`,
-    /// or those of all clients if `client` is null. Returns nothing if there is no such session.
+    /// or those of all clients if `client` is null. Returns an empty optional if there is no such session.
     std::optional<std::string> oldestUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:

@@ -24,8 +24,8 @@ struct StreamKey {
     wire::Stream stream = wire::Stream::none;
     wire::Encoding encoding = wire::Encoding::json;
     scene::Viewport viewport;
-    scene::Scheme scheme = scene::Scheme::dark;        ///< that of pictures with scene::Background::automatic
-    std::optional<scene::Background> background = {};  ///< in place of that of the session
+    scene::Scheme scheme = scene::Scheme::dark;        ///< colors of pictures whose background is `automatic`
+    std::optional<scene::Background> background = {};  ///< unless empty, replaces the session's background
     bool operator==(const StreamKey&) const = default;
 };
 
@@ -35,7 +35,7 @@ struct Snapshot {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
     slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
-    slicing::SectionNames section;                      ///< of the focus slice
+    slicing::SectionNames section;                      ///< the names of the section in the focus slice
     SharedBytes stateText;                              ///< the `state` message for viewers who prefer dark pictures
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;

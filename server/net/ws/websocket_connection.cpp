@@ -44,8 +44,8 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       joined_(std::move(joined)),
       rate_(services.options.maxRequests, RateLimit::Clock::now()),
       deadline_(stream_.get_executor()),
-      drained_(stream_.get_executor()),
-      executed_(stream_.get_executor()),
+      drainedSignal_(stream_.get_executor()),
+      executedSignal_(stream_.get_executor()),
       helloDeadline_(stream_.get_executor()) {}
 
 asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
@@ -97,7 +97,7 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
         swap(buffer_, message_);
         startMessage(std::move(incoming));
         incoming = co_await readAhead();
-        co_await waitUntil(executed_, [this] { return !executing_; });
+        co_await waitUntil(executedSignal_, [this] { return !executing_; });
     }
     if (incoming.fault == websocket::error::message_too_big) services_.metrics.countError(ErrorCode::too_large);
     spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
@@ -114,19 +114,20 @@ void WebSocketConnection::startMessage(Incoming incoming) {
                        self->message_.consume(self->message_.size());
                        if (self->message_.capacity() > kMaxIdleBuffer) self->message_.shrink_to_fit();
                        self->executing_ = false;
-                       self->executed_.cancel();
+                       self->executedSignal_.cancel();
                    });
 }
 
-/// Reads the next message once the current one is executed, or, in a session, has taken so long that the client's pong
-/// may be due. Does not read earlier: a client that closes the connection right after a request then still receives the
-/// answer, unless it is the answer of a long search.
+/// Reads the next message when the current one has been executed. In a session, also reads it earlier, if the current
+/// one has taken so long that the client's pong may be due, or after watchWhileExecuting(). Does not read at once, so
+/// that a client that closes the connection right after a request still receives the answer, except that of a long
+/// search.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
-        executed_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
-        if (executing_ && !watching_) co_await executed_.async_wait(kAsTuple);
+        executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
+        if (executing_ && !watching_) co_await executedSignal_.async_wait(kAsTuple);
     } else {
-        co_await waitUntil(executed_, [this] { return !executing_; });
+        co_await waitUntil(executedSignal_, [this] { return !executing_; });
     }
     Incoming next = co_await read();
     if (next.fault && session_) session_->stopSearches(shared_from_this());
@@ -154,7 +155,7 @@ asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
     Incoming incoming;
     bool checked = false;
-    co_await waitUntil(drained_, [this] { return unsent_ <= services_.options.maxUnsent; });
+    co_await waitUntil(drainedSignal_, [this] { return unsent_ <= services_.options.maxUnsent; });
     do {
         const auto [fault, size] = co_await stream_.async_read_some(buffer_, kReadChunk, kAsTuple);
         incoming.fault = fault;
@@ -162,7 +163,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
         if (!checked && buffer_.size() > services_.options.maxRequestBytes) {
             checked = true;
             // Only one long message at a time may hold memory.
-            co_await waitUntil(executed_, [this] { return !executing_; });
+            co_await waitUntil(executedSignal_, [this] { return !executing_; });
             checkLongMessage(incoming);
         }
         if (incoming.refusal) {
@@ -231,7 +232,7 @@ asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
     }
 }
 
-/// Parses a message; a long one on a worker.
+/// Parses a message. If it has more than Options::maxRequestBytes bytes, a worker parses it.
 asio::awaitable<Parsed> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
@@ -344,7 +345,7 @@ void WebSocketConnection::dropSlowReader() {
 void WebSocketConnection::watchWhileExecuting() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
         self->watching_ = true;
-        self->executed_.cancel();
+        self->executedSignal_.cancel();
     });
 }
 
@@ -354,7 +355,7 @@ void WebSocketConnection::close(std::uint16_t code, std::string reason) {
     });
 }
 
-void WebSocketConnection::stop() {
+void WebSocketConnection::closeForShutdown() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
         while (self->outbox_.size() > (self->writing_ ? 1U : 0U)) self->outbox_.pop_back();
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
@@ -384,8 +385,8 @@ void WebSocketConnection::writeNext() {
     }
 }
 
-/// Writes the rest of the first message in the queue, from this offset, in fragments. Each fragment has a deadline of
-/// its own, so that a slow client is not dropped as long as it reads fast enough (see MinReadRate).
+/// Writes the first message in the queue from the offset `from` to its end, in fragments. Each fragment has a deadline
+/// of its own, so that a slow client is not dropped as long as it reads fast enough (see MinReadRate).
 void WebSocketConnection::writeFragment(std::size_t from) {
     const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
     const std::string_view fragment = rest.substr(0, kWriteFragment);
@@ -411,7 +412,7 @@ void WebSocketConnection::onWritten(boost::system::error_code fault) {
         outbox_.clear();
         unsent_ = 0;
         writing_ = false;
-        drained_.cancel();
+        drainedSignal_.cancel();
         if (!ended_) beast::get_lowest_layer(stream_).close();
         return;
     }
@@ -419,7 +420,7 @@ void WebSocketConnection::onWritten(boost::system::error_code fault) {
     outbox_.pop_front();
     unsent_ -= done.message.bytes.size();
     services_.metrics.bytesSent.Increment(static_cast<double>(done.message.bytes.size()));
-    if (unsent_ <= services_.options.maxUnsent) drained_.cancel();
+    if (unsent_ <= services_.options.maxUnsent) drainedSignal_.cancel();
     if (done.written) done.written();
     writeNext();
 }

@@ -33,8 +33,8 @@ using UpgradeRequest = boost::beast::http::request<boost::beast::http::empty_bod
 
 /// Handles the requests of one client over a WebSocket. It answers each request before it executes the next one and
 /// reads at most one message ahead, so TCP back-pressure slows down a client that sends too fast. It writes one message
-/// at a time, and drops a client that reads too slowly. The functions of Peer, stop() and drop() may be called from any
-/// thread; all other functions run on the stream's strand.
+/// at a time, and drops a client that reads too slowly. The functions of Peer, closeForShutdown() and drop() may be
+/// called from any thread; all other functions run on the stream's strand.
 class WebSocketConnection final : public Peer, public std::enable_shared_from_this<WebSocketConnection> {
   public:
     /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
@@ -49,9 +49,9 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     const ClientPtr& client() const override { return client_; }
     void watchWhileExecuting() override;
     void close(std::uint16_t code, std::string reason) override;
-    /// Discards the queued messages, except the one that is being written, and closes the connection with code
-    /// kStopping.
-    void stop();
+    /// Closes the connection with code kStopping, because the server stops. Discards the queued messages, except the
+    /// one that is being written.
+    void closeForShutdown();
     /// Closes the socket without a close frame.
     void drop();
 
@@ -107,6 +107,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed
+    // Whether message_ is being handled; whether watchWhileExecuting() was called in the meantime.
     bool executing_ = false, watching_ = false;
 
     std::deque<Outgoing> outbox_;
@@ -115,7 +116,9 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::uint64_t writes_ = 0;  // number of completed writes; tells deadline_ whether its write has completed
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
     std::optional<MinReadRate> minReadRate_;  // gives the timeouts of the message that is being written
-    boost::asio::steady_timer deadline_, drained_, executed_, helloDeadline_;
+    // The deadlines of the current write and of the hello, and two timers that are canceled to wake waiting coroutines:
+    // `drainedSignal_` when messages were written, `executedSignal_` when a message was handled.
+    boost::asio::steady_timer deadline_, drainedSignal_, executedSignal_, helloDeadline_;
 };
 
 }  // namespace oval4d::net

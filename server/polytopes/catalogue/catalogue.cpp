@@ -43,7 +43,7 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
         }
     };
     add(row.linearNotation);
-    for (const std::string_view other : text::splitAtCommas(row.others)) {
+    for (const std::string_view other : text::splitAtCommas(row.otherDiagrams)) {
         add(other);
         aliases.emplace_back(other);
     }
@@ -119,13 +119,13 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a distance is small enough for the two names to be spellings of one: about one mistake in three
-// letters.
+// Returns whether a name with this edit distance from a text of `length` letters may be a spelling of the text: whether
+// there is at most one mistake in three letters.
 bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
-// Returns the names with the least edit distance from `text`; none if no name is similar. If several have the same
-// distance, keeps only those whose length is nearest to that of `text`, because a wrong letter is likelier than a
-// missing one.
+// Returns the names with the least edit distance from `text`, at most one for each entry; an empty list if no name is
+// similar. If several names have the same distance, keeps only those whose length is nearest to that of `text`, because
+// a wrong letter is likelier than a missing one.
 std::vector<NearMatch> nearest(std::string_view text) {
     const std::size_t wanted = text::normalizedName(text).size();
     std::vector<NearMatch> best;
@@ -147,9 +147,9 @@ std::vector<NearMatch> nearest(std::string_view text) {
     return best;
 }
 
-constexpr std::size_t kMaxNameBytes = 256;  // of a name, which is stored and shown
+constexpr std::size_t kMaxNameBytes = 256;  // the maximum length of a canonical name; names are stored and shown
 
-// Returns the reason why a polytope is too large to be built; nothing if it is not.
+// Returns the reason why a polytope is too large to be built; std::nullopt if it is not too large.
 std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
     const auto error = [&](const std::string& what, std::uint64_t most) {
         return NameError{NameError::Reason::too_large,
@@ -163,7 +163,7 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
     return {};
 }
 
-// Returns what designNamed() returns for a name within a name: an error has a message.
+// Returns designNamed() of a name within another name. Unlike there, an error always has a message.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {

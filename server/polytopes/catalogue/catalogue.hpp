@@ -38,7 +38,7 @@ std::span<const CatalogueEntry> catalogue();
 /// and hyphens are equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
-/// Returns the design of the polytope that a text names: that of an entry of the catalogue, or that of any other
+/// Returns the design of the polytope that a text names: the design of an entry of the catalogue, or of any other
 /// polytope that the text describes in one of the notations (see describedBy() in names.hpp). Returns an error if the
 /// text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
 /// `maxVertices` vertices, if its convex hulls have more than kMaxHullPoints points (convex_hull.hpp), or if its
@@ -51,11 +51,11 @@ DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 std::string_view nearestName(std::string_view text);
 
 /// Returns the names and aliases to which nearestName() gives equal preference: at most three, and at most one for each
-/// polytope. Returns none if nearestName() returns an empty text.
+/// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names. Ignores case, blanks, hyphens, and everything after the first
-/// 64 bytes.
+/// Returns the edit distance (Levenshtein) of two names after normalizedName(). Ignores everything after the first 64
+/// bytes.
 std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

@@ -21,6 +21,7 @@ namespace {
 
 using Rings = std::array<bool, 4>;
 
+// An operation on regular polychora: it rings these mirrors of their diagrams.
 struct Operation {
     std::string_view name;
     Rings rings;
@@ -146,7 +147,8 @@ bool looksLikeDiagram(std::string_view text) {
     return begins && text.size() > 2 && text.find_first_not_of("xo0123456789/ *abcd") == std::string_view::npos;
 }
 
-/// All notations, in the order in which they are tried. The first one that the text is written in gives the result.
+/// All notations, in the order in which they are tried. The first one that returns a design, or an error with a
+/// message, gives the result.
 constexpr auto kNotations = std::to_array<Notation>({
     // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
     dualNamed,
@@ -185,8 +187,8 @@ constexpr auto kNotations = std::to_array<Notation>({
     [](const NameWords& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
 });
 
-// Returns the reason why a text in none of the notations names no polytope; empty if nothing better is known than that
-// it is unknown.
+// Returns the reason why a text in none of the notations names no polytope; an empty string if no particular reason is
+// known.
 std::string reasonFor(const std::vector<std::string>& words) {
     if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
         const std::string name = nameOf(std::get<Solid>(*solid));
@@ -223,8 +225,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // Skips the other operations that leave the first node without a ring: their results have names as
-            // operations on the dual.
+            // Skips operations that leave the first node without a ring, except rectification and bitruncation: their
+            // results have names as operations on the dual.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

@@ -17,7 +17,7 @@ namespace oval4d::polytopes {
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
 /// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as
-/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell"; empty if there are none.
+/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell"; an empty list if there are none.
 std::vector<std::string> operationNames(const Diagram& diagram);
 
 }  // namespace oval4d::polytopes

@@ -26,12 +26,12 @@ constexpr double kLeastRadius = 0.01, kMostRadius = 100;
 
 bool isOfTwo(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
 
-// A polytope of a hull or an intersection.
+// One of the two polytopes of a hull or an intersection.
 struct Operand {
     Design design;
-    std::optional<double> circumradius;  // of the polytope in the combination; absent for the default
+    std::optional<double> circumradius;  // as stated in the name; absent for the default (see combinationNamed())
 
-    // Returns the name, from which the operand can be parsed again.
+    // Returns the name of the operand, from which operandNamed() makes the same operand again.
     std::string name() const {
         std::string result = design.name;
         if (circumradius) result += " of circumradius " + text::shortestDecimal(*circumradius);
@@ -41,8 +41,8 @@ struct Operand {
 
 using Words = std::vector<std::string>;
 
-// Returns the index of the "and" between the two operands; nothing if there is none. The words after the "and" of a
-// nested combination belong to its second operand.
+// Returns the index of the "and" between the two operands; std::nullopt if there is none. A combination that is nested
+// in the first operand has an "and" of its own, which is skipped.
 std::optional<std::size_t> findAnd(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -74,9 +74,9 @@ std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLo
     return operand;
 }
 
-class Combination : public Recipe {
+class HullOrIntersection : public Recipe {
   public:
-    Combination(bool intersection, Operand first, Operand second)
+    HullOrIntersection(bool intersection, Operand first, Operand second)
         : intersection_(intersection), operands_{std::move(first), std::move(second)} {}
 
     ElementCounts counts() const override {
@@ -98,7 +98,7 @@ class Combination : public Recipe {
             if (circumradius == 0 || operand.circumradius)
                 circumradius = operand.circumradius.value_or(polytope.circumradius);
             const double scale = circumradius / polytope.circumradius;
-            // The intersection is the reciprocal of the hull of the reciprocals.
+            // The intersection of two polytopes is the polar reciprocal of the convex hull of their polar reciprocals.
             for (const glm::dvec4& point : intersection_ ? polesOf(polytope) : polytope.vertices)
                 points.push_back(intersection_ ? point / scale : point * scale);
         }
@@ -151,7 +151,7 @@ std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     auto& a = std::get<Operand>(first);
     auto& b = std::get<Operand>(second);
     return Design{words[0] + " of " + a.name() + " and " + b.name(),
-                  std::make_shared<Combination>(words[0] == "intersection", a, b)};
+                  std::make_shared<HullOrIntersection>(words[0] == "intersection", a, b)};
 }
 
 std::size_t constructionsIn(const Words& words) {

@@ -13,11 +13,11 @@ namespace oval4d::polytopes {
 /// 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
 /// "intersection of" or "product of" but is not a valid name; std::nullopt for other texts.
 ///
-/// The hull and the intersection are those of two convex polytopes that are both centered at the origin. By default,
-/// the first polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius
-/// of the first. "of circumradius" and a number from 0.01 to 100 after a name scale this polytope to the given
-/// circumradius. The result is moved such that the mean of its vertices is the origin. Recipe::build throws
-/// std::invalid_argument if one of the two polytopes is not convex, and TooLarge (convex_hull.hpp).
+/// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
+/// polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius of the
+/// first. "of circumradius" and a number from 0.01 to 100 after a name scale this polytope to the given circumradius.
+/// The result is moved such that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if
+/// one of the two polytopes is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
 ///
 /// The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
 /// over the polyhedron.
@@ -26,8 +26,8 @@ std::optional<DesignOrError> combinationNamed(const NameWords& text);
 /// The maximum number of constructions in a name (see constructionsIn()) that describedBy() accepts.
 inline constexpr std::size_t kMaxConstructions = 8;
 
-/// Returns the number of constructions in a name: of the words in constructionWords() that are followed by "of", and of
-/// "dual" followed by any word.
+/// Counts the constructions in a name: each word of constructionWords() that is followed by "of", and each "dual" that
+/// is followed by any word.
 std::size_t constructionsIn(const std::vector<std::string>& words);
 
 /// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows them;

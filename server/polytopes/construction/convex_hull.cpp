@@ -17,7 +17,8 @@ using text_files::FileError;
 
 namespace {
 
-// Relative to the largest coordinate. Each construction multiplies the rounding errors of the points by a small factor.
+// The assumed rounding error of the points, relative to their largest distance from the origin. Each construction
+// multiplies the rounding errors by a small factor.
 constexpr double kRounding = 1e-12;
 
 Hull hullOf(std::span<const glm::dvec4> points) {
@@ -35,8 +36,8 @@ Hull hullOf(std::span<const glm::dvec4> points) {
     }
 }
 
-// Moves points such that their mean is the origin. Returns whether they were not centered before; if they were, they
-// keep their coordinates.
+// Moves points such that their mean is the origin, and returns true. If their mean is the origin already, except for
+// rounding errors, leaves the points unchanged and returns false.
 bool center(std::vector<glm::dvec4>& points) {
     glm::dvec4 middle(0);
     double largest = 0;

@@ -56,8 +56,8 @@ const std::array<PlacedFamily, 4>& placedFamilies() {
     return kPlaced;
 }
 
-// Returns mirrors that meet at the diagram's angles: their normals are the rows of the Cholesky factor of the Gram
-// matrix, which is known from the angles.
+// Returns mirrors that meet at the diagram's angles. The angles determine the Gram matrix of the mirrors' normals; the
+// normals are the rows of its Cholesky factor.
 Mirrors placedByAngles(const Diagram& diagram) {
     Mirrors mirrors{};
     for (int i = 0; i < kMirrors; ++i) {
@@ -78,8 +78,8 @@ Mirrors placedByAngles(const Diagram& diagram) {
     return mirrors;
 }
 
-// The action of the mirrors on an orbit whose members are numbered: entry 4 · member + mirror is the number of the
-// image of this member under the reflection in this mirror.
+// The action of the mirrors on an orbit. The members of the orbit are numbered from 0. Entry 4 · m + k is the number of
+// the image of member m under the reflection in mirror k.
 using Images = std::vector<std::uint32_t>;
 
 struct Orbit {
@@ -105,7 +105,7 @@ Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) 
 // Orbits of sets under the reflections in the mirrors. The sets are 2-faces, whose members are vertices, or cells,
 // whose members are 2-faces. Each set is stored as a list of the numbers of its members; its image has the images of
 // the members in the same order.
-class SetOrbit {
+class SetOrbits {
   public:
     geometry::JaggedArray lists;
     Images images;
@@ -181,8 +181,8 @@ std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint3
     return faces;
 }
 
-// Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: the least number
-// among the images of `set`.
+// Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: of all images of
+// `set`, the one that is least as a number.
 MirrorSet leastImage(MirrorSet set, const std::vector<Permutation>& symmetries) {
     MirrorSet least = set;
     for (const Permutation& from : symmetries) {
@@ -219,9 +219,9 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
     if (!generatesElement(diagram, 0xfU))
         throw std::invalid_argument("every connected part of the diagram needs a ringed node");
     Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
-    SetOrbit faces;
+    SetOrbits faces;
     std::array<std::uint32_t, 16>
-        faceOfPair{};  // per pair of mirrors, a MirrorSet: its 2-face at the generating vertex
+        faceOfPair{};  // index: a MirrorSet of two mirrors; value: their 2-face at the generating vertex
     for (unsigned a = 0; a < kMirrors; ++a) {
         for (unsigned b = a + 1; b < kMirrors; ++b) {
             const MirrorSet pair = 1U << a | 1U << b;
@@ -231,7 +231,7 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
             faceOfPair.at(pair) = *face;
         }
     }
-    SetOrbit cells;
+    SetOrbits cells;
     std::vector<std::uint32_t> cellTypes;
     const auto symmetries = symmetriesOf(diagram);
     for (int left = 0; left < kMirrors; ++left) {

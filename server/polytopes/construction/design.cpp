@@ -58,19 +58,19 @@ class SnubPrism : public Recipe {
 
     ElementCounts counts() const override {
         const std::uint64_t vertices = rotations();
-        std::uint64_t edges = vertices / 2;  // between neighboring triangles
-        std::uint64_t faces = vertices;      // the triangles
+        std::uint64_t edges = vertices / 2;  // each between two of the triangles counted below
+        std::uint64_t faces = vertices;      // the triangles that are neither p-gons nor q-gons
         for (const Branch b : {p_, q_}) {
             edges += b.numerator == 2 ? vertices / 2 : vertices;
             faces += b.numerator == 2 ? 0 : vertices / static_cast<std::uint64_t>(b.numerator);
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // Twice rotations(), because the prism has a mirror between its bases; four times for an antiprism, because it also
-    // has symmetries that are not rotations.
+    // Twice rotations(), because the prism has a mirror between its bases; four times rotations() for an antiprism,
+    // because the antiprism also has symmetries that are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
-        // The chain of mirrors of an antiprism begins with the right angle (branch 2).
+        // The chain of mirrors of an antiprism begins with the right angle (the branch 2).
         const bool antiprism = q_.numerator == 2;
         return "s" + textOf(antiprism ? q_ : p_) + "s" + textOf(antiprism ? p_ : q_) + "s x";
     }
@@ -89,15 +89,15 @@ class SnubPrism : public Recipe {
 
 std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
 
-// Returns the designs that have a name of their own, by canonical diagram. A design has an entry for each of its
-// diagrams.
+// Returns the designs that have a name of their own; the keys are canonical diagrams. A design has an entry for each of
+// its diagrams.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
         for (const UniformPolychoron& row : uniformPolychora()) {
             const Design design{std::string(row.name), wythoffian(known(row.linearNotation))};
             designs.emplace(canonical(known(row.linearNotation)), design);
-            for (const std::string_view other : text::splitAtCommas(row.others))
+            for (const std::string_view other : text::splitAtCommas(row.otherDiagrams))
                 designs.emplace(canonical(known(other)), design);
         }
         for (const NamedPolyhedron& base : namedPolyhedra()) {
@@ -107,8 +107,8 @@ const std::map<Diagram, Design>& namedDesigns() {
                             base.name == "cube" ? designs.at(canonical(known("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
-        // The tetrahedral group is contained in the octahedral group: these diagrams describe polytopes that also have
-        // an octahedral diagram.
+        // The tetrahedral group is contained in the octahedral group. Therefore the polytopes of these diagrams also
+        // have a diagram of the octahedral group.
         for (const auto& [half, whole] :
              {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
             designs.emplace(canonical(known(half)), designs.at(canonical(known(whole))));
@@ -122,8 +122,8 @@ const std::map<Diagram, Design>& namedDesigns() {
 Design designOf(const Diagram& diagram) {
     const auto& named = namedDesigns();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
-    // If every connected component has at most two mirrors, the polytope is a duoprism. Two components of a single
-    // mirror together generate a square.
+    // If every connected component has at most two mirrors, the polytope is a duoprism. Each component of two mirrors
+    // generates a polygon; two components of a single mirror together generate a square.
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

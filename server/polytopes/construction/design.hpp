@@ -38,10 +38,10 @@ ElementCounts elementCounts(const Design& design);
 /// Returns the order of the full symmetry group, which includes reflections; Recipe::kUnknownOrder if it is not known.
 std::uint64_t symmetryOrder(const Design& design);
 
-/// Returns the diagram in linear notation, or empty if there is none.
+/// Returns the diagram in linear notation, or an empty string if there is none.
 std::string linearNotationOf(const Design& design);
 
-/// Returns the Schläfli symbol, or empty if there is none.
+/// Returns the Schläfli symbol, or an empty string if there is none.
 std::string schlaefliOf(const Design& design);
 
 /// Builds the polytope, centered at the origin. In a uniform polytope, all edges have length 2. Throws

@@ -56,7 +56,7 @@ std::vector<Branch> branchesAlong(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// A finite group of three or four mirrors whose diagram is a chain, with the branches of the diagram.
+// A finite Coxeter group of three or four mirrors whose diagram is a chain: the branches of the chain, and the order.
 struct FiniteGroup {
     std::vector<Branch> chain;
     std::uint64_t order;
@@ -76,6 +76,7 @@ const std::vector<FiniteGroup>& finiteGroups() {
     return kGroups;
 }
 
+// Returns the order of the group of a connected component; 0 if the group is not finite.
 std::uint64_t orderOfComponent(const Diagram& diagram, MirrorSet component) {
     constexpr std::uint64_t kD4 = 192;
     std::vector<Branch> chain = branchesAlong(diagram, component);

@@ -10,14 +10,15 @@
 namespace oval4d::polytopes {
 
 /// A branch of a diagram: the mirrors at its two ends meet at the angle π · denominator / numerator. The default value
-/// stands for a right angle; diagrams omit this branch.
+/// stands for a right angle; a drawn or written diagram omits it.
 struct Branch {
     int numerator = 2, denominator = 1;
     auto operator<=>(const Branch&) const = default;
 };
 
-/// The regular polygon {numerator/denominator}, a star polygon if the denominator is not 1. Its type is that of a
-/// branch because the branch p between a ringed and an unringed mirror generates the polygon {p}.
+/// The regular polygon {numerator/denominator}: it has `numerator` sides, and is a star polygon if the denominator is
+/// not 1. Its type is that of a branch because the branch p between a ringed and an unringed mirror generates the
+/// polygon {p}.
 using RegularPolygon = Branch;
 
 /// A set of mirrors of a diagram: bit i is set if it contains mirror i.
@@ -32,7 +33,7 @@ constexpr bool holds(MirrorSet set, int mirror) { return (set >> static_cast<uns
 struct Diagram {
     std::array<std::array<Branch, 4>, 4> branches;  ///< branches[i][j] joins mirrors i and j; symmetric; the diagonal
                                                     ///< is unused
-    std::array<bool, 4> ringed{};
+    std::array<bool, 4> ringed{};                   ///< whether each mirror is ringed
 
     /// Returns the diagram that is a chain: the branches p, q and r join mirrors 0 and 1, 1 and 2, and 2 and 3.
     static Diagram linear(Branch p, Branch q, Branch r, std::array<bool, 4> ringed);

@@ -12,7 +12,7 @@ namespace {
 
 using Reason = NameError::Reason;
 
-constexpr int kMaxNumber = 1'000'000;  // the maximum number in a text; exceeds any limit on vertices
+constexpr int kMaxNumber = 1'000'000;  // the largest number that a text may contain; exceeds any limit on vertices
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -60,8 +60,8 @@ NameError badBranch() {
         "5/2");
 }
 
-// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Counts nodes beyond the fourth,
-// too.
+// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Only counts nodes beyond the
+// fourth; checked() then returns an error.
 class Builder {
   public:
     int nodes = 0;
@@ -104,8 +104,8 @@ class Builder {
     }
 };
 
-// Returns the mirrors of a connected component that is a chain, in order from the end with the smaller number; empty if
-// the component is not a chain.
+// Returns the mirrors of a connected component that is a chain, in order from the end with the smaller number. Returns
+// an empty list if the component is not a chain.
 std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
     std::vector<int> mirrors;
     for (int i = 0; i < kMirrors; ++i) {
@@ -122,7 +122,8 @@ std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors.
+// Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors, where
+// mirror 0 is the first one of the symbol; std::nullopt for an unknown operation.
 std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};

@@ -40,8 +40,8 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
 /// Returns the diagram in linear notation, in the order of its mirrors.
 std::string linearNotationOf(const Diagram& diagram);
 
-/// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}"; empty for a diagram that
-/// is not a union of chains.
+/// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}". Returns an empty string
+/// if a connected component of the diagram is not a chain.
 std::string schlaefliOf(const Diagram& diagram);
 
 /// Returns the branch as text: "5" or "5/2".

@@ -99,8 +99,8 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
 }
 
 Polytope buildSnub24Cell(std::string name) {
-    // In the usual coordinates, the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1) are the vertices of a
-    // 24-cell. They are exactly the vertices without irrational coordinates.
+    // If the usual coordinates of the 600-cell are scaled to the circumradius 2, its vertices without irrational
+    // coordinates are the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). They are the vertices of a 24-cell.
     const Polytope whole = sixHundredCell();
     const double unit = whole.circumradius / 2;
     std::vector<bool> removed;
@@ -113,7 +113,8 @@ Polytope buildSnub24Cell(std::string name) {
 }
 
 Polytope buildGrandAntiprism(std::string name) {
-    // Two neighboring vertices span the plane of a decagon of edges; the other decagon lies in the orthogonal plane.
+    // Two neighboring vertices and the center span the plane of a decagon of edges; the other decagon lies in the
+    // orthogonal plane.
     const Polytope whole = sixHundredCell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];
@@ -126,7 +127,7 @@ Polytope buildGrandAntiprism(std::string name) {
     return diminished(std::move(name), whole, removed);
 }
 
-/// A diminished 600-cell. Its element counts follow from the counts of the removed elements.
+/// A diminished 600-cell. The element counts are given; they follow from the counts of the removed elements.
 class Diminished600CellRecipe : public Recipe {
   public:
     using Builder = Polytope (*)(std::string name);

@@ -68,11 +68,11 @@ class DualRecipe : public Recipe {
 }  // namespace
 
 std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
-    constexpr double kNone = 1e-6;
+    constexpr double kLeastDistance = 1e-6;  // relative to the circumradius: a shorter foot counts as 0
     std::vector<glm::dvec4> poles;
     for (std::uint32_t c = 0; c < polytope.cells.size(); ++c) {
         const glm::dvec4 foot = footOf(polytope, c);
-        if (glm::length(foot) < kNone * polytope.circumradius)
+        if (glm::length(foot) < kLeastDistance * polytope.circumradius)
             throw std::invalid_argument("the hyperplane of a cell of the " + polytope.name +
                                         " passes through its center");
         poles.push_back(foot / glm::dot(foot, foot));

@@ -34,8 +34,8 @@ std::vector<glm::dvec4> polesOf(const Polytope& polytope);
 /// each cell of `base`. Throws InvalidPolytope if these elements do not form a valid polytope.
 Polytope reciprocalOf(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices);
 
-/// Returns the diagram of a regular polytope: a chain whose first mirror alone is ringed, with the branches in the
-/// order of the Schläfli symbol. Returns std::nullopt for other polytopes.
+/// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in
+/// the order of the Schläfli symbol. Returns std::nullopt for other polytopes.
 std::optional<Diagram> regularDiagram(const Design& design);
 
 }  // namespace oval4d::polytopes

@@ -48,8 +48,8 @@ class OverPolyhedron : public Recipe {
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
         if (over_ == Over::prism) {
-            // The base is the dual of a uniform polyhedron here (uniformPrismOver() makes the other prisms). Its
-            // symmetry group is transitive on faces, so all faces are in one orbit.
+            // Here the base is the dual of a uniform polyhedron, because uniformPrismOver() makes the other prisms. The
+            // symmetry group of such a dual is transitive on faces, so all faces are in one orbit.
             const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }
@@ -86,7 +86,7 @@ class OverPolyhedron : public Recipe {
     }
 
   private:
-    // See overPolyhedronNamed().
+    // Returns the height of a pyramid or of each half of a bipyramid (see overPolyhedronNamed()).
     double heightOver(const std::vector<glm::dvec3>& base) const {
         constexpr double kEdge = 2, kFlat = 1e-6;
         double circumradius = 0;

@@ -13,8 +13,8 @@ namespace oval4d::polytopes {
 ///
 /// The prism has the height 2. If the polyhedron is uniform and its circumradius is less than 2, the height of a
 /// pyramid, and of each half of a bipyramid, is such that all edges to the apex have length 2; otherwise the height is
-/// the circumradius of the polyhedron. The mean of the vertices is the origin. Names of uniform polytopes get their
-/// designs: "pyramid of tetrahedron" gets the design of the 5-cell.
+/// the circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
+/// returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text);
 
 }  // namespace oval4d::polytopes

@@ -60,8 +60,8 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
 });
 
 // Returns the shape of the base of a prism. In the prism's diagram, the first three mirrors are the mirrors of the
-// base. The faces of the base are counted as the elements that pairs of these mirrors generate; its circumradius is the
-// distance of the generating vertex from the center of the base.
+// base. The faces of the base are counted as the elements that pairs of these mirrors generate. The circumradius of the
+// base is the distance of the generating vertex from the center of the base.
 PolyhedronSignature shapeOf(const Diagram& prism) {
     PolyhedronSignature shape;
     const MirrorSet solid = 0x7;
@@ -91,11 +91,11 @@ Diagram prismDiagram(const NamedPolyhedron& base) {
 bool isSnub(const NamedPolyhedron& polyhedron) { return polyhedron.linearNotation.starts_with('s'); }
 
 // Builds a polyhedron that is a snub.
-SnubPolyhedron buildSnub(const NamedPolyhedron& polyhedron) {
+PolyhedronWithOrbits buildSnub(const NamedPolyhedron& polyhedron) {
     return snubOf({polyhedron.linearNotation[1] - '0', 1}, {polyhedron.linearNotation[3] - '0', 1});
 }
 
-PolyhedronSignature shapeOf(const SnubPolyhedron& snub) {
+PolyhedronSignature shapeOf(const PolyhedronWithOrbits& snub) {
     PolyhedronSignature shape;
     shape.vertices = static_cast<std::uint32_t>(snub.vertices.size());
     shape.circumradius = glm::length(snub.vertices[0]);

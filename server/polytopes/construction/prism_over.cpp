@@ -14,14 +14,14 @@
 
 namespace oval4d::polytopes {
 
-Polytope prismOver(std::string name, const SnubPolyhedron& base) {
+Polytope prismOver(std::string name, const PolyhedronWithOrbits& base) {
     const auto n = static_cast<std::uint32_t>(base.vertices.size());
     const auto m = static_cast<std::uint32_t>(base.faces.size());
     std::vector<glm::dvec4> vertices;
     for (const double w : {-1.0, 1.0}) {
         for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, w);
     }
-    geometry::JaggedArray faces;  // the faces of the two bases, then a square for each edge of the base
+    geometry::JaggedArray faces;  // the faces of the two bases, then a rectangle for each edge of the base
     for (const std::uint32_t shift : {0U, n}) {
         for (std::size_t f = 0; f < m; ++f) {
             std::vector<std::uint32_t> loop(base.faces[f].begin(), base.faces[f].end());
@@ -37,13 +37,13 @@ Polytope prismOver(std::string name, const SnubPolyhedron& base) {
         cells.add(bottom);
         cellTypes.push_back(0);
     }
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> squares;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> lateralFaces;
     for (std::uint32_t f = 0; f < m; ++f) {
         const auto loop = base.faces[f];
         std::vector<std::uint32_t> own{f, f + m};
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-            const auto [square, fresh] = squares.try_emplace({a, b}, static_cast<std::uint32_t>(faces.size()));
+            const auto [square, fresh] = lateralFaces.try_emplace({a, b}, static_cast<std::uint32_t>(faces.size()));
             if (fresh) faces.add(std::array{a, b, b + n, a + n});
             own.push_back(square->second);
         }

@@ -8,8 +8,8 @@
 
 namespace oval4d::polytopes {
 
-/// Builds the prism of height 2 over any polyhedron, with its two bases in the hyperplanes w = ±1. The two bases have
-/// one cell type; the other cells have one type for each orbit of faces of `base`.
-Polytope prismOver(std::string name, const SnubPolyhedron& base);
+/// Builds the prism over a polyhedron, from w = −1 to w = 1. The two cells that are copies of the polyhedron have one
+/// cell type; the other cells have one type for each orbit of faces (see PolyhedronWithOrbits::orbits).
+Polytope prismOver(std::string name, const PolyhedronWithOrbits& base);
 
 }  // namespace oval4d::polytopes

@@ -62,7 +62,7 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p)
 
 }  // namespace
 
-SnubPolyhedron snubOf(Branch p, Branch q) {
+PolyhedronWithOrbits snubOf(Branch p, Branch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
     // The vertices are g · seed for all rotations g of the group. If g is the rotation of vertex i, next[i] holds the
@@ -81,7 +81,7 @@ SnubPolyhedron snubOf(Branch p, Branch q) {
             next.back().at(k) = number;
         }
     }
-    SnubPolyhedron snub;
+    PolyhedronWithOrbits snub;
     snub.vertices.assign(points.begin(), points.end());
     const auto addFace = [&](const std::vector<std::uint32_t>& loop, std::uint32_t orbit) {
         snub.faces.add(loop);

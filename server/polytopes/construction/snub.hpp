@@ -13,7 +13,7 @@ namespace oval4d::polytopes {
 
 /// A polyhedron whose faces are grouped into orbits of its symmetry group. snubOf() returns snub polyhedra of edge
 /// length 2; prismOver() accepts any polyhedron in this form.
-struct SnubPolyhedron {
+struct PolyhedronWithOrbits {
     std::vector<glm::dvec3> vertices;
     geometry::JaggedArray faces;        ///< the vertex loop of each face
     std::vector<std::uint32_t> orbits;  ///< the orbit of each face; in a snub of {p, q}: 0 for the p-gons, 1 for the
@@ -24,6 +24,6 @@ struct SnubPolyhedron {
 /// for {n, 2}, with edge length 2. The vertices are the images of one point under the rotation group of {p, q}. The
 /// faces are the p-gons and q-gons around the rotation axes (there are none around twofold axes), and the triangles
 /// between them (Coxeter, Regular Polytopes, §8.6). Requires that p and q are integers with 1/p + 1/q > 1/2.
-SnubPolyhedron snubOf(Branch p, Branch q);
+PolyhedronWithOrbits snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

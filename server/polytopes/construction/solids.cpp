@@ -20,7 +20,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// The names of the duals (Catalan solids) of the named polyhedra, by the names of the latter.
+// The name of each convex named polyhedron, and the name of its dual (a Platonic or Catalan solid).
 constexpr auto kDuals = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"tetrahedron", "tetrahedron"},
     {"cube", "octahedron"},
@@ -51,8 +51,8 @@ const NamedPolyhedron* polyhedronCalled(std::string_view name) {
     return found == namedPolyhedra().end() ? nullptr : &*found;
 }
 
-// Returns the one value for all names of the same solid: the square prism is the cube, the triangular antiprism is the
-// octahedron, and the dual of a Platonic solid is a Platonic solid.
+// Returns the same value for all descriptions of the same solid: the square prism is the cube, the triangular antiprism
+// is the octahedron, and the dual of a Platonic solid is a Platonic solid.
 Solid canonical(Solid solid) {
     if (solid.named == nullptr && !solid.antiprism && solid.sides == 4)
         solid = {polyhedronCalled("cube"), 0, false, solid.dual};
@@ -120,8 +120,8 @@ SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // The face to the left of each directed edge, with the vertex before the edge, if all loops are counterclockwise
-    // seen from outside.
+    // For each directed edge: the face whose loop contains the edge in this direction, if all loops are
+    // counterclockwise seen from outside, and the vertex before the edge in this loop.
     struct Corner {
         std::uint32_t face, before;
     };
@@ -213,7 +213,7 @@ SolidMesh meshOf(const Solid& solid) {
     if (solid.named == nullptr && !solid.antiprism) return prismMesh(solid.sides);
     if (solid.named != nullptr && !solid.named->linearNotation.starts_with('s')) return baseOf(*solid.named);
     const auto digit = [&](std::size_t i) { return Branch{solid.named->linearNotation[i] - '0', 1}; };
-    SnubPolyhedron snub = solid.antiprism ? snubOf({solid.sides, 1}, {2, 1}) : snubOf(digit(1), digit(3));
+    PolyhedronWithOrbits snub = solid.antiprism ? snubOf({solid.sides, 1}, {2, 1}) : snubOf(digit(1), digit(3));
     return {std::move(snub.vertices), std::move(snub.faces)};
 }
 

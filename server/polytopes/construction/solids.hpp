@@ -52,7 +52,7 @@ struct SolidMesh {
 /// Builds the solid. Its edge length or circumradius is as stated at Solid.
 SolidMesh meshOf(const Solid& solid);
 
-/// Returns the design of the uniform prism over a solid. Ignores solid.dual, which must be false.
+/// Returns the design of the uniform prism over a solid. solid.dual must be false.
 Design uniformPrismOver(const Solid& solid);
 
 }  // namespace oval4d::polytopes

@@ -12,7 +12,7 @@ struct UniformPolychoron {
     std::string_view name;            ///< "truncated tesseract"
     std::string_view bowers;          ///< Bowers' short name: "tat"
     std::string_view linearNotation;  ///< its diagram in linear notation: "x4x3o3o"
-    std::string_view others;          ///< its other diagrams, separated by commas: "o3x3o *b3o,o4o3x3o"
+    std::string_view otherDiagrams;   ///< its other diagrams, separated by commas: "o3x3o *b3o,o4o3x3o"
     std::string_view otherNames;      ///< other names, separated by commas: "tesseract,hypercube"
 };
 

@@ -18,9 +18,10 @@ class VertexCut : public Recipe {
   public:
     VertexCut(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
-    // Each edge is an intersection of the polytope with a supporting hyperplane, so that all points on edges are
-    // vertices of the hull. The other numbers are those of a polytope with flat cuts, four edges on each 2-face and
-    // eight 2-faces on each cell; truncation adds the remainders of edges and 2-faces.
+    // The number of vertices is exact: all cut points on edges are vertices of the hull, because each edge is the
+    // intersection of the polytope with a supporting hyperplane. The other numbers assume flat cuts and 2-faces with
+    // four sides; Euler's relation (vertices − edges + 2-faces − cells = 0) then gives the number of 2-faces. Unlike
+    // rectification, truncation leaves a part of each edge.
     ElementCounts counts() const override {
         const auto [v, e, f, c] = base_.recipe->counts();
         const std::uint64_t corners = 4 * f;

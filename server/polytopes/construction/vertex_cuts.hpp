@@ -13,9 +13,10 @@ namespace oval4d::polytopes {
 /// The rectification is the convex hull of the midpoints of the edges. The truncation is the convex hull of the points
 /// that divide the edges into thirds. If these points on the edges at a vertex do not lie in one hyperplane, several
 /// cells replace the vertex. The rectification of a regular polytope has the design of the rectified uniform polytope.
-/// The truncation of a regular polytope has the design of the truncated uniform polytope if its 2-faces are triangles;
-/// for other 2-faces, the uniform truncation does not cut the edges at their thirds. Recipe::build throws
-/// std::invalid_argument if the named polytope is not convex, and TooLarge (convex_hull.hpp).
+/// The truncation of a regular polytope has the design of the truncated uniform polytope if the 2-faces of the regular
+/// polytope are triangles; for other 2-faces, the uniform truncation does not cut the edges at their thirds.
+/// Recipe::build throws std::invalid_argument if the named polytope is not convex, and TooLarge if a limit of
+/// convex_hull.hpp is exceeded.
 std::optional<DesignOrError> vertexCutNamed(const NameWords& text);
 
 }  // namespace oval4d::polytopes

@@ -13,8 +13,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kErrorBounds = 2;  // that are tolerated: that of the point plus that of the hull
-constexpr int kMaxIterations = 64;  // a safeguard: the method usually ends after a few rounds
+constexpr double kErrorBounds = 2;  // the tolerance in error bounds: one for the point, one for the hull
+constexpr int kMaxIterations = 64;  // a safeguard: usually, a few rounds suffice
 
 // A vertex of the current simplex, which contains the nearest point found so far, and the barycentric weight of the
 // vertex in this point.
@@ -61,8 +61,8 @@ glm::dvec4 weightedSum(const std::vector<WeightedVertex>& vertices) {
     return sum;
 }
 
-// Moves the weights to the nearest point of the simplex and removes the vertices that do not contribute to it. Returns
-// false if the vertices become affinely dependent.
+// Sets the weights to those of the simplex's point nearest to the origin, and removes the vertices whose weight becomes
+// 0. Returns false if the vertices become affinely dependent.
 bool moveToNearest(std::vector<WeightedVertex>& vertices) {
     std::array<double, 5> goal{};
     while (nearestWeights(vertices, goal)) {

@@ -32,7 +32,7 @@ Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
     return triangle;
 }
 
-// Returns the corner of the triangle that does not lie on its edge `edge`.
+// Returns the corner of `triangle` that does not lie on `edge`, one of its edges.
 std::uint32_t cornerBeside(const Edge& edge, const Triangle& triangle) {
     return *std::find_if(triangle.begin(), triangle.end(),
                          [&](std::uint32_t v) { return v != edge.first && v != edge.second; });
@@ -68,9 +68,9 @@ class Merger {
     struct Facet {
         Triangle corners;
         std::uint32_t simplex;
-        double sign;  // +1 if its normal, by the right-hand rule, points outward, else −1
+        double sign;  // +1 if its normal, by the right-hand rule, points out of the group, else −1
     };
-    // A triangle that two cells share, the one with the smaller index first.
+    // A triangle that two cells share; `cells` lists the cell with the smaller index first.
     struct SharedTriangle {
         std::array<std::uint32_t, 2> cells;
         Triangle corners;
@@ -119,8 +119,8 @@ class Merger {
     }
 
     // Returns the simplices that can be reached from `seed` through accepted neighbors, and sets their mark_ to
-    // latestMark_. The arguments of `accepts` are a neighbor and the one vertex that it does not share with the current
-    // simplex.
+    // latestMark_. The arguments of `accepts` are a neighbor and the one vertex of this neighbor that does not belong
+    // to the current simplex.
     template <typename Accepts>
     std::vector<std::uint32_t> grow(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
@@ -163,8 +163,8 @@ class Merger {
         if (group.size() > 1) group = {seed};
     }
 
-    // Returns the simplices, in ascending order, whose removal may make the group convex; none if the group is convex.
-    // Sorts the group.
+    // Returns the simplices, in ascending order, whose removal may make the group convex; an empty list if the group is
+    // convex. Sorts the group.
     std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const Hyperplane& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
@@ -206,7 +206,8 @@ class Merger {
             for (const Facet& facet : facets) corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
             std::sort(corners.begin(), corners.end());
             corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-            // The boundary is not a sphere if V − E + F ≠ 2; for triangles, 2 E = 3 F.
+            // The boundary is a sphere only if V~−~E~+~F = 2. For triangles, 2~E = 3~F, so the condition is 2~V =
+            // F~+~4.
             if (2 * corners.size() != facets.size() + 4) {
                 faults = group;
                 std::erase(faults, seed);
@@ -227,8 +228,8 @@ class Merger {
         const glm::dvec3 along = place(edge.second) - a;
         struct RelativeHeight {
             glm::dvec3 normal;
-            // For the third corner of the other triangle: its height above this triangle, the uncertainty of the
-            // height, and its distance from the common edge.
+            // For the third corner of the other triangle: its height above the plane of this triangle (outward is
+            // positive), the uncertainty of the height, and its distance from the common edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto heightFrom = [&](const Facet& from, const Facet& to) {
@@ -296,8 +297,8 @@ class Merger {
         return hull;
     }
 
-    // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles. Returns false
-    // if there are no such cells.
+    // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles unmerged.
+    // Returns false if there are no such cells.
     bool splitDegenerateCells(const MergedHull& hull) {
         bool any = false;
         for (std::size_t c = 0; c < hull.cells.size(); ++c) {
@@ -317,7 +318,7 @@ class Merger {
                 return std::all_of(b.corners().begin(), b.corners().end(),
                                    [&](std::uint32_t v) { return a.contains(points_[v], frame_, kAmbiguityFactor); });
             };
-            if (nearly(one, other) || nearly(other, one)) ++hull.ambiguousRidges;
+            if (nearly(one, other) || nearly(other, one)) ++hull.ambiguousCellPairs;
         }
     }
 

@@ -23,15 +23,15 @@ struct SimplexFacet {
 /// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
     geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
-    /// The number of pairs of neighboring cells that are separate, although the error bounds are almost large enough
-    /// for them to lie in one hyperplane: their separation is uncertain.
-    std::size_t ambiguousRidges = 0;
+    /// The number of pairs of neighboring cells that were not merged, but would lie in one hyperplane if the error
+    /// bounds were three times as large. Whether these cells are really separate is uncertain.
+    std::size_t ambiguousCellPairs = 0;
 };
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the error bounds of the points
 /// (HullFrame::errorBound()), and merges the triangles between two cells into one 2-face. If a merged cell would not be
-/// convex, merges fewer simplices. `simplices` form a closed boundary, and so do the resulting cells. `points` are in
-/// the coordinates of `frame`.
+/// convex, merges fewer simplices. `simplices` must form a closed boundary; the resulting cells then form one, too.
+/// `points` are in the coordinates of `frame`.
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

@@ -42,9 +42,11 @@ class Flat {
     const Corners& corners() const { return corners_; }
     /// Returns the volume of the simplex times the factorial of its dimension.
     double volume() const { return volume_; }
+    /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
     const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
 
-    /// Returns the coordinates, along the axes of the flat, of the point of the flat nearest to p.
+    /// Returns the coordinates of the flat's point nearest to p, along the axes of the flat and relative to its first
+    /// corner.
     std::array<double, Dimension> project(const glm::dvec4& p) const {
         glm::dvec4 rest = p - origin_;
         std::array<double, Dimension> along;
@@ -55,8 +57,8 @@ class Flat {
         return along;
     }
 
-    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of its
-    /// barycentric coordinates.
+    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of the
+    /// barycentric coordinates of p. Returns infinity if the corners span no simplex.
     double errorAmplification(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
         double sum = 0, first = 1;
@@ -77,7 +79,7 @@ class Flat {
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
         const double distance = glm::length(rest);
         if (!(distance > 0)) return true;
-        constexpr double kMaxAmplification = 16;  // how far a flat's error bound is assumed to grow by extrapolation
+        constexpr double kMaxAmplification = 16;  // the factor by which extrapolation increases the bound at most
         return distance <=
                factor * frame.errorBound(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
     }
@@ -86,15 +88,15 @@ class Flat {
     Corners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
-    std::array<std::array<double, Dimension>, Dimension> edges_{};  // from the first corner, along axes_
+    std::array<std::array<double, Dimension>, Dimension> edges_{};  // [j]: first corner to corner j + 1, along axes_
     double volume_ = 1;
 };
 
 using Plane = Flat<2>;
 using Hyperplane = Flat<3>;
 
-/// Greedily chooses points that span a large simplex: each is the farthest from the flat through the points chosen
-/// before.
+/// Greedily chooses points that span a large simplex: the first is the farthest from the mean of all points, and each
+/// further one is the farthest from the flat through the points chosen before.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
     glm::dvec4 middle(0);
@@ -116,10 +118,11 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
     return chosen;
 }
 
-/// Grows a group of simplices in a flat, which at first goes through the corners `own` of one of them. While a larger
-/// simplex of the group's vertices defines the flat more precisely, replaces the flat by that one, if it still contains
-/// `own`, and grows the group again. `grow` returns the group in a flat, and `verticesOf` the vertices of a group.
-/// Returns the group, and sets `flat` to its flat.
+/// Grows a group of simplices that lie in one flat. At first, `flat` is the flat through the corners `own` of one of
+/// the simplices. A larger simplex determines a flat more precisely. Therefore, if vertices of the group span a larger
+/// simplex, and the flat through it still contains `own`, replaces `flat` by that flat and grows the group again;
+/// repeats this a few times. grow(flat) returns the group in a flat, and verticesOf(group) returns the vertices of a
+/// group. Returns the final group; `flat` is then its flat.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>
 std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
                                         std::span<const glm::dvec4> points, const HullFrame& frame) {

@@ -22,35 +22,38 @@ namespace {
 
 using geometry::kNone;
 
-// Relative to the size: the largest distance of a vertex from the hyperplane of its cell, and the distance at which the
-// search for better places ends; and the least values of these distances, relative to doubleRounding().
+// kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell; the search for better
+// places ends at kGoalDeviation. Both are relative to the size. However, the permitted distance is at least
+// kMaxRounding times doubleRounding(), and the goal is at least kGoalRounding times doubleRounding().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
-// Two hyperplanes with a larger cosine of the angle between them do not determine the plane in which they meet.
+// If the cosine of the angle between two hyperplanes is larger, they do not determine the plane in which they meet.
 constexpr double kNearlyParallel = 0.995;
-constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; it has no extent along an axis below this
+constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; a smaller extent along an axis counts as 0
 
-constexpr int kMaxNewtonRounds = 16;            // of Newton's method
-constexpr std::size_t kMaxGradientSteps = 300;  // of the conjugate gradients in a round
-constexpr std::size_t kMaxWork = 150'000'000;   // the sum over all steps of the number of equations and unknowns
-// The equations of a round are solved until the gradient of the error is smaller than at first by this factor, which
-// suffices for a few digits more. If a round makes less progress than that, some unknowns hardly matter for the
-// equations, and the next round solves them more exactly.
+constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
+constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
+constexpr std::size_t kMaxWork = 150'000'000;   // the maximum: equations and unknowns, added up over all steps
+// A round solves its equations until the gradient of the error is less than its first value times a tolerance. The
+// first tolerance, kFirstTolerance, makes the result more precise by a few digits. If a round does not reduce the
+// deviation by the factor kGoodProgress, some unknowns have little effect on the equations; therefore the next round
+// multiplies the tolerance by kTighter, down to kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// Points that are moved into one hyperplane. The vertices of each cell are such a set. So are those of each 2-face
-// whose two cells lie in nearly parallel hyperplanes, because these do not determine its plane; the hyperplane of the
-// 2-face is perpendicular to that of its cell. The hyperplane that fits the points best contains their mean.
+// A set of points that are moved into one hyperplane, and the hyperplane that fits them best; it contains their mean.
+// The vertices of each cell of more than four vertices are such a set. The vertices of a 2-face are one, too, if the
+// hyperplanes of its two cells are nearly parallel, because such hyperplanes do not determine the plane of the 2-face.
+// The hyperplane of a 2-face is perpendicular to the hyperplane of its cell.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
-    glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, along which its own one extends
+    glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, perpendicular to `normal`
     glm::dvec4 middle{0}, normal{0};
     double radius = 0;     // the largest distance of a point from the middle
     double deviation = 0;  // the largest distance of a point from the hyperplane
 };
 
-// What a round changes: the places of all vertices and, for each flat, its normal (times its radius) and its middle
-// (along the normal).
+// The changes of one round: `moves` of all vertices and, for each flat, `tilts`, the change of its normal times its
+// radius, and `shifts`, the negative change of its middle along the normal.
 struct Unknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
@@ -97,8 +100,8 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     return best;
 }
 
-// Finds nearby places of the vertices in which all flats are flat, by Newton's method. For each vertex v of a flat with
-// the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m. The conjugate gradient method
+// Finds nearby places of the vertices with which all flats are flat, by Newton's method. For each vertex v of a flat
+// with the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m. The conjugate gradient method
 // finds the least change that solves the linearized equations, without storing their matrix (CGLS: Björck, Numerical
 // Methods for Least Squares Problems, 7.4). The equations need not be independent.
 class Flattener {
@@ -118,7 +121,7 @@ class Flattener {
     std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : flats_[farthest_].cell; }
     bool isFlat() const { return deviation() <= maxDeviation_; }
 
-    /// Marks the 2-faces and the cells whose flats are not flat.
+    /// Marks the 2-faces and the cells whose flats deviate by more than the permitted distance.
     void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
         for (const FittedFlat& flat : flats_) {
             if (flat.deviation <= maxDeviation_) continue;
@@ -130,7 +133,8 @@ class Flattener {
         }
     }
 
-    /// Moves the vertices. Returns false if it does not succeed, or not without moving one by more than `maxDistance`.
+    /// Moves the vertices until all flats are flat. Returns false if this does not succeed, or if a vertex moves by
+    /// more than `maxDistance`; then the caller must restore the vertices.
     bool run(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
@@ -200,7 +204,7 @@ class Flattener {
     }
 
     // Fits the hyperplane of a flat to its points: first to points that are far apart, then to all by least squares.
-    // The correction is small, so that its rounding errors are, too.
+    // The second step changes little; therefore its rounding errors are small, too.
     void fit(std::uint32_t i) {
         FittedFlat& flat = flats_[i];
         const auto corners = corners_[i];
@@ -260,7 +264,7 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the change of each distance that results from a change of the unknowns.
+    // Sets `out` to the change of each distance that results from a change of the unknowns, to the first order.
     void apply(const Unknowns& change, std::vector<double>& out) const {
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
@@ -270,7 +274,7 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the product of the transposed matrix of apply() and the list.
+    // Sets `out` to the product of the transposed matrix of apply() and the vector `list`.
     void applyTransposed(const std::vector<double>& list, Unknowns& out) const {
         std::fill(out.moves.begin(), out.moves.end(), glm::dvec4(0));
         for (std::size_t i = 0; i < flats_.size(); ++i) {
@@ -286,7 +290,8 @@ class Flattener {
         }
     }
 
-    // Returns the least change of the unknowns that makes all distances 0, to the first order. Adds to `work`.
+    // Returns the least change of the unknowns that makes all distances 0, to the first order. Adds its work (see
+    // kMaxWork) to `work`.
     Unknowns solve(double tolerance, std::size_t& work) const {
         Unknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
@@ -330,7 +335,7 @@ Flattening flatten(PolygonSoup& soup, double size, double maxDistance, double ro
     Flattener flattener(soup, size);
     result.deviation = flattener.deviation();
     const std::uint32_t cell = flattener.farthestCell();
-    result.farthest = cell < soup.cellSourcePositions.size() ? soup.cellSourcePositions[cell].number : cell;
+    result.leastFlatCell = cell < soup.cellSourcePositions.size() ? soup.cellSourcePositions[cell].number : cell;
     if (flattener.isFlat()) return result;
     std::vector<bool> faces(soup.faces.size(), false), cells(soup.cells.size(), false);
     flattener.markUneven(faces, cells);

@@ -29,7 +29,7 @@ namespace {
 
 constexpr int kDimensions = 4;
 constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
-constexpr double kPerturbation = 1e-11;          // relative to the extent of the points
+constexpr double kPerturbation = 1e-11;          // the initial amplitude, relative to the extent of the points
 constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices is this times maxCells
 constexpr int kMaxRounds = 4;                    // the maximum; each round removes points that are not vertices
 constexpr std::size_t kMessageBytes = 4096;      // the size of the stream that takes and discards Qhull's messages
@@ -41,7 +41,7 @@ using Points = std::vector<glm::dvec4>;
 // closed.
 class QhullRun {
   public:
-    /// Runs Qhull. `perturbation` is the initial one; Qhull increases it if it is too small (see perturbation()).
+    /// Runs Qhull. `perturbation` is the initial amplitude; Qhull increases it if it is too small (see perturbation()).
     QhullRun(std::span<const glm::dvec4> points, double perturbation) {
         for (const glm::dvec4& p : points) {
             for (int k = 0; k < kDimensions; ++k) coordinates_.push_back(p[k]);
@@ -139,8 +139,8 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
     }
 }
 
-// Returns, for each point, the points that share an edge of a simplex with it; none for a point that is not on the
-// hull.
+// Returns, for each point, the points that share an edge of a simplex with it; an empty list for a point that is not on
+// the hull.
 std::vector<std::vector<std::uint32_t>> linksOf(std::span<const SimplexFacet> simplices, std::size_t points) {
     std::vector<std::vector<std::uint32_t>> links(points);
     for (const SimplexFacet& simplex : simplices) {
@@ -211,7 +211,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    // Points that are no farther apart than rounding may have moved them are merged.
+    // Merge points that are so close that errors alone may have moved them apart.
     Points places;
     std::vector<std::uint32_t> numbers;  // per place: the index of its point
     geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
@@ -245,12 +245,12 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
 
     MergedHull merged = mergeCoplanar(simplices, places, frame);
     if (merged.cells.size() > maxCells) refuseSize(maxCells);
-    Hull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousRidges, rounding};
+    Hull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousCellPairs, rounding};
     std::vector<std::uint32_t> used;
     for (const std::uint32_t v : hull.faces.items) used.push_back(v);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    // Restore the order of the file.
+    // Restore the order of `points`.
     std::sort(used.begin(), used.end(), [&](auto a, auto b) { return numbers[a] < numbers[b]; });
     std::vector<std::uint32_t> number(places.size(), 0);
     for (const std::uint32_t v : used) {

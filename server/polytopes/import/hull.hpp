@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 struct Hull {
     std::vector<glm::dvec4> vertices;    ///< the points that are vertices of the hull, in the order of the input
     geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
-    std::size_t ambiguousRidges = 0;     ///< see MergedHull::ambiguousRidges
-    glm::dvec4 rounding{0};              ///< the parameter of convexHull()
+    std::size_t ambiguousCellPairs = 0;  ///< see MergedHull::ambiguousCellPairs
+    glm::dvec4 rounding{0};              ///< the parameter `rounding` of convexHull()
 };
 
 /// Computes the convex hull of points with Qhull. `rounding` is the maximum rounding error of a coordinate along each

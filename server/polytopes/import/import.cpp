@@ -11,7 +11,7 @@
 #include "polytopes/import/off4.hpp"
 #include "polytopes/import/polygon_soup.hpp"
 #include "polytopes/import/repair.hpp"
-#include "polytopes/import/written_precision.hpp"
+#include "polytopes/import/rounding_estimator.hpp"
 #include "text/message_text.hpp"
 #include "text_files/plain_text.hpp"
 #include "text_files/point_table.hpp"
@@ -37,8 +37,8 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-// Throws a FileError if a 2-face of the file has fewer than three different vertices. repair() leaves such 2-faces out,
-// which is wrong if one of their vertices is mistaken.
+// Throws a FileError if a 2-face of the file has fewer than three different vertices. repair() leaves such a 2-face
+// out; if the polytope is then not valid, a wrong vertex of the 2-face is the likely cause.
 void checkCorners(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
@@ -53,15 +53,15 @@ void checkCorners(const PolygonSoup& soup) {
     }
 }
 
-// Moves the origin of the coordinates to the center, which is returned.
+// Moves the origin of the coordinates to the point that `centering` chooses, and returns this point.
 glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
     const glm::dvec4 center = geometry::centerFor(centering, points);
     for (glm::dvec4& p : points) p -= center;
     return center;
 }
 
-// Makes the cells flat, and appends warnings of what has changed. A move by at most `rounding`, and one that is tiny
-// compared with the size, is not worth a warning. Returns whether cells or 2-faces were divided.
+// Makes the cells flat, and appends warnings of what has changed. Does not warn of a move by at most `rounding`, or of
+// one that is tiny compared with the size. Returns whether cells or 2-faces were divided.
 bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
@@ -77,13 +77,13 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
     std::string divided = std::to_string(done.split) + " cells were divided into tetrahedra";
     if (done.split == 1) divided = "it was divided into tetrahedra";
     if (done.split == 0) divided = "2-faces were divided into triangles";
-    warnings.push_back("cell " + std::to_string(done.farthest) + " deviates from a flat one by " +
+    warnings.push_back("cell " + std::to_string(done.leastFlatCell) + " deviates from a flat one by " +
                        text::roundedDecimal(done.deviation) +
                        ", and small moves of the vertices do not make it flat: " + divided);
     return true;
 }
 
-// A polytope, and whether its elements are others than those of the file.
+// A polytope, and whether cells or 2-faces were divided, so that its elements differ from the elements in the file.
 struct Built {
     Imported imported;
     bool divided = false;
@@ -139,11 +139,13 @@ Imported importOff4(std::string_view text, const std::string& name, const Import
 }
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
-// numbers of few decimals, are treated as exact, unless treating them as rounded gives a hull without ambiguous ridges
-// that has at most half as many cells, as for a polytope that was scaled and then rounded to whole numbers.
-Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
+// numbers of few decimals, are normally treated as exact. They are treated as rounded if the hull of the rounded points
+// has no ambiguous ridges (see MergedHull) and at most half as many cells, as for a polytope that was scaled and then
+// rounded to whole numbers.
+Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    // If the units of the last digit are larger, the cells of a rounded polytope are not flat enough to remain whole.
+    // If `size` is less than this many units of the last digit, the cells of a rounded polytope are not flat enough to
+    // remain whole. Therefore the coordinates are then treated as exact.
     constexpr double kMinUnits = 0.5 / kFlatInFile;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
@@ -155,7 +157,7 @@ Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precisio
     } catch (const FileError&) {
         return exact;
     }
-    if (coarse.ambiguousRidges > 0 || coarse.cells.size() == exact.cells.size()) return exact;
+    if (coarse.ambiguousCellPairs > 0 || coarse.cells.size() == exact.cells.size()) return exact;
     const bool round = 2 * coarse.cells.size() <= exact.cells.size();
     warnings.push_back(std::string("the coordinates ") +
                        (precision.whole() ? "are whole numbers" : "have few decimals") + " and were treated as " +
@@ -167,7 +169,7 @@ Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precisio
 Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits,
                       const geometry::Centering& centering) {
     std::vector<glm::dvec4> points;
-    WrittenPrecision precision;
+    RoundingEstimator precision;
     Imported result;
     const auto add = [&](const text_files::PointRow& row) {
         for (int axis = 0; axis < 4; ++axis)
@@ -182,13 +184,14 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
             std::to_string(inside) + " of " + std::to_string(points.size()) + " points " +
             (one ? "is not a hull vertex and was left out" : "are not hull vertices and were left out"));
     }
-    if (hull.ambiguousRidges > 0) {
-        result.warnings.push_back("at " + std::to_string(hull.ambiguousRidges) + " of the hull's " +
+    if (hull.ambiguousCellPairs > 0) {
+        result.warnings.push_back("at " + std::to_string(hull.ambiguousCellPairs) + " of the hull's " +
                                   std::to_string(hull.faces.size()) +
                                   " 2-faces, the coordinates are too imprecise to tell whether the two cells lie in "
                                   "one hyperplane");
     }
-    // The error of the hull is a multiple of the rounding, because the cells extend beyond the points that fix them.
+    // The error of the hull is a multiple of the rounding, because cells extend beyond the points that determine their
+    // hyperplanes.
     constexpr double kAmplification = 32, kHullError = 1e-10;
     PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
     const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +

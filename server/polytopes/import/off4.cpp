@@ -26,19 +26,20 @@ namespace {
 // The lengths of the shortest records: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2 3\n".
 constexpr std::size_t kVertexBytes = 8, kFaceBytes = 8, kCellBytes = 10;
 
-// The numbers that follow the coordinates of a vertex, if the keyword has these letters: a color (red, green, blue,
-// opacity), a normal vector, texture coordinates (Geomview, OFF file format).
+// How many numbers follow the coordinates of a vertex if the keyword has the letter C (a color: red, green, blue,
+// opacity), N (a normal vector) or ST (texture coordinates) (Geomview, OFF file format).
 constexpr int kColorNumbers = 4, kNormalNumbers = 4, kTextureNumbers = 2;
 
 constexpr std::string_view kKeyword = "off";
 
-// The numbers in the header, and the first word after them.
+// The numbers in the header.
 struct Header {
     std::uint32_t vertices = 0, faces = 0, edges = 0, cells = 0;
-    int vertexNumbers = 4;  // the numbers of each vertex, coordinates included
+    int numbersPerVertex = 4;  // how many numbers each vertex has, coordinates included
 };
 
-// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow it in the same word.
+// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow it in the same word. Returns how many
+// numbers each vertex has, coordinates included.
 int readKeyword(Tokenizer& file) {
     const std::string_view word = file.next();
     const std::string keyword = text::normalizedName(word);
@@ -69,7 +70,7 @@ int readKeyword(Tokenizer& file) {
 
 Header readHeader(Tokenizer& file) {
     Header header;
-    header.vertexNumbers = readKeyword(file);
+    header.numbersPerVertex = readKeyword(file);
     const auto count = [&](std::string_view word, const char* what) { return parseCount(word, file.line(), what); };
     std::string_view word = file.next();
     if (text::normalizedName(word) == "binary")
@@ -97,11 +98,13 @@ struct Noun {
     std::string one, many;
 };
 
-// Whether the records of a kind begin on lines of their own, and whether they also end there.
+// How the records of a kind are divided into lines. `lines`: each record begins on a new line and may continue on
+// further lines; words after it are ignored. `continuous`: line breaks do not matter. `own_lines`: each record begins
+// and ends on a line of its own.
 enum class Layout { lines, continuous, own_lines };
 
-// Returns the next word of a record, which may be on a further line unless the record has a line of its own. Throws a
-// FileError if such a line ends before: `record` has `found` of its words.
+// Returns the next word of a record. With Layout::own_lines, the word must be on the current line; if this line has
+// ended, throws a FileError, which says that `record` has only `found` of `needed` `members`.
 std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& record, std::uint32_t found,
                         std::uint32_t needed, const char* members) {
     if (layout != Layout::own_lines) return file.next();
@@ -121,7 +124,7 @@ void readVertices(Tokenizer& file, const Header& header, Layout layout, std::vec
                 i == 0 ? file.next() : nextOf(file, layout, "vertex " + std::to_string(n), i, 4, "coordinates");
             vertices[n][i] = parseCoordinate(word, file.line());
         }
-        for (int i = 4; layout == Layout::continuous && i < header.vertexNumbers; ++i) {
+        for (int i = 4; layout == Layout::continuous && i < header.numbersPerVertex; ++i) {
             const auto word = file.next();
             parseCoordinate(word, file.line());
         }
@@ -143,7 +146,8 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
             throwFileError(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
         const std::size_t line = file.line();
         const std::uint32_t size = parseCount(first, line, "the size of " + owner);
-        // A loop may pass through a vertex more than once; repair() splits it there. The limit bounds memory.
+        // A loop may pass through a vertex more than once, and repair() splits it there; therefore the limit is
+        // 2~·~`below`, not `below`. It bounds memory.
         if (size < least || size > 2 * below) {
             throwFileError(line, owner + " has " + std::to_string(size) + " " + member.many + "; " +
                                      std::to_string(least) + " to " + std::to_string(2 * below) + " are allowed");
@@ -180,9 +184,9 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& lay
     return soup;
 }
 
-// Returns the fault of the first record that does not fit its line, if the file has as many lines as records. Such a
-// record takes words of the next line, so that a later record seems to be wrong. `file` is a copy, which begins after
-// the header.
+// Returns the fault of the first record whose line has too few words, if the file has as many lines as records;
+// otherwise std::nullopt. If the reader ignores line breaks, such a record takes words of the next line, and a later
+// record seems to be wrong. `file` is a copy, which begins after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

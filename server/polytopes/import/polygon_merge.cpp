@@ -20,7 +20,7 @@ namespace {
 
 using geometry::kNone;
 
-// Returns the boundary loop of triangles that form a disk; empty if they do not form one.
+// Returns the boundary loop of triangles that form a disk; an empty list if they do not form a disk.
 std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std::span<const Triangle> all) {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> corners;

@@ -12,8 +12,8 @@
 namespace oval4d::polytopes {
 
 /// Merges triangles that share edges and lie in one plane, within the error bounds of the points, into convex polygons,
-/// and adds these to `faces`, as loops of indices of points. Where they do not form a convex polygon, adds the
-/// triangles.
+/// and adds the polygons to `faces`, as loops of indices of points. Where the triangles do not form a convex polygon,
+/// adds them unmerged.
 void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
                  geometry::JaggedArray& faces);
 

@@ -23,7 +23,8 @@ struct PolygonSoup {
 
     std::vector<glm::dvec4> vertices;
     geometry::JaggedArray faces, cells;  ///< vertex loops and lists of 2-faces, as in Polytope
-    std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;  ///< parallel to `faces` and `cells`
+    /// Parallel to `faces` and `cells`, or empty for a polytope that is not from a 4OFF file.
+    std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;
 };
 
 /// How far the vertices of a cell or 2-face in a file may be from one hyperplane or plane, relative to halfDiagonal().
@@ -34,7 +35,8 @@ inline constexpr double kFlatInFile = 5e-3;
 /// are relative to this size.
 double halfDiagonal(std::span<const glm::dvec4> points);
 
-/// Returns a bound on the rounding errors of points whose coordinates are doubles. It is larger far from the origin.
+/// Returns a bound on the rounding errors of points whose coordinates are doubles. The bound is proportional to the
+/// largest distance of a point from the origin.
 double doubleRounding(std::span<const glm::dvec4> points);
 
 /// Throws a FileError, with the element's line number, if a 2-face is not flat or a cell does not lie in a

@@ -19,7 +19,8 @@ using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
-// Appends 2-faces and cells to lists, with their positions in the file if these are known.
+// Divides the 2-faces and cells of a soup: first divideFaces(), then divideCells(), which also replaces the lists of
+// the soup by the new ones. Keeps the positions in the file if these are known.
 class SimplexDivider {
   public:
     explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}
@@ -79,7 +80,7 @@ class SimplexDivider {
         for (const std::uint32_t t : triangles) {
             for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
         }
-        // The triangles between the apex and an edge: first those of the cell's surface, then those inside.
+        // For each edge, its triangle with the apex: first the triangles on the cell's surface, then also those inside.
         std::map<VertexPair, std::uint32_t> upright;
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
         for (const std::uint32_t t : triangles) {
@@ -108,7 +109,7 @@ class SimplexDivider {
 
     PolygonSoup& soup_;
     bool hasPositions_;
-    std::vector<std::vector<std::uint32_t>> becomes_;  // per 2-face: what it becomes
+    std::vector<std::vector<std::uint32_t>> becomes_;  // per 2-face: the 2-faces that replace it
     geometry::JaggedArray faces_, cells_;
     std::vector<PolygonSoup::SourcePosition> facePositions_, cellPositions_;
 };

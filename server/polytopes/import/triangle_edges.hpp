@@ -13,13 +13,14 @@ namespace oval4d::polytopes {
 using Triangle = std::array<std::uint32_t, 3>;  ///< indices of points
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// An edge of a triangle.
+/// An edge of a triangle: its ends, the smaller index first, and the index of the triangle.
 struct TriangleEdge {
     Edge edge;
     std::uint32_t triangle;
 };
 
-/// Returns the edges of all triangles, sorted by their ends. `corners` maps an element of `triangles` to its corners.
+/// Returns the edges of all triangles, sorted by their ends, then by triangle. `corners` maps an element of `triangles`
+/// to its corners.
 template <typename Triangles, typename Corners>
 std::vector<TriangleEdge> edgesOfTriangles(const Triangles& triangles, Corners corners) {
     std::vector<TriangleEdge> edges;

@@ -112,7 +112,7 @@ void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
 
 void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     // The axes have their own projection. Its view axis meets the axes' origin, and its eye is so far away that the
-    // projection is nearly parallel.
+    // projection is nearly parallel. The unit of these lengths is the length of an axis.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
     const scene::Style& style = scene.style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
@@ -135,7 +135,7 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
     };
     std::array axes{Axis{turn[0], style.axes[0], 'x'}, Axis{turn[1], style.axes[1], 'y'},
                     Axis{turn[2], style.axes[2], 'z'}};
-    // Ties are broken by name, because std::stable_sort would allocate memory.
+    // Sorts the axes from far to near. Ties are broken by name, because std::stable_sort would allocate memory.
     std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
         return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
     });
@@ -186,7 +186,7 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
     const auto height = static_cast<double>(scene.viewport.height);
     const auto& colors = style.axes;
     const auto count = static_cast<int>(scene.slices->rotatedVertices.size());
-    // Lines at least one pixel wide are sharpest on whole pixels.
+    // Lines that are at least one pixel wide are moved to whole pixels, where they are sharpest.
     const double lineWidth = layout.lineWidth * height;
     const auto snap = [&](double x) { return static_cast<float>(lineWidth >= 1 ? std::round(x) : x); };
     const auto lineThickness = snap(lineWidth);

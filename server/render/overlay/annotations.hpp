@@ -11,13 +11,13 @@ namespace oval4d::render {
 /// Draws the x, y and z axes, with their names, as the camera sees them, at the place that Scene::axes specifies.
 void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Draws the label of each slice, which shows its w, in the order of the slices, except that the label of the focus
-/// slice is drawn last. This label is highlighted.
+/// Draws the labels of the slices, which show the values of w. The label of the focus slice is highlighted, and is
+/// drawn after the others.
 void paintLabels(const scene::Scene& scene, Overlay& overlay);
 
 /// Draws the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
-/// field is shown in their place, draws only its axes and marks; DensityStrip draws the rest. Does nothing if none of
-/// these is shown.
+/// field is shown instead, draws only its axes and marks; DensityStrip draws the rest. Does nothing if none of these is
+/// shown.
 void paintCoordinates(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

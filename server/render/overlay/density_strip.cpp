@@ -86,8 +86,8 @@ void DensityStrip::load(const std::vector<std::uint8_t>& tones, int columns) {
     }
 }
 
-// Adds the lower and the upper end of a vertical edge at x, which shows the center of this column of the texture. The
-// ends show the centers of the last and the first row.
+// Adds the lower and the upper end of a vertical edge at x (in viewport heights from the left). The edge shows the
+// center of this column of the texture; its lower and upper end show the center of the last and the first row.
 void DensityStrip::addEdge(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {

@@ -12,9 +12,9 @@
 
 namespace oval4d::render {
 
-/// Draws the density strip of a scene, whose colors are interpolated between the axes, or the panels of the histogram
-/// of a field, each in the color of its axis. Both are drawn as textures. Requires a current GL context throughout its
-/// lifetime.
+/// Draws the density strip of a scene, or the histogram of a field. The colors of the strip are interpolated between
+/// the axes; each panel of the histogram has the color of its axis. Both are drawn as textures. Requires a current GL
+/// context throughout its lifetime.
 class DensityStrip {
   public:
     DensityStrip();

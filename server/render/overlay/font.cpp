@@ -10,9 +10,9 @@ namespace oval4d::render {
 
 namespace {
 
-constexpr int kWidth = 1024;  // width of the texture
+constexpr int kWidth = 1024;  // the width of the texture in texels
 constexpr int kStartHeight = 256;
-constexpr int kMaxKeptHeight = 1024;  // above this, clearIfLarge() removes all glyphs
+constexpr int kMaxKeptHeight = 1024;  // if the texture is higher, clearIfLarge() removes all glyphs
 constexpr int kMaxHeight = 8192;
 constexpr int kMaxSize = 512;
 
@@ -88,7 +88,8 @@ Glyph Font::draw(int size, char32_t character) {
     return glyph;
 }
 
-/// Allocates a place in the texture by shelf packing. Returns y = −1 if the texture is full.
+/// Allocates a rectangle in the texture by shelf packing. Returns its upper left texel, or y = −1 if the texture is
+/// full.
 std::pair<int, int> Font::reserve(int width, int height) {
     if (shelfX_ + width > kWidth) {
         shelfY_ += shelfHeight_ + 1;
@@ -111,7 +112,8 @@ int Font::width(int size, std::string_view text) {
     return width;
 }
 
-/// Removes and returns the first character of UTF-8 text. An invalid or truncated sequence gives its first byte.
+/// Removes and returns the first character of UTF-8 text. Does not check continuation bytes. The first byte of a
+/// truncated sequence, or a continuation byte without a first byte, is returned as a character of its own.
 char32_t Font::takeCharacter(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;

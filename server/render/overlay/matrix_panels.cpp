@@ -18,11 +18,12 @@ using scene::Color;
 using slicing::PlanarSection;
 
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
-constexpr double kNameHeight = 0.3;  // of an axis' name, as a fraction of its panel
+constexpr double kNameHeight = 0.3;  // the font size of an axis name, as a fraction of the side of a panel
 // The width of the lines of the focus point in the focus slice, as a fraction of the picture's height.
 constexpr double kFocusWidth = 0.0028;
 
-// Draws the two panels of one section: one with its first axis to the right, one with its second.
+// Draws the panels of sections. Each section has two panels: one with the section's first axis to the right, and one
+// with its second axis to the right.
 class SectionPainter {
   public:
     SectionPainter(const scene::Scene& scene, Overlay& overlay)
@@ -69,7 +70,7 @@ class SectionPainter {
                 static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
     }
 
-    // The lines in which the plane meets the other planes of its row and its column.
+    // Draws the lines in which the plane meets the other planes of its row and its column.
     void paintFocusLines(int row, int column) const {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
@@ -84,7 +85,7 @@ class SectionPainter {
     void paintFill(const PlanarSection& from) {
         polygon_.clear();
         for (const std::uint32_t p : from.boundary) polygon_.push_back(points_[p]);
-        if (!scene_.crossing) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
+        if (!scene_.isNonconvex) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
     }
 
     void paintEdges(std::size_t section) const {

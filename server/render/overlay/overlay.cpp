@@ -51,7 +51,8 @@ constexpr Attribute kAttributes[] = {{2, GL_FLOAT, offsetof(OverlayVertex, at)},
                                      {2, GL_FLOAT, offsetof(OverlayVertex, texel)},
                                      {4, GL_UNSIGNED_BYTE, offsetof(OverlayVertex, color)}};
 
-// The half width of the box of a glyph: larger than any glyph, so that the box does not clip the glyph.
+// Half the width and height of the box of a glyph or polygon, in pixels: larger than the picture, so that the box cuts
+// off nothing.
 constexpr float kWide = 1e5f;
 
 }  // namespace

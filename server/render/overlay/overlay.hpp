@@ -15,13 +15,13 @@
 
 namespace oval4d::render {
 
-/// A corner of a box or of a glyph. The opacity of a pixel is that of the color, times the fraction of the pixel that a
-/// box with rounded corners covers, times the value of a texel.
+/// A corner of a box or of a glyph. The opacity of a pixel is the opacity of the color, times the fraction of the pixel
+/// that a box with rounded corners covers, times the coverage that the glyph texture contains.
 struct OverlayVertex {
     glm::vec2 at{0};          ///< clip coordinates, −1 … 1
     glm::vec2 fromCenter{0};  ///< the position relative to the center of the box, in pixels
     glm::vec3 box{0};         ///< half width, half height and corner radius, in pixels
-    glm::vec2 texel{0.5f};    ///< the position in the glyph texture; the default has full coverage
+    glm::vec2 texel{0.5f};    ///< the position in the glyph texture, in texels; the default has full coverage
     std::uint32_t color = 0;  ///< as returned by rgba()
 };
 

@@ -20,7 +20,7 @@ OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
     return _mm256_mul_ps(result, base);
 }
 
-/// Returns one channel, 0 … 3, of eight pixels, as numbers from 0 to 255.
+/// Returns one channel (0 … 3: R, G, B, A) of eight pixels, as numbers from 0 to 255.
 template <int channel>
 OVAL4D_AVX2 inline __m256 channelOf(__m256i pixels) {
     return _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srli_epi32(pixels, 8 * channel), _mm256_set1_epi32(255)));

@@ -8,8 +8,8 @@
 
 namespace oval4d::render {
 
-void ConvexSlicePainter::paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
-                               const std::function<void()>& paintProjection) {
+void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
+                                   const std::function<void()>& paintProjection) {
     const glm::dmat4 toView = scene.camera.view();
     out.setProjection(Projection::of(scene.camera, scene.viewport));
     placementOrder_.clear();
@@ -40,7 +40,7 @@ void ConvexSlicePainter::paint(const scene::Scene& scene, ShapeBatch& out, const
     paintProjectionIfDue(-1);
 }
 
-void ConvexSlicePainter::paintSlice(const SliceView& slice, ShapeBatch& out) {
+void ConvexShapeCollector::paintSlice(const SliceView& slice, ShapeBatch& out) {
     place(slice);
     classify(slice);
     sortByDepth(slice);
@@ -50,7 +50,7 @@ void ConvexSlicePainter::paintSlice(const SliceView& slice, ShapeBatch& out) {
     }
 }
 
-void ConvexSlicePainter::place(const SliceView& slice) {
+void ConvexShapeCollector::place(const SliceView& slice) {
     const SliceTransform transform(slice);
     points_.resize(slice.vertices());
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -59,7 +59,7 @@ void ConvexSlicePainter::place(const SliceView& slice) {
 
 /// Determines which faces are turned toward the eye, and which edges and vertices belong to at least one of these
 /// faces.
-void ConvexSlicePainter::classify(const SliceView& slice) {
+void ConvexShapeCollector::classify(const SliceView& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
     faceSide_.resize(slice.faces());
@@ -83,7 +83,7 @@ void ConvexSlicePainter::classify(const SliceView& slice) {
 
 /// Sorts vertices from far to near, and groups edges by their farther vertex. Drawn in this order, a bar covers the
 /// ball at its far end, and the ball at its near end covers the bar.
-void ConvexSlicePainter::sortByDepth(const SliceView& slice) {
+void ConvexShapeCollector::sortByDepth(const SliceView& slice) {
     order_.resize(slice.vertices());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -97,16 +97,17 @@ void ConvexSlicePainter::sortByDepth(const SliceView& slice) {
     const auto farther = [&](std::size_t e) { return std::min(rank_[slice.edge(e)[0]], rank_[slice.edge(e)[1]]); };
     for (std::size_t e = 0; e < slice.edges(); ++e) ++edgeBegin_[farther(e)];
     std::partial_sum(edgeBegin_.begin(), edgeBegin_.end(), edgeBegin_.begin());
-    // Each entry now holds the end of its edges; filling backward turns it into their beginning.
+    // Entry i is now the end of the edges whose farther vertex has rank i. Filling backward turns it into their
+    // beginning.
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 
-void ConvexSlicePainter::paintFaces(const SliceView& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintFaces(const SliceView& slice, Side side, ShapeBatch& out) {
     const auto opacity = static_cast<float>(slice.scene.faceOpacity);
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
         if (faceSide_[f] != side) continue;
-        const float visibility = slice.faceOpacity(f);
+        const float visibility = slice.faceVisibilityFactor(f);
         if (visibility == 0) continue;
         const auto [begin, end] = slice.loop(f);
         corners_.clear();
@@ -115,7 +116,7 @@ void ConvexSlicePainter::paintFaces(const SliceView& slice, Side side, ShapeBatc
     }
 }
 
-void ConvexSlicePainter::paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out) {
     const SkeletonStyle skeleton(slice.scene);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];

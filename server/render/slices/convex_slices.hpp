@@ -18,14 +18,14 @@ namespace oval4d::render {
 /// first the faces that are turned away from the eye, then the bars and balls that belong only to such faces, then the
 /// other faces, then the other bars and balls. This order is correct if slices do not overlap in space. Reuses its
 /// memory for the next picture.
-class ConvexSlicePainter {
+class ConvexShapeCollector {
   public:
-    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; it may
-    /// draw the shapes in `out` and clear `out`. If the projection of the whole object is shown, calls
+    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; this
+    /// function may draw the shapes in `out` and clear `out`. If the projection of the whole object is shown, calls
     /// `paintProjection` once, after the slices that are farther from the eye than the projection, and before the
     /// nearer ones.
-    void paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
-               const std::function<void()>& paintProjection);
+    void collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
+                 const std::function<void()>& paintProjection);
 
   private:
     enum class Side : std::uint8_t { away, toward };
@@ -41,7 +41,7 @@ class ConvexSlicePainter {
     std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;
     std::vector<std::uint32_t> order_, rank_;           // vertices from far to near; the inverse permutation
-    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // edges grouped by their farther vertex
+    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // edges grouped by the rank of their farther vertex
 };
 
 }  // namespace oval4d::render

@@ -6,18 +6,20 @@
 
 namespace oval4d::render {
 
-/// The depth buffer holds one float per pixel: the nearness of the nearest solid shape, which is 1 / (distance from the
-/// eye along the view axis), or 0. These bits, the lowest ones, hold the part of the pixel that solid shapes cover,
-/// from 0 to 255, so that the nearness is precise to 1/30,000. Without this part, the background would show along the
-/// edges of solid shapes that are in front of translucent ones.
+/// The depth buffer holds one float per pixel: the nearness of the nearest solid shape, that is, 1 / (its distance from
+/// the eye along the view axis), or 0 if there is none. The lowest 8 bits of the float, which this mask selects, hold
+/// the coverage instead: the part of the pixel that solid shapes cover, from 0 to 255. The other bits give the nearness
+/// with a relative error of at most 1/30,000. Without the coverage, the background would show along the edges of solid
+/// shapes that are in front of translucent ones.
 inline constexpr std::uint32_t kCoverageBits = 255;
 
-/// Returns the value for a pixel that is covered completely by a shape with this nearness.
+/// Returns the depth buffer's value for a pixel that a shape with this nearness covers completely.
 inline float coveredAt(float nearness) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearness) | kCoverageBits);
 }
 
-/// Returns the part of a pixel that solid shapes leave uncovered, from 0 to 1.
+/// Returns the part of a pixel, from 0 to 1, that solid shapes leave uncovered. `depth` is its value in the depth
+/// buffer.
 inline float uncoveredPart(float depth) {
     return 1 - static_cast<float>(std::bit_cast<std::uint32_t>(depth) & kCoverageBits) / kCoverageBits;
 }

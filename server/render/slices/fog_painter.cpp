@@ -30,17 +30,17 @@ void main() {
 }
 )";
 
-// As in web_client/src/picture/fog_painter.ts.
+// web_client/src/picture/fog_painter.ts has the same algorithm.
 constexpr std::string_view kFragmentSource = R"(
 in vec3 place;
-in float depthSeen;  // the distance along the view axis
+in float depthSeen;  // the distance of this place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
 uniform sampler3D blocks;    // per block of 4 × 4 × 4 cells of the lattice: 0 if there is no fog in it
 uniform sampler2D table;     // per value: the color, and the absorption per circumradius
 uniform sampler2D frameDepths, surfaceDepths;
-uniform vec2 toDepth;        // the depth of a point, -1 to 1, is x + y / distance
+uniform vec2 toDepth;        // the depth of a point, from -1 to 1, is toDepth.x + toDepth.y / distance
 uniform bool isBehind;       // whether the fog behind balls and bars is drawn, or that in front of them
-uniform vec3 eye;            // this and the next are in slice coordinates
+uniform vec3 eye;            // in slice coordinates, like walls and low
 uniform vec4 walls[8];
 uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
@@ -48,13 +48,13 @@ uniform vec3 size;           // the number of its points
 uniform float latticeStep;
 uniform float circumradius;
 out vec4 pixel;
-// The distance of the nearest thing along the view axis.
+// The distance along the view axis of the nearest thing in a depth texture; 1e30 if there is none.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
 }
 void main() {
-    // The ray is eye + t way; its part in the fog is from t = begin to t = end.
+    // The ray is eye + t * way. Its part in the fog is from t = begin to t = end.
     vec3 way = place - eye;
     way += vec3(equal(way, vec3(0.0))) * 1e-20;
     vec3 first = (low - eye) / way, last = (low + latticeStep * (size - 1.0) - eye) / way;
@@ -80,7 +80,7 @@ void main() {
     for (float i = 0.0; i < count && clear > 0.002; ++i, at += move) {
         vec3 block = clamp((at * size - 0.5) / 4.0, vec3(0.0), (size - 1.001) / 4.0);
         if (texelFetch(blocks, ivec3(block), 0).r == 0.0) {
-            // Leaps to the first step beyond the block.
+            // Leaps to the last step in the block; the loop then leaves it.
             vec3 perStep = move * size / 4.0;
             vec3 steps = (floor(block) + vec3(greaterThan(perStep, vec3(0.0))) - block) / perStep;
             float leap = max(ceil(min(steps.x, min(steps.y, steps.z))) - 1.0, 0.0);
@@ -109,7 +109,8 @@ void makeTexture(GLenum target, GLint filter, GLuint& out) {
         glTexParameteri(target, name, GL_CLAMP_TO_EDGE);
 }
 
-/// The triangles of a box with the corners x + 2y + 4z for x, y, z in {0, 1}, counterclockwise from outside.
+/// The triangles of a box, counterclockwise seen from outside. The corner (x, y, z), for x, y, z in {0, 1}, has the
+/// index x + 2y + 4z.
 constexpr std::array<std::uint32_t, 36> kBoxTriangles{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                                                       2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
 
@@ -182,7 +183,7 @@ void FogPainter::copyDepths(scene::Viewport viewport, FogOccluders occluders) {
     glActiveTexture(GL_TEXTURE0);
 }
 
-// Writes a lattice to the 3-D texture that is bound.
+// Writes the values of a lattice to the 3-D texture that is bound.
 void FogPainter::load(const slicing::SliceFog& fog) {
     texels_.clear();
     texels_.reserve(2 * fog.values.size());
@@ -194,7 +195,7 @@ void FogPainter::load(const slicing::SliceFog& fog) {
                  texels_.data());
 }
 
-// Writes to the 3-D texture that is bound which blocks of a lattice have fog.
+// Writes to the 3-D texture that is bound, for each block of a lattice, whether there is fog in it.
 void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table) {
     const glm::ivec3 size = scene::findFogBlocks(fog, table, blockTexels_);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());

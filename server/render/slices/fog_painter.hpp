@@ -17,12 +17,12 @@ namespace oval4d::render {
 
 /// Draws the fog of slices. For each pixel, follows the ray from the eye through the lattice of a slice to the nearest
 /// solid shape, and sums emission and absorption (N. Max, "Optical models for direct volume rendering", 1995). Let a be
-/// the opacity of a layer of fog that is as thick as the circumradius; then a segment of the ray of length s, in
-/// circumradii, absorbs 1 − (1 − a)^s of the light. The maximum of a is 1 − kMinTransmittance. Rays skip blocks of the
-/// lattice in which there is no fog. Requires a current GL context throughout its lifetime.
+/// the opacity of a layer of fog that is as thick as the circumradius. Then a segment of the ray with the length s, in
+/// circumradii, absorbs the fraction 1 − (1 − a)^s of the light. The maximum of a is 1 − kMinTransmittance. Rays skip
+/// blocks of the lattice in which there is no fog. Requires a current GL context throughout its lifetime.
 class FogPainter {
   public:
-    /// The minimum fraction of light that passes through a layer as thick as the circumradius.
+    /// The minimum fraction of light that passes through a layer of fog as thick as the circumradius.
     static constexpr double kMinTransmittance = 1e-4;
 
     FogPainter();
@@ -37,21 +37,22 @@ class FogPainter {
     /// The kinds of shapes that hide fog: `frame` are balls and bars, whose antialiased edges are translucent, and
     /// `surfaces` are surfaces.
     enum class FogOccluders : std::uint8_t { frame, surfaces };
-    /// Copies the depth buffer. All shapes of the kind `occluders`, and none of the other kind, must have been drawn to
-    /// it.
+    /// Copies the depth buffer to a texture for later calls of draw(). All shapes of the kind `occluders`, and none of
+    /// the other kind, must have been drawn to the depth buffer.
     void copyDepths(scene::Viewport viewport, FogOccluders occluders);
 
     /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
-    /// It must be drawn before balls and bars, so that it is visible through their edges. `before` is the rest: the fog
-    /// in front of the nearest ball or bar, or all of it where there is none.
+    /// It must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
+    /// `before` is the rest: the fog in front of the nearest ball or bar, or all of the fog where there is no ball or
+    /// bar.
     enum class Part : std::uint8_t { behind, before };
     /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
     /// of occluders, and then draw the slices from far to near. Leaves the depth test enabled.
     void draw(const scene::Scene& scene, std::uint32_t slice, Part part);
 
     /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
-    /// them requires the context of this object, and another one may be current. They take two bytes for each lattice
-    /// point, and two depths for each pixel.
+    /// them requires the context of this object, and another context may be current. The textures take two bytes for
+    /// each lattice point, and two depths for each pixel.
     void freeMemory() { texels_ = blockTexels_ = {}; }
 
   private:
@@ -68,7 +69,7 @@ class FogPainter {
         GLint toDepth, isBehind, eye, walls, wallCount, low, size, step, circumradius;
     } uniforms_{};
     GLuint table_ = 0, frameDepths_ = 0, surfaceDepths_ = 0;
-    std::vector<GLuint> lattices_, blocks_;  // two textures for each slice
+    std::vector<GLuint> lattices_, blocks_;  // per slice: the texture of its lattice, and of its blocks; 0 without fog
     Projection projection_;
     glm::dmat4 toView_{1};
     std::vector<std::uint8_t> texels_, blockTexels_;

@@ -10,7 +10,7 @@ namespace oval4d::render {
 
 using slicing::Visibility;
 
-void NonconvexSlicePainter::paint(const scene::Scene& scene, Layers& out) {
+void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const glm::dmat4 toView = scene.camera.view();
     const auto viewOf = [&](std::size_t slice) { return SliceView{*scene.slices, scene, toView, slice}; };
     transforms_.clear();
@@ -49,8 +49,8 @@ void NonconvexSlicePainter::paint(const scene::Scene& scene, Layers& out) {
     paintAll(faded_, out.faded);
 }
 
-// Collects the items of a slice, and extends `depths` to include them.
-void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) {
+// Collects the items of a slice, and extends `depths` to include the depths of its vertices.
+void NonconvexShapeCollector::collect(const SliceView& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];
@@ -64,7 +64,7 @@ void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) 
     }
     for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
         const auto& [a, b] = slice.edge(e);
-        // The depth of the far end, so that a bar is drawn after everything that is farther away than this end.
+        // A bar has the depth of its far end, so that it is drawn after everything that is farther away than this end.
         add({-std::min(points[a].z, points[b].z), Kind::bar, number, e}, slice.edgeVisibility(e));
     }
     const slicing::FilledFaces& fill = scene.fill;
@@ -75,13 +75,13 @@ void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) 
     }
 }
 
-void NonconvexSlicePainter::add(const Item& item, Visibility visibility) {
+void NonconvexShapeCollector::add(const Item& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
     if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
 }
 
-void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
-                                      ShapeBatch& out) {
+void NonconvexShapeCollector::paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
+                                        ShapeBatch& out) {
     if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
@@ -95,7 +95,7 @@ void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, 
                     slice.edgeOpacity(item.number), out);
 }
 
-void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+void NonconvexShapeCollector::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::FilledFaces& fill = slice.scene.fill;
     const slicing::FilledFaces::Patch& patch = fill.patches[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);

@@ -1,5 +1,5 @@
 #pragma once
-// Draws slices whose shapes may intersect, with a depth buffer.
+// Prepares slices whose shapes may intersect for drawing with a depth buffer.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace oval4d::render {
 
 /// Sorts the shapes of slices that need not be convex into layers, and converts them to patches. Reuses its memory for
 /// the next picture.
-class NonconvexSlicePainter {
+class NonconvexShapeCollector {
   public:
     /// The layers, in drawing order. `faces` has the opaque faces, from near to far. `skeleton` has the opaque balls
     /// and bars, from far to near, so that their antialiased edges blend with the shapes behind them. `faded` has the
@@ -25,14 +25,14 @@ class NonconvexSlicePainter {
 
     /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are the
     /// patches of Scene::fill.
-    void paint(const scene::Scene& scene, Layers& out);
+    void collect(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, patch };
     struct Item {
         float depth;  // the distance from the eye along the view axis
         Kind kind;
-        std::uint32_t slice, number;  // number: that of the patch in the fill, or of the vertex or edge in the slice
+        std::uint32_t slice, number;  // number: index of a patch in Scene::fill, or of a vertex or edge of the slice
     };
 
     void collect(const SliceView& slice, DepthRange& depths);

@@ -29,25 +29,26 @@ struct Plane {
 
 /// The properties that all pixels of a patch share.
 struct Paint {
-    Plane u{}, v{}, half{}, nearness{};  ///< `half`: ShapeVertex::place.z
-    glm::vec3 diffuse, specular;
-    glm::vec3 color;      ///< 0 … 255
-    std::uint32_t alpha;  ///< 0 … 255
-    float bulge;          ///< the radius of the shape, relative to its distance from the eye
+    Plane u{}, v{}, halfRadius{}, nearness{};  ///< u, v, halfRadius: the members of ShapeVertex::place
+    glm::vec3 diffuse, specular;               ///< as in ShapeVertex
+    glm::vec3 color;                           ///< 0 … 255
+    std::uint32_t alpha;                       ///< 0 … 255
+    float bulge;                               ///< the radius of the shape, relative to its distance from the eye
 };
 
 // The numbers 0 … 7.
 OVAL4D_AVX2 inline __m256i lanes() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-// Returns which of the eight pixels from `at` on are among begin … end − 1.
+// Returns a mask of the eight pixels from column `at` on: all bits of a pixel are set if its column is one of begin …
+// end − 1.
 OVAL4D_AVX2 inline __m256i between(int begin, int end, int at) {
     const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), lanes());
     return _mm256_andnot_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(begin), x),
                                _mm256_cmpgt_epi32(_mm256_set1_epi32(end), x));
 }
 
-// All pixels of a face get the same color, so bytes suffice: the exact value of (255 − α) · pixel + α · color, divided
-// by 255 and rounded.
+// Blends a face with the picture, without depths. All pixels of a face have the same color, so integers suffice: the
+// result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255.
 OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
     const float light = canvas.ambient + paint.diffuse.z, alpha = static_cast<float>(paint.alpha);
     const auto term = [&](float channel) {
@@ -82,7 +83,7 @@ OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
     return _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / kCoverageBits));
 }
 
-// Returns the values of the depth buffer for eight pixels of which these parts are uncovered.
+// Returns the values of the depth buffer for eight pixels with these nearnesses and uncovered parts (from 0 to 1).
 OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
     const __m256i bits =
@@ -90,7 +91,7 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
     return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
 }
 
-// See ShapeProgram for the formulas.
+// Draws a patch. The formulas are those of the fragment shader in shape_batch.cpp.
 template <Form form, Depth depth>
 OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
     constexpr bool isRound = form == Form::strip || form == Form::disk;
@@ -98,13 +99,13 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
     const __m256 alphaScale = _mm256_set1_ps(static_cast<float>(paint.alpha) / 255), half = _mm256_set1_ps(0.5F);
     const __m256 lane = _mm256_cvtepi32_ps(lanes());
     const auto along = [&](const Plane& plane) OVAL4D_AVX2 { return _mm256_mul_ps(lane, _mm256_set1_ps(plane.x)); };
-    const __m256 alongU = along(paint.u), alongV = along(paint.v), alongHalf = along(paint.half);
+    const __m256 alongU = along(paint.u), alongV = along(paint.v), alongHalf = along(paint.halfRadius);
     const __m256 alongNearness = along(paint.nearness);
     for (int y = rows.begin; y < rows.end; ++y) {
         const int end = canvas.right[y];
         const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * canvas.width;
         const auto rowOf = [y](const Plane& plane) { return plane.origin + plane.y * static_cast<float>(y); };
-        const float rowU = rowOf(paint.u), rowV = rowOf(paint.v), rowHalf = rowOf(paint.half);
+        const float rowU = rowOf(paint.u), rowV = rowOf(paint.v), rowHalf = rowOf(paint.halfRadius);
         const float rowNearness = rowOf(paint.nearness);
         for (int x = canvas.left[y]; x < end; x += kLanes) {
             const int at = std::min(x, canvas.width - kLanes);
@@ -127,15 +128,16 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
             const __m256 n = isRound ? _mm256_sqrt_ps(_mm256_max_ps(q, zero)) : one;
             __m256 alpha = alphaScale;
             if constexpr (form != Form::face) {
-                const __m256 thickness =
-                    form == Form::rim ? valueOf(rowHalf, paint.half, alongHalf) : _mm256_set1_ps(paint.half.origin);
+                const __m256 thickness = form == Form::rim ? valueOf(rowHalf, paint.halfRadius, alongHalf)
+                                                           : _mm256_set1_ps(paint.halfRadius.origin);
                 const __m256 coverage = _mm256_max_ps(_mm256_min_ps(_mm256_fmadd_ps(q, thickness, half), one), zero);
                 alpha = _mm256_mul_ps(alpha, coverage);
             }
             if constexpr (depth == Depth::unused) {
                 alpha = _mm256_and_ps(alpha, inside);
             } else {
-                // 1 / (d − r n) is almost (1 + r n / d) / d for a distance d and a much smaller radius r.
+                // A point of the shape is closer to the eye than the patch by r n. Its nearness is 1 / (d − r n), which
+                // is almost (1 + r n / d) / d for a distance d and a much smaller radius r.
                 const __m256 patch = valueOf(rowNearness, paint.nearness, alongNearness);
                 const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
                 float* const place = canvas.nearness + row + at;
@@ -181,14 +183,15 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
     }
 }
 
-// Returns the first of these rows whose center is not below y, or their end.
+// Returns the first of these rows whose center is not below y, or the end of the rows if there is none.
 OVAL4D_AVX2 inline int firstRow(float y, const RowRange& rows) {
     const auto begin = static_cast<float>(rows.begin), end = static_cast<float>(rows.end);
     return static_cast<int>(std::ceil(std::min(end, std::max(begin, y - 0.5F))));  // `begin` if y is not a number
 }
 
-// Finds the pixels whose centers are in a convex polygon. Polygons with a common edge have no common pixels and leave
-// no gap, because the pixels at an edge depend only on its ends.
+// Finds the pixels whose centers are in a convex polygon. Returns their rows, and sets the entries of canvas.left and
+// canvas.right for these rows. Polygons with a common edge have no common pixels and leave no gap, because the pixels
+// at an edge depend only on its ends.
 OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCorner> corners, bool counterclockwise) {
     RowRange rows{corners[0].row, corners[0].row};
     for (const PatchCorner& corner : corners) rows = {std::min(rows.begin, corner.row), std::max(rows.end, corner.row)};
@@ -221,8 +224,8 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
     return rows;
 }
 
-// Returns the nearness of a face. The gradient is the mean over the triangles of a fan, weighted by area. `area`: twice
-// the area of the polygon.
+// Returns the nearness of a face. The gradient is the mean of the gradients of the triangles of a fan, weighted by
+// their areas. `area`: twice the signed area of the polygon.
 OVAL4D_AVX2 Plane nearnessOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
     float x = 0, y = 0, sumX = first.x, sumY = first.y, sum = first.nearness;
@@ -254,7 +257,7 @@ OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
                 .color = {look.color & 255, look.color >> 8 & 255, look.color >> 16 & 255},
                 .alpha = look.color >> 24,
                 .bulge = 2 * look.place.z * pixelSize};
-    paint.half.origin = look.place.z;
+    paint.halfRadius.origin = look.place.z;
     return paint;
 }
 
@@ -279,7 +282,8 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
 // Draws a triangle, or a quad that is almost a parallelogram, of a shape other than a face.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, Depth depth, float pixelSize) {
-    // Gradients follow from the differences along the diagonals. A triangle is a quad whose last corner is its first.
+    // Gradients follow from the differences along the diagonals. A triangle is treated as a quad whose fourth corner is
+    // equal to the first.
     const PatchCorner &a = corners[0], &b = corners[1], &c = corners[2], &d = corners.size() == 4 ? corners[3] : a;
     const float x1 = c.x - a.x, y1 = c.y - a.y, x2 = d.x - b.x, y2 = d.y - b.y;
     const float area = x1 * y2 - x2 * y1;
@@ -296,7 +300,7 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
     Paint paint = paintOf(look, pixelSize);
     if (depth != Depth::unused) paint.nearness = planeOf(a.nearness, b.nearness, c.nearness, d.nearness);
     if (form == Form::rim) {
-        paint.half = planeOf(a.place.z, b.place.z, c.place.z, d.place.z);
+        paint.halfRadius = planeOf(a.place.z, b.place.z, c.place.z, d.place.z);
         return fill<Form::rim>(canvas, rows, paint, depth);
     }
     paint.u = planeOf(a.place.x, b.place.x, c.place.x, d.place.x);

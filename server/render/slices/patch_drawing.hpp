@@ -16,13 +16,13 @@ namespace oval4d::render {
 
 /// A vertex of a patch in the picture.
 struct PatchCorner {
-    float x, y;      ///< in pixels from the lower left corner
-    float nearness;  ///< 1 / (the distance from the eye along the view axis)
-    int row;         ///< the first of the drawn rows whose center is not below the corner, or their end
-    glm::vec3 place;
+    float x, y;       ///< in pixels from the lower left corner
+    float nearness;   ///< 1 / (the distance from the eye along the view axis)
+    int row;          ///< the first drawn row whose center is not below the corner; the end of these rows if none is
+    glm::vec3 place;  ///< see ShapeVertex
 };
 
-/// The rows that a patch covers: begin … end − 1.
+/// A range of rows of the picture, counted from the bottom: begin … end − 1.
 struct RowRange {
     int begin, end;
 };
@@ -32,19 +32,19 @@ struct PatchCanvas {
     static constexpr int kLanes = 8;  ///< the number of pixels or rows that are computed at a time
 
     int width = 0, height = 0;
-    RowRange rows{0, 0};  ///< those that are drawn
-    std::uint32_t* pixels = nullptr;
-    float* nearness = nullptr;  ///< the depth buffer
+    RowRange rows{0, 0};              ///< the rows that are drawn
+    std::uint32_t* pixels = nullptr;  ///< the whole picture in RGBA, bottom row first
+    float* nearness = nullptr;        ///< the depth buffer of the whole picture: see kCoverageBits
     /// In row y, the current patch covers the pixels left[y] … right[y] − 1. The arrays have kLanes more entries than
     /// there are rows, because rows are computed kLanes at a time.
     int *left = nullptr, *right = nullptr;
-    float ambient = 0, gloss = 0;
+    float ambient = 0, gloss = 0;  ///< the intensities of ambient light, 0 … 1, and of specular light, 0 … 255
     unsigned shininess = 1;
-    bool opaque = true;  ///< whether the background is, and with it every pixel
+    bool opaque = true;  ///< whether the background, and therefore every pixel, is opaque
 };
 
-/// Draws a patch, a convex polygon. `corners` is working memory for as many corners. `pixelSize`: the size of a pixel
-/// at the distance 1 from the eye.
+/// Draws a patch, a convex polygon. All its vertices must be in front of the eye. `corners` is working memory with as
+/// many entries as `vertices`. `pixelSize`: the size of a pixel, in view coordinates, at the distance 1 from the eye.
 OVAL4D_AVX2 void drawPatch(const PatchCanvas& canvas, std::span<const ShapeVertex> vertices,
                            std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::Depth depth,
                            float pixelSize);

@@ -16,7 +16,7 @@ namespace {
 // The minimum radius of a shape in pixels. A thinner shape could miss all pixel centers, so it is drawn with this
 // radius, but more transparent.
 constexpr float kMinRadius = 0.6f;
-constexpr float kMinAlpha = 0.02f;      // shapes that are more transparent are not drawn
+constexpr float kMinAlpha = 0.02f;      // shapes with a lower opacity are not drawn
 constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
 
 /// How a shape is drawn whose radius is clamped to at least kMinRadius.
@@ -24,7 +24,7 @@ struct ClampedRadius {
     float scale;          ///< factor for the radius
     float opacityFactor;  ///< factor for the opacity
     float halfPixels;     ///< half the clamped radius in pixels
-    float edgeU;          ///< the u at which the antialiased silhouette ends
+    float edgeU;          ///< the u at which the coverage, and thus the silhouette, ends
 };
 
 /// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
@@ -43,7 +43,7 @@ ClampedRadius clampedRadius(float pixels, int dimensions) {
 
 void ShapeBatch::begin(const scene::Style& style) {
     light_ = glm::normalize(glm::vec3(style.light));
-    half_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
+    halfVector_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
     diffuse_ = static_cast<float>(style.diffuse);
     clear();
 }
@@ -68,12 +68,13 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
 
-    // The radius, at the depth of the center, of the cone with its apex at the eye that is tangent to the sphere.
+    // The cone from the eye that is tangent to the sphere has this radius at the depth of the center, with room for the
+    // antialiased edge.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
     const glm::vec3 c = projection_.clip(center), dx = projection_.clip(x) * silhouette,
                     dy = projection_.clip(y) * silhouette;
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_));
-    const glm::vec3 specular(glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_));
+    const glm::vec3 specular(glm::dot(x, halfVector_), glm::dot(y, halfVector_), glm::dot(z, halfVector_));
     const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
     const auto corner = [&](float u, float v) {
         return ShapeVertex{
@@ -84,7 +85,8 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
 
 void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
     if (from.z > -radius || to.z > -radius) return;
-    // n is the normal of the plane through the eye and the bar's axis. The silhouette is parallel to the axis.
+    // n is the normal of the plane through the eye and the bar's axis. The silhouette consists of two lines parallel to
+    // the axis.
     const glm::vec3 axis = to - from;
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
@@ -98,14 +100,15 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     const glm::vec3 dx = projection_.clip(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.edgeU);
     const glm::vec3 a = projection_.clip(from), b = projection_.clip(to);
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_));
-    const glm::vec3 specular(glm::dot(x, half_), 0, glm::dot(z, half_));
+    const glm::vec3 specular(glm::dot(x, halfVector_), 0, glm::dot(z, halfVector_));
     const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
     const auto corner = [&](const glm::vec3& at, float u, float v) {
         return ShapeVertex{at + u * dx, {u * size.edgeU, v * size.edgeU, size.halfPixels}, diffuse, specular, tint};
     };
     add({corner(a, -1, 0), corner(a, 1, 0), corner(b, 1, 0), corner(b, -1, 0)}, Patch::Form::strip);
     if (2 * size.halfPixels < kMinFootRadius) return;
-    // The foot covers the half of the circle at the far end that is turned to the eye and extends beyond the flat end.
+    // The end of the cylinder is a circle. The half of this circle that is turned to the eye extends beyond the flat
+    // end in the picture. The foot covers this half.
     const glm::vec3 foot = a + projection_.clip(z) * (radius * size.edgeU);
     add({corner(foot, -1, 1), corner(foot, 1, 1), corner(a, 1, 0), corner(a, -1, 0)}, Patch::Form::disk);
 }
@@ -197,8 +200,8 @@ std::string highlight(double shininess) {
     return code;
 }
 
-// A ball or bar is drawn as a flat patch; a point on it is closer to the eye than the patch by n.z times the radius.
-// place.z is half the radius in pixels.
+// A ball or bar is drawn as a flat patch. A point of the ball or bar is closer to the eye than the patch by n.z times
+// the radius. place.z is half the radius in pixels, and toDepth.z is twice the size of a pixel at the distance 1.
 constexpr std::string_view kSurfaceDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";

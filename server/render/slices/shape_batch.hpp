@@ -20,7 +20,7 @@ namespace oval4d::render {
 /// is X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z:
 /// - ball: the patch covers the unit disk of (u, v), and Z points to the eye;
 /// - bar: u runs across the bar from −1 to 1, and v = 0;
-/// - face: u = v = 0, so the normal is Z everywhere.
+/// - face: u = v = 0, so the normal is Z everywhere. Instead of r/2, a face has ½, or −½ at its soft outer edge.
 /// The vertices hold the dot products of X, Y and Z with the direction of light L and the half vector H, so that the
 /// shader need not compute normals.
 struct ShapeVertex {
@@ -31,12 +31,12 @@ struct ShapeVertex {
     std::uint32_t color;  ///< as returned by rgba()
 };
 
-/// A convex polygon, whose vertices follow one another in the batch. The vertices differ only in ShapeVertex::clip and
-/// in the members that their `form` names.
+/// A convex polygon, whose vertices follow one another in the batch. The vertices differ only in ShapeVertex::clip and,
+/// depending on the form, in a part of ShapeVertex::place.
 struct Patch {
-    /// The form of the shape, and the members besides `clip` in which the vertices differ.
+    /// The form of the shape, and the parts of ShapeVertex::place in which the vertices differ.
     enum class Form : std::uint8_t {
-        face,   ///< a face: no others
+        face,   ///< a face: none
         rim,    ///< a part of the soft edge of a face: place.z
         strip,  ///< a bar without its foot (see ShapeBatch::addBar()): place.x; place.y is 0
         disk,   ///< a ball, or the foot of a bar: place.x and place.y
@@ -46,13 +46,13 @@ struct Patch {
 };
 
 /// A list of shapes, converted to patches. The caller must add them in drawing order. Positions and radii are in view
-/// coordinates (see Projection), and opacities from 0 to 1.
+/// coordinates (see Projection); opacities are from 0 to 1.
 class ShapeBatch {
   public:
     /// Starts an empty list of shapes, lit as `style` specifies.
     void begin(const scene::Style& style);
 
-    /// Removes all shapes.
+    /// Removes all shapes. Keeps the light and the projection.
     void clear();
 
     /// Sets the projection of the shapes that are added after this call.
@@ -61,10 +61,10 @@ class ShapeBatch {
     /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or is almost transparent.
     void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. There the cylinder has a round
-    /// foot, which joins it to the ball at this end, unless the cylinder is too thin; the other end is flat. Does
-    /// nothing if an end is behind the eye or closer to it than `radius`, if the cylinder is seen along its axis, or if
-    /// it is almost transparent.
+    /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. At this end, the bar has a round
+    /// foot, which joins it to the ball there, unless it is too thin; the other end is flat. Does nothing if an end is
+    /// behind the eye or closer to it than `radius`, if the line through `from` and `to` passes the eye within
+    /// `radius`, or if the bar is almost transparent.
     void addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
 
     /// Adds a flat convex polygon. `normal` is a unit normal; its sign does not matter. If `soft` is true, the edges
@@ -81,7 +81,7 @@ class ShapeBatch {
     void soften(std::uint32_t first, std::uint32_t count);
 
     Projection projection_;
-    glm::vec3 light_{0}, half_{0};
+    glm::vec3 light_{0}, halfVector_{0};
     float diffuse_ = 0;
     std::vector<ShapeVertex> vertices_;
     std::vector<Patch> patches_;
@@ -92,8 +92,8 @@ class ShapeBatch {
 struct DepthRange {
     float from = 1, to = 2;
 
-    /// Returns (a, b) such that the depth of a point at distance d is a + b / d, from −1 to 1. In the picture, this
-    /// depth is linear on every plane.
+    /// Returns (a, b) such that the depth of a point at distance d is a + b / d, from −1 at `from` to 1 at `to`. On
+    /// every plane in space, this depth is a linear function of the position in the picture.
     glm::vec2 toDepth() const {
         const float b = 2 / (1 / to - 1 / from);
         return {1 - b / to, b};
@@ -106,7 +106,7 @@ class ShapeProgram {
     /// The depths that drawWithDepth() writes to the depth buffer.
     enum class DepthSource : std::uint8_t {
         patch,    ///< the depth of the flat patch
-        surface,  ///< the depth of the ball or bar that the patch represents; faces are one pixel closer to the eye
+        surface,  ///< the depth of the ball or bar that the patch represents; faces are closer by the size of a pixel
     };
     ShapeProgram(const scene::Style& style, DepthSource depth);
 

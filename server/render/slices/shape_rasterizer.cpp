@@ -26,8 +26,8 @@ constexpr float kNearPlane = 1e-3F;
 using Form = Patch::Form;
 using Depth = ShapeRasterizer::Depth;
 
-// Cuts off the part of a convex polygon that is behind the eye or too close to it.
-void clip(std::span<const ShapeVertex> vertices, std::vector<ShapeVertex>& out) {
+// Writes to `out` the part of a convex polygon that is in front of the eye and not too close to it.
+void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVertex>& out) {
     out.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const ShapeVertex &a = vertices[i], &b = vertices[(i + 1) % vertices.size()];
@@ -47,10 +47,10 @@ struct ShapeRasterizer::Impl {
     /// Patches or triangles to draw.
     struct Layer {
         const ShapeBatch* shapes;  // null for triangles
-        std::size_t first, end;
+        std::size_t first, end;    // the patches first … end − 1
         Depth depth;
         const SurfaceRasterizer* surfaces;         // null for patches
-        std::span<const std::uint32_t> triangles;  // indices of their vertices
+        std::span<const std::uint32_t> triangles;  // three indices of vertices each
         SurfaceRasterizer::Blending blending;
 
         std::span<const Patch> patches() const {
@@ -123,9 +123,9 @@ void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
 }
 
-// Returns the row above and below which there is about the same to draw.
+// Returns the mean row of the shapes. It divides the picture into two parts in which there is about the same to draw.
 int ShapeRasterizer::Impl::middleRow() const {
-    double sum = 0;  // of heights, from 0 to 1
+    double sum = 0;  // of the heights of the shapes in the picture, from 0 to 1
     std::size_t count = 0;
     for (const Layer& layer : layers) {
         for (const Patch& patch : layer.patches()) {
@@ -168,7 +168,7 @@ void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const Layer& la
     for (const Patch& patch : layer.patches()) {
         std::span<const ShapeVertex> vertices = layer.shapes->vertices().subspan(patch.first, patch.count);
         if (std::ranges::any_of(vertices, [](const ShapeVertex& v) { return v.clip.z < kNearPlane; })) {
-            clip(vertices, band.clipped);
+            cutAtNearPlane(vertices, band.clipped);
             vertices = band.clipped;
         }
         if (vertices.size() < 3) continue;

@@ -21,19 +21,20 @@ struct PixelArea {
     glm::ivec2 from, to;
 };
 
-/// Rasterizes the patches of a ShapeBatch like ShapeProgram, but several times faster than llvmpipe: each patch is one
-/// convex polygon, so that no pixel is shaded twice at the diagonal of a quad, and polygons are not sorted into bins.
-/// Draws the surfaces of fields with a SurfaceRasterizer; they share one depth buffer with the shapes. Reuses its
-/// memory for the next picture.
+/// Rasterizes the patches of a ShapeBatch like ShapeProgram, but several times faster than llvmpipe, Mesa's rasterizer:
+/// each patch is one convex polygon, so that no pixel is shaded twice at the diagonal of a quad, and polygons are not
+/// sorted into bins. Draws the surfaces of fields with a SurfaceRasterizer; surfaces and shapes share one depth buffer.
+/// Reuses its memory for the next picture.
 class ShapeRasterizer {
   public:
     /// How shapes use the depth buffer.
     enum class Depth : std::uint8_t {
         unused,  ///< neither read nor written
-        /// Read: where shapes that were drawn with `written` are nearer, only the part of each pixel changes that they
-        /// leave uncovered. Faces count as one pixel closer to the eye.
+        /// Read, not written: where a shape that was drawn with `written`, or an opaque surface, is nearer, the new
+        /// shape changes only the part of each pixel that the nearer one leaves uncovered. Faces count as closer to the
+        /// eye by the size of a pixel.
         tested,
-        written,  ///< read likewise, and written; faces have their own depth
+        written,  ///< read as with `tested`, and written; faces have exactly their own depth
     };
     /// The minimum width of a picture.
     static constexpr int kMinWidth = 8;
@@ -56,9 +57,9 @@ class ShapeRasterizer {
     /// in order, after everything that was added before.
     void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, Depth depth);
 
-    /// Adds triangles of surfaces, each given by three indices of vertices. `surfaces` must have been prepared for this
-    /// picture. It and `indices` must remain valid until finish() returns. The triangles are drawn in order, after
-    /// everything that was added before.
+    /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must
+    /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until finish() returns.
+    /// The triangles are drawn in order, after everything that was added before.
     void add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
              SurfaceRasterizer::Blending blending);
 

@@ -50,16 +50,21 @@ struct SliceView {
     slicing::Visibility edgeVisibility(std::size_t e) const {
         return scene.visibilities.edge(set.edgeSource[firstEdge() + e]);
     }
+    /// Returns the opacity of the ball at vertex v: 0 … 1.
     float vertexOpacity(std::size_t v) const {
         const float own = set.ballOpacity.empty() ? 1 : set.ballOpacity[firstVertex() + v];
         return own * opacity(vertexVisibility(v));
     }
+    /// Returns the factor by which the radius of the ball at vertex v differs from the usual one.
     float ballScale(std::size_t v) const { return set.ballScale.empty() ? 1 : set.ballScale[firstVertex() + v]; }
     float edgeOpacity(std::size_t e) const { return opacity(edgeVisibility(e)); }
-    float faceOpacity(std::size_t f) const { return opacity(scene.visibilities.face(set.faceSource[firstFace() + f])); }
+    /// Returns the factor, 0 … 1, by which the visibility of face f multiplies Scene::faceOpacity.
+    float faceVisibilityFactor(std::size_t f) const {
+        return opacity(scene.visibilities.face(set.faceSource[firstFace() + f]));
+    }
 };
 
-/// Transforms slice coordinates to view coordinates.
+/// Transforms slice coordinates (in the units of the object, from the origin of the slice) to view coordinates.
 class SliceTransform {
   public:
     explicit SliceTransform(const SliceView& slice)
@@ -72,8 +77,8 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars. If only bars are shown, a ball with the radius and the color of bars is drawn at
-/// each vertex, so that bars are joined by round corners.
+/// The appearance of balls and bars; lengths are in world units. If only bars are shown, a ball with the radius and the
+/// color of bars is drawn at each vertex, so that bars are joined by round corners.
 struct SkeletonStyle {
     bool balls, bars;
     float ballRadius, barRadius;

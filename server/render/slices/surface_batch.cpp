@@ -87,12 +87,12 @@ void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
     }
 }
 
-// Adds the triangles of one level of a slice, whose points and normals are in points_ and normals_.
+// Adds the triangles of one level of a slice. points_ and normals_ must contain the points and normals of the slice.
 void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     const auto alpha = static_cast<float>(level.opacity);
     const bool opaque = level.opacity == 1;
-    // A closed surface hides its own back. Without caps it is open.
+    // A closed surface hides its own triangles that face away from the eye. Without caps, a surface is open.
     const bool skipsBack = opaque && level.caps;
     std::vector<std::uint32_t>& out = opaque ? opaque_ : translucent_;
     facing_.clear();
@@ -144,7 +144,7 @@ std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice
     return rgba(look.colorsPoints() ? look.pointColor(surface, point) : look.color(level, slice), alpha);
 }
 
-// Adds the fringes of the level of a slice whose triangles were just added.
+// Adds the fringes of the level of a slice that addLevel() has just added.
 void SurfaceBatch::addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     findSilhouette(surface);
@@ -188,7 +188,7 @@ void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
             if (touchesBack_[from] != 0 && touchesBack_[to] != 0) silhouette_.push_back({from, to, t});
         }
     }
-    // An edge between two triangles that face the eye is here in both directions.
+    // An edge between two triangles that face the eye is in the list twice, once in each direction. It is removed.
     const auto ends = [](const RimEdge& edge) {
         return std::pair(std::min(edge.from, edge.to), std::max(edge.from, edge.to));
     };

@@ -29,29 +29,30 @@ class SurfaceBatch {
     enum class DepthHalf : std::uint8_t { whole, near, far };
 
     /// Collects the surfaces of a scene, or of its nearer or farther slices. opaque() then has the opaque surfaces,
-    /// from the nearest slice to the farthest. Of a surface that caps close, it omits the triangles that face away from
-    /// the eye, because the surface hides them. translucent() has the translucent surfaces, from the farthest slice to
-    /// the nearest; within a slice, from the innermost level to the outermost; and within a level, first the triangles
-    /// that face away from the eye. Extends `depths` to include the depths of the surfaces.
+    /// from the nearest slice to the farthest. If caps close a surface, opaque() omits the triangles of this surface
+    /// that face away from the eye, because the surface hides them. translucent() has the translucent surfaces, from
+    /// the farthest slice to the nearest; within a slice, from the innermost level to the outermost; and within a
+    /// level, first the triangles that face away from the eye. Extends `depths` to include the depths of the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
     /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
     void collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half = DepthHalf::whole);
 
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
-    /// Returns the opaque triangles, as three indices of vertices each. From the index fringesBegin() on, these are the
+    /// Returns the opaque triangles, each as three indices of vertices. The entries from fringesBegin() on are the
     /// triangles of the fringes.
     const std::vector<std::uint32_t>& opaque() const { return opaque_; }
     std::size_t fringesBegin() const { return fringesBegin_; }
     const std::vector<std::uint32_t>& translucent() const { return translucent_; }
-    /// Returns the collected slices, from the farthest to the nearest. Empty if the scene has neither surfaces nor fog.
+    /// Returns the indices of the collected slices, from the farthest to the nearest. Empty if the scene has neither
+    /// surfaces nor fog.
     const std::vector<std::uint32_t>& order() const { return order_; }
-    /// Returns, for each slice of order(), the end of its triangles in translucent().
+    /// Returns, for each slice of order(), the end of its triangles: an index in translucent().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
 
   private:
-    // An edge of a triangle that faces the eye; the triangle is on the left of the edge. Both ends of the edge also
-    // belong to triangles that face away.
+    // An edge of a triangle that faces the eye. Seen from the eye, the triangle is on the left of the edge. Both ends
+    // of the edge also belong to triangles that face away. The members are indices of points and of the triangle.
     struct RimEdge {
         std::uint32_t from, to, triangle;
     };
@@ -67,14 +68,14 @@ class SurfaceBatch {
     std::vector<std::uint32_t> order_;  // slices, from the farthest to the nearest
     std::vector<std::size_t> translucentEnds_;
     std::vector<glm::vec3> points_, normals_;  // of the current slice, in view coordinates
-    std::vector<std::uint32_t> number_;        // per point of the slice: its vertex in this level, or kNone
+    std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone
     std::vector<SurfaceVertex> vertices_;
-    std::vector<std::uint32_t> opaque_, translucent_, facing_, fringes_;
+    std::vector<std::uint32_t> opaque_, translucent_, facing_, fringes_;  // three indices of vertices per triangle
     std::size_t fringesBegin_ = 0;
     std::vector<std::uint32_t> front_;       // the triangles of the current slice and level that face the eye
     std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away
     std::vector<RimEdge> silhouette_;        // of the current slice and level
-    std::vector<glm::vec2> outward_;         // per point of the silhouette: away from the surface, in pixels
+    std::vector<glm::vec2> outward_;         // per point of the silhouette: points away from the surface in the picture
 };
 
 /// Draws surfaces with diffuse and specular light.

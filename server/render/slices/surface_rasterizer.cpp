@@ -23,8 +23,9 @@ using Point = SurfaceRasterizer::Point;
 // The depth of the near clipping plane, in view coordinates.
 constexpr float kNearPlane = 1e-3F;
 constexpr std::size_t kLanes = 8;
-// While eight triangles are drawn, the first corners of those that follow this many indices later are prefetched: they
-// may have been written by another core, and the other corners are often close to them.
+// While eight triangles are drawn, the first corners of the eight triangles that begin this many indices later are
+// prefetched, because another core may have written them. The other corners are often close to the first ones in
+// memory.
 constexpr std::size_t kAhead = 2 * 3 * kLanes;
 
 static_assert(sizeof(Point) == 8 * sizeof(float));
@@ -55,10 +56,12 @@ struct Lighting {
     float ambient, diffuse;
     float gloss;  // the specular intensity, 0 … 255
     unsigned shininess;
-    glm::vec3 light, half;
+    // Unit vectors in view coordinates: to the light, and halfway between the directions to the light and to the eye.
+    glm::vec3 light, halfVector;
 };
 
-// Projects and lights eight vertices. `in` must be followed by readable memory of the size of a float.
+// Projects and lights eight vertices. Reads eight floats per vertex, which has only seven; so one more float after the
+// vertices must be readable.
 OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in, Point* out) {
     __m256 v[kLanes];
     for (std::size_t i = 0; i < kLanes; ++i) v[i] = _mm256_loadu_ps(&in[i].clip.x);
@@ -83,12 +86,12 @@ OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in,
         _mm256_fmadd_ps(normalZ, normalZ, _mm256_fmadd_ps(normalY, normalY, _mm256_mul_ps(normalX, normalX)));
     const __m256 scale = _mm256_div_ps(one, _mm256_sqrt_ps(length2));
     const auto cosine = [&](const glm::vec3& direction) OVAL4D_AVX2 {
-        return _mm256_max_ps(_mm256_mul_ps(product(direction), scale), zero);  // 0 if there is no normal
+        return _mm256_max_ps(_mm256_mul_ps(product(direction), scale), zero);  // 0 if the normal is 0
     };
     const __m256 light =
         _mm256_fmadd_ps(cosine(lighting.light), _mm256_set1_ps(lighting.diffuse), _mm256_set1_ps(lighting.ambient));
     const __m256 shine =
-        _mm256_mul_ps(power(cosine(lighting.half), lighting.shininess), _mm256_set1_ps(lighting.gloss));
+        _mm256_mul_ps(power(cosine(lighting.halfVector), lighting.shininess), _mm256_set1_ps(lighting.gloss));
     const __m256i bytes = _mm256_castps_si256(v[6]);
     const __m256 alpha = channelOf<3>(bytes), opacity = _mm256_mul_ps(alpha, _mm256_set1_ps(1.0F / 255));
     const auto lit = [&](const __m256& color) OVAL4D_AVX2 {
@@ -109,14 +112,15 @@ OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in,
 using Lanes = std::array<float, kLanes>;
 using Numbers = std::array<std::int32_t, kLanes>;
 
-// The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height.
+// The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height, the lowest
+// first.
 struct alignas(32) SetUp {
-    Lanes baseP, baseQ;        // the first row whose center is at least as high as p or q
-    Numbers rowP, rowQ, rowR;  // the first row that is drawn and whose center is at least as high as p, q or r
-    // For each edge, half a pixel to the left of it: x at the base of its lower end, and the step to the next row.
+    Lanes baseP, baseQ;        // the first row whose center is not below p, or q
+    Numbers rowP, rowQ, rowR;  // the same for p, q and r, clamped to the drawn rows: beginRow … endRow
+    // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
     Lanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
-    // The factors of gradients. A quantity with the values a, b and c at the corners, in the order in which these were
-    // given, has d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy. The first corner is at (originX, originY),
+    // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has
+    // d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy. The first corner of this order is at (originX, originY),
     // relative to the center of pixel (0, 0).
     Lanes xB, xC, yB, yC, originX, originY;
 };
@@ -131,23 +135,24 @@ OVAL4D_AVX2 inline void sort(__m256& xA, __m256& yA, __m256& xB, __m256& yB) {
     yA = y;
 }
 
-// Returns the first pixel whose center is not before this coordinate.
+// Returns the first column or row of pixels whose center is not before this coordinate.
 OVAL4D_AVX2 inline __m256 firstPixel(__m256 coordinate) {
     return _mm256_ceil_ps(_mm256_sub_ps(coordinate, _mm256_set1_ps(0.5F)));
 }
 
-// The least of the bounds if `number` is NaN.
+// Clamps a number to the bounds and truncates it. Returns `least` if it is NaN.
 OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest) {
     return _mm256_cvttps_epi32(_mm256_min_ps(_mm256_max_ps(number, _mm256_set1_ps(least)), _mm256_set1_ps(greatest)));
 }
 
 // Which of eight triangles may cover pixels, one bit per triangle.
 struct Covering {
-    unsigned drawn;    // they cover centers of pixels, or almost do
-    unsigned clipped;  // they have a corner that is behind the eye, or not finite
+    unsigned drawn;    // their bounding boxes contain centers of pixels, and all corners have a position
+    unsigned clipped;  // the position of a corner is NaN: it is behind the eye or too close
 };
 
-// The three indices of eight triangles, sorted by corner.
+// The indices of the corners of eight triangles: `a` has the first corner of each triangle, `b` the second, `c` the
+// third.
 struct Corners {
     __m256i a, b, c;
 };
@@ -156,7 +161,8 @@ OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
     const auto* const from = reinterpret_cast<const __m256i*>(indices);
     const __m256i first = _mm256_loadu_si256(from), second = _mm256_loadu_si256(from + 1),
                   third = _mm256_loadu_si256(from + 2);
-    // Corner k of triangle i is number 3 i + k of 24, so it is in one of three registers at place (3 i + k) mod 8.
+    // The index of corner k of triangle i is entry 3 i + k of 24, so it is at place (3 i + k) mod 8 in one of three
+    // registers.
     const auto pick = [&](__m256i x, __m256i y, __m256i z) OVAL4D_AVX2 {
         return _mm256_blend_epi32(_mm256_blend_epi32(x, y, 0b10010010), z, 0b00100100);
     };
@@ -169,7 +175,7 @@ OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, con
     const auto& [a, b, c] = cornersOf(indices);
     const auto gather = [points](const float Point::* member, __m256i index) OVAL4D_AVX2 {
         const float* const base = &(points->*member);
-        // The first of eight floats per point.
+        // A point consists of eight floats.
         return _mm256_i32gather_ps(base, _mm256_slli_epi32(index, 3), 4);
     };
     const __m256 yA = gather(&Point::y, a), yB = gather(&Point::y, b), yC = gather(&Point::y, c);
@@ -180,7 +186,8 @@ OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, con
     const __m256 sumY = _mm256_add_ps(_mm256_add_ps(yA, yB), yC);
     const __m256 noY = _mm256_cmp_ps(sumY, sumY, _CMP_UNORD_Q);
     const __m256i coversRows = _mm256_cmpgt_epi32(rowR, rowP);
-    // Triangles that follow each other are close together, so often all are in the rows that another thread draws.
+    // Triangles that follow each other are close together, so often all eight are in the rows that another thread
+    // draws.
     if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
 
     const __m256 xA = gather(&Point::x, a), xB = gather(&Point::x, b), xC = gather(&Point::x, c);
@@ -234,21 +241,21 @@ OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, con
     return covering;
 }
 
-// Converts the upper half of a point, whose numbers are from 0 to 255, to a pixel.
+// Converts the upper half of a Point, a color with numbers from 0 to 255, to an RGBA pixel.
 OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
     const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
 }
 
-// Draws one of eight triangles. A register holds all quantities of one pixel, because most rows of most triangles have
+// Draws triangle i of eight. A register holds all quantities of one pixel, because most rows of most triangles have
 // fewer pixels than a register has lanes.
 template <Blending blending>
 OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::size_t i, const Point& pointA,
                              const Point& pointB, const Point& pointC) {
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
-    // A quantity is never outside the range of its values at the corners, however narrow the triangle is. This also
-    // replaces the NaN of triangles without an area.
+    // Each quantity is clamped to the range of its values at the corners, because gradients of narrow triangles are
+    // inexact. This also replaces the NaN of triangles without an area.
     const __m256 least = _mm256_min_ps(_mm256_min_ps(a, b), c), most = _mm256_max_ps(_mm256_max_ps(a, b), c);
     const __m256 toB = _mm256_sub_ps(b, a), toC = _mm256_sub_ps(c, a);
     const auto gradient = [&](const Lanes& ofB, const Lanes& ofC) OVAL4D_AVX2 {
@@ -299,14 +306,14 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
     fillRows(s.rowQ[i], s.rowR[i], s.baseQ[i], s.xQR[i], s.stepQR[i]);
 }
 
-// Draws those of eight triangles that are `wanted` (one bit per triangle), except those that must be clipped and what
-// follows the first of these. Returns those that must be clipped.
+// Draws the triangles of `wanted` (one bit for each of eight triangles) that precede the first one that must be
+// clipped. Returns all triangles of `wanted` that must be clipped, also as bits.
 template <Blending blending>
 OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
                                unsigned wanted, SetUp& lanes) {
     const Covering covering = setUp(canvas, points, indices, lanes);
     const unsigned clipped = covering.clipped & wanted;
-    // The order of triangles matters, so what follows a clipped one is drawn later.
+    // Triangles must be drawn in order, so those after a clipped one are drawn by a later call.
     unsigned drawn = covering.drawn & wanted;
     if (clipped != 0) drawn &= (clipped & (0U - clipped)) - 1;
     for (; drawn != 0; drawn &= drawn - 1) {
@@ -330,7 +337,7 @@ void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::S
                             .gloss = static_cast<float>(255 * style.specular),
                             .shininess = static_cast<unsigned>(std::lround(style.shininess)),
                             .light = style.light,
-                            .half = glm::normalize(style.light + glm::dvec3(0, 0, 1))};
+                            .halfVector = glm::normalize(style.light + glm::dvec3(0, 0, 1))};
     const std::size_t end = surfaces.vertices().size();
     points_.resize(end);
     const SurfaceVertex* const vertices = surfaces.vertices().data();

@@ -13,23 +13,23 @@ namespace oval4d::render {
 
 /// The picture to which surfaces are drawn, and the rows that are drawn.
 struct SurfaceCanvas {
-    int width, height;      ///< those of the picture, in pixels
+    int width, height;      ///< the size of the whole picture, in pixels
     int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
     std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
     float* depths;          ///< the depth buffer: see kCoverageBits
 };
 
 /// Rasterizes the triangles of a SurfaceBatch like SurfaceProgram. Surfaces consist of many triangles with a few pixels
-/// each, so that setting up the triangles takes most of the time: eight of them are set up at once, and they are not
+/// each. Therefore setting up the triangles takes most of the time; eight of them are set up at once, and they are not
 /// sorted into bins. Colors, opacities and 1 / depth are interpolated linearly in the picture. Triangles with a common
 /// edge have no common pixels and leave no gap. Reuses its memory for the next picture. Requires AVX2 and FMA.
 class SurfaceRasterizer {
   public:
-    /// How triangles are drawn at pixels where nothing solid is nearer.
+    /// How triangles are drawn to the picture and to the depth buffer.
     enum class Blending : std::uint8_t {
-        none,  ///< the triangle replaces the pixel, and hides what is drawn later and farther away
-        /// The triangle is blended with the pixel; the depth buffer does not change. Where solid shapes are nearer,
-        /// only the part of the pixel changes that they leave uncovered.
+        none,  ///< opaque, where nothing solid is nearer; the triangle then hides what is drawn later and farther away
+        /// The triangle is blended with the pixel; the depth buffer does not change. Where a solid shape is nearer, the
+        /// triangle changes only the part of the pixel that this shape leaves uncovered.
         alpha,
     };
 
@@ -42,8 +42,8 @@ class SurfaceRasterizer {
     /// at the same time.
     void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
 
-    /// Estimates the mean screen y of the triangles, as a fraction of the picture height from its lower edge. Samples
-    /// the first corners of some triangles; returns 0.5 if none of them is between the lower and the upper edge.
+    /// Estimates the mean screen y of the triangles, as a fraction of the picture height from its lower edge. Uses only
+    /// the first corner of every 32nd triangle; returns 0.5 if no such corner is between the lower and the upper edge.
     double estimateMeanScreenY(std::span<const std::uint32_t> indices) const;
 
     /// A projected and lit vertex. It fills one 256-bit register.

@@ -11,14 +11,15 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr double kDifference = 2e-3;  // distance of the points of a difference quotient, in radii
-constexpr double kDamping = 1e-6;
+constexpr double kDifference = 2e-3;  // the offset of the points of a difference quotient, in radii
+constexpr double kDamping = 1e-6;     // relative to the mean diagonal entry of the matrix of the least squares
 constexpr int kIterations = 30;
-// A point counts as critical if these values are less than the following bounds: the last step in radii, the gradient's
-// part in the hyperplane relative to the gradient, and the distance from the level set in radii.
+// Lengths are in radii (see PlacedFunction::radius). A point counts as critical if these values are less than the
+// following bounds: the length of the last step, the gradient's part in the hyperplane relative to the gradient, and
+// the distance from the level set.
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
-/// The function at a point, with lengths in radii.
+/// The value and the derivatives of the function at a point. The unit of length is PlacedFunction::radius.
 struct Expansion {
     double value = 0;
     glm::dvec4 gradient{0};
@@ -26,7 +27,8 @@ struct Expansion {
 };
 
 Expansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
-    // The point itself, then the two neighbors along each axis, and others for a full batch.
+    // Point 0 is the point itself; points 1 … 8 are its two neighbors along each axis. The rest repeat the point to
+    // fill the batch.
     constexpr std::size_t kPoints = 16;
     std::array<std::array<float, kPoints>, 4> at{}, slopes{};
     std::array<float, kPoints> values{};

@@ -27,7 +27,7 @@ using Topologies = std::vector<SectionTopology>;  // one for each level
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
-constexpr std::size_t kMaxChanges = 1000;  // the maximum, of all levels together; noise may have more
+constexpr std::size_t kMaxChanges = 1000;  // the maximum for all levels together; a noisy field may have more changes
 
 /// Cuts one field by one hyperplane at a time.
 class SectionCutter {
@@ -35,7 +35,7 @@ class SectionCutter {
     SectionCutter(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings)
         : field_(field), orientation_(orientation), settings_(settings) {}
 
-    /// Returns the surfaces of the section at `w`, which are valid until the next call.
+    /// Returns the surfaces of the section at `w`. They are valid until the next call.
     const SliceSurface& cut(double w, bool topologyOnly = false) {
         const geometry::Hyperplanes plane{0, 1, 1, w};
         slicer_.slice(field_, orientation_, plane, settings_, {}, slice_);
@@ -51,12 +51,13 @@ class SectionCutter {
         return slice_.surfaces.front();
     }
     /// Returns the side of the lattice cubes of the last section.
-    double cube() const { return cube_; }
+    double cubeSide() const { return cube_; }
 
-    /// Returns whether a part of this volume is too small to count. Sampling on a lattice may separate the tip of a
-    /// sharp corner from the rest.
+    /// Returns whether a part with this volume is too small to count. Such a part may not exist in reality: sampling on
+    /// a lattice may separate the tip of a sharp corner from the rest of the body.
     bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
+    /// Returns, for each level, the topology of its body in the section at `w`, without the parts that are small.
     Topologies topologies(double w) {
         const SliceSurface& surface = cut(w, true);
         Topologies result;
@@ -83,14 +84,14 @@ class SectionCutter {
 /// Two sections, and the interval of w between them.
 struct Interval {
     double from = 0, to = 0;
-    Topologies before, after;
+    Topologies atFrom, atTo;
 
     double width() const { return to - from; }
-    bool differs() const { return before != after; }
+    bool differs() const { return atFrom != atTo; }
     bool operator<(const Interval& other) const { return width() < other.width(); }
 };
 
-/// Returns what happens between two different topologies, as far as the numbers tell.
+/// Returns what happens between two different topologies, as far as the numbers of components and cavities tell.
 SectionChange changeOf(const SectionTopology& before, const SectionTopology& after) {
     if (before.components == 0 && after.components > 0) return SectionChange::appearance;
     if (after.components == 0 && before.components > 0) return SectionChange::disappearance;
@@ -104,7 +105,7 @@ class Correspondence {
   public:
     /// A part has a partner if most of its points are within two lattice cubes of points of the other section.
     Correspondence(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
-        : cutter_(cutter), reach_(2 * cutter.cube()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
+        : cutter_(cutter), reach_(2 * cutter.cubeSide()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
         toB_ = partners(a, partsA_, b, partsB_);
         toA_ = partners(b, partsB_, a, partsA_);
     }
@@ -129,6 +130,7 @@ class Correspondence {
         return lonely;
     }
 
+    // Points are sorted into grid cells with sides of reach_. Returns a number that identifies a grid cell.
     std::uint64_t cellOf(glm::ivec3 cell) const {
         constexpr int kBias = 1 << 20;
         const glm::u64vec3 c(cell + kBias);
@@ -136,6 +138,7 @@ class Correspondence {
     }
     glm::ivec3 cellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
 
+    // Returns for each part of the surface `own` whether it has a partner in the surface `other`.
     Partners partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
                       const SurfaceParts& otherParts) const {
         std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
@@ -218,7 +221,7 @@ class Search {
     // at any time.
     void findIntervals() {
         const double gap = width() / kCriticalSections;
-        // At its ends, the domain may be a wedge that is thinner than a lattice cube.
+        // At the ends of its range of w, the domain may be a wedge that is thinner than a lattice cube.
         const double margin = width() / 80;
         const double from = found_.least + margin, to = found_.greatest - margin;
         std::priority_queue<Interval> open;
@@ -230,8 +233,8 @@ class Search {
             if (!fine && !mustEnd() && intervals_.size() + open.size() < kMaxChanges + kCriticalSections) {
                 const double middle = (widest.from + widest.to) / 2;
                 const Topologies between = cutter_.topologies(middle);
-                open.push({widest.from, middle, widest.before, between});
-                open.push({middle, widest.to, between, widest.after});
+                open.push({widest.from, middle, widest.atFrom, between});
+                open.push({middle, widest.to, between, widest.atTo});
                 continue;
             }
             if (!fine) found_.tolerance = std::max(found_.tolerance, widest.width());
@@ -247,12 +250,12 @@ class Search {
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             const std::size_t first = all.size();
             for (const Interval& interval : intervals_) {
-                if (interval.before[level] == interval.after[level]) continue;
+                if (interval.atFrom[level] == interval.atTo[level]) continue;
                 if (all.size() > first && interval.from - all.back().to <= found_.resolution) {
                     all.back().to = interval.to;
-                    all.back().after = interval.after[level];
+                    all.back().after = interval.atTo[level];
                 } else {
-                    all.push_back({interval.from, interval.to, level, interval.before[level], interval.after[level]});
+                    all.push_back({interval.from, interval.to, level, interval.atFrom[level], interval.atTo[level]});
                 }
             }
         }
@@ -260,6 +263,7 @@ class Search {
         return all;
     }
 
+    // Finds the critical w and the kind of a change.
     CriticalSection located(const Change& change) {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
             // There is no time to compare the sections.
@@ -291,7 +295,7 @@ class Search {
         const PlacedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
                                     field_.center, field_.circumradius};
         const double middle = (change.from + change.to) / 2;
-        const double cube = cutter_.cube();
+        const double cube = cutter_.cubeSide();
         for (const std::uint32_t i : tangentPoints(surface, change.level, 4 * cube, kStarts)) {
             const auto point =
                 findCriticalPoint(placed, settings_.levels[change.level], {glm::dvec3(surface.points[i]), w}, 8 * cube);
@@ -301,7 +305,8 @@ class Search {
         }
     }
 
-    // Returns up to `count` points of the level set, at least `distance` from each other, with the greatest growth.
+    // Returns the indices of up to `count` points of the level set: those where |growth| is greatest, but more than
+    // `distance` from each other.
     static std::vector<std::uint32_t> tangentPoints(const SliceSurface& surface, std::size_t level, double distance,
                                                     std::size_t count) {
         std::vector<std::uint32_t> candidates;

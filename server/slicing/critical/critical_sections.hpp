@@ -17,10 +17,11 @@
 
 namespace oval4d::slicing {
 
-/// What happens to the section of an object while w increases past a critical w.
+/// What happens to the section of an object while w increases past a critical w. All changes except `vertices` are
+/// changes of the body of one level of a field.
 enum class SectionChange : std::uint8_t {
     vertices,       ///< for a polytope or point cloud: the hyperplane passes vertices
-    appearance,     ///< a component of the body appears
+    appearance,     ///< a component appears
     disappearance,  ///< a component vanishes
     merge,          ///< components merge
     split,          ///< a component splits
@@ -68,10 +69,10 @@ using CriticalPtr = std::shared_ptr<const CriticalSections>;
 
 /// Limits on one search.
 struct CriticalOptions {
-    /// The time limit of the search. When it is reached, the search for further sections ends, and
+    /// The time limit of the search, in seconds. When it is reached, the search for further sections ends, and
     /// CriticalSections::tolerance is greater than otherwise. Finding the SectionChange of each critical w may take
-    /// half of this time more; after that, the remaining ones are derived from the numbers of components and cavities
-    /// alone.
+    /// half of this time more; after that, the remaining changes are derived from the numbers of components and
+    /// cavities alone.
     std::chrono::duration<double> time{10};
     std::stop_token stop = {};
 };
@@ -81,9 +82,9 @@ struct CriticalOptions {
 /// within the domain, changes its topology. To find them, the field is cut at more than kCriticalSections values of w,
 /// and the intervals between sections of different topology are halved until their lengths are at most
 /// kCriticalTolerance of the range of w. The search misses changes that cancel each other between two successive
-/// sections. It ignores parts smaller than eight cubes of the lattice of a section, which has kCriticalCubes cubes
-/// along the longest side of the section. If there are about a thousand changes or more, it ends early, with a greater
-/// tolerance.
+/// sections. It ignores parts whose volume is less than that of eight lattice cubes; the lattice of a section has
+/// kCriticalCubes cubes along the longest side of the section. If there are about a thousand changes or more, the
+/// search ends early, with a greater tolerance.
 ///
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
 /// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it

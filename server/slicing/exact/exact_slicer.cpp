@@ -56,7 +56,7 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
     return std::monostate{};
 }
 
-// Cuts the cells of a range, if the surface may meet it: divides it in two until it is at most a brick.
+// Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most a brick.
 void ExactSlicer::visit(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
@@ -81,8 +81,8 @@ void ExactSlicer::visit(const CellRange& range) {
     visit(upper);
 }
 
-// The heights of lattice points are sums in the same order. Rounded sums are monotone in each summand, so no height of
-// a point in the range is outside these bounds.
+// The heights of lattice points and these bounds are sums of four terms in the same order. Rounded sums are monotone in
+// each term, so no height of a point in the range is outside the bounds.
 bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -157,7 +157,9 @@ void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights
             }
             continue;
         }
-        // The facets on the boundary of the domain.
+        // The facets on the boundary of the domain, as bits: bit i for the facet opposite to corner i. The facet
+        // opposite to corner 0 is at the upper end of an axis, and the facet opposite to corner 4 at the lower end of
+        // an axis.
         const unsigned upper = cell[shape.axis(0)] == last[shape.axis(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axis(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
@@ -184,7 +186,8 @@ void ExactSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
     }
 }
 
-// `boundary` has a bit for each facet on the boundary of the domain.
+// Adds the surface in a pentatope. `boundary` has bit i set if the facet opposite to corner i is on the boundary of the
+// domain.
 void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         const unsigned inside = bitsOf(
@@ -252,15 +255,15 @@ void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetr
     for (std::size_t i = 2; i < size; ++i) caps_.push_back({loop[0], loop[i - 1], loop[i]});
 }
 
-// Returns the point where the hyperplane crosses an edge.
+// Returns the index of the point where the hyperplane crosses an edge. Adds the point if it is new.
 std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
     const auto [number, isNew] = numbers_.number(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) out_->points.push_back(position(cut, edge));
     return number;
 }
 
-// Returns the point of the level set between the crossings of two edges. The crossing of `inner` must be inside, and
-// that of `outer` outside.
+// Returns the index of the point of the level set between the crossings of two edges. Adds the point if it is new. The
+// crossing of `inner` must be inside, and the crossing of `outer` outside.
 std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
                                         const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
@@ -282,8 +285,9 @@ glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const PentatopeEdge& e
     return glm::mix(corner(edge[0]), corner(edge[1]), cut.crossings[edge[0]][edge[1]].t);
 }
 
-// Returns a key of the simplex with these corners of the pentatope (a bit for each): the lattice point of the first
-// corner, and for each other corner, the axes along which it is above the first.
+// Returns a key of the simplex whose corners are the corners i of the pentatope for which bit i of `corners` is set.
+// The key contains the lattice index of the first corner and, for each other corner, the axes along which it is above
+// the first.
 std::uint64_t ExactSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
     const auto& chain = cut.shape->corners;
     const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];

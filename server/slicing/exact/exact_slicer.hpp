@@ -18,7 +18,7 @@
 #include "slicing/exact/exact_surface.hpp"
 #include "slicing/exact/field_lattice.hpp"
 #include "slicing/exact/kuhn_sections.hpp"
-#include "slicing/exact/simplex_index.hpp"
+#include "slicing/exact/simplex_numbering.hpp"
 
 namespace oval4d::slicing {
 
@@ -48,7 +48,7 @@ class ExactSlicer {
         fields::Inside inside = fields::Inside::below;
         std::size_t maxTriangles = 5'000'000;
         /// Called often, on the thread that called slice(). May read the triangles found so far in `out`. If it returns
-        /// true or throws, the slicer stops early.
+        /// true or throws, the slicer stops early. May be null.
         std::function<bool()> mustStop = nullptr;
     };
 
@@ -78,17 +78,17 @@ class ExactSlicer {
     };
     // Where the hyperplane crosses an edge of the pentatope.
     struct EdgeCrossing {
-        double t = 0;  // the position along the edge: 0 at its first end, 1 at its second
-        double value = 0;
-        bool inside = false;
+        double t = 0;         // the position along the edge: 0 at its first end, 1 at its second
+        double value = 0;     // the interpolated value of the function there; negated if sign_ is −1
+        bool inside = false;  // whether this value is inside the level
     };
     // A pentatope that the hyperplane meets.
     struct CutPentatope {
         const Pentatope* shape;
         glm::ivec4 cell;
-        std::array<double, 5> heights, values;                 // of its corners
-        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: that of the edge between corners i < j
-        bool positive;                                         // as for sectionOf()
+        std::array<double, 5> heights, values;                 // of its corners; heights above the hyperplane
+        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: on the edge between corners i and j, i < j
+        bool positive;                                         // the argument of sectionOf()
     };
 
     void visit(const CellRange& range);
@@ -112,10 +112,10 @@ class ExactSlicer {
     // always below the level.
     Options options_;
     double level_ = 0, sign_ = 1;
-    std::array<std::vector<double>, 4> heights_;  // per axis and index: its part of a point's height
+    std::array<std::vector<double>, 4> heights_;  // per axis and index: the summand of a lattice point's height
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;
-    SimplexIndex numbers_;
+    SimplexNumbering numbers_;
     std::vector<Triangle> caps_;
     ExactSurface* out_ = nullptr;
 };

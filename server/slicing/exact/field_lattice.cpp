@@ -57,7 +57,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
         }
     }
     positive_ = glm::determinant(toSlice) > 0;
-    // The box is centered at field.center, which is the origin of the object.
+    // So far the parts are relative to the center of the box; the origin of the object is field.center.
     const glm::dvec4 shift = toSlice * (field.box.center() - field.center);
     for (glm::dvec4& part : parts_[0]) part += shift;
 }

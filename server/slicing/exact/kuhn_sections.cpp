@@ -37,7 +37,8 @@ glm::dvec4 referenceCorner(std::size_t i) {
     return corner;
 }
 
-// Returns whether the tetrahedron has a positive volume in the section of the reference pentatope.
+// Returns whether the signed volume of the tetrahedron in the section of the reference pentatope is positive. The bits
+// of `above` tell which corners of the pentatope are above the hyperplane, and thus how the hyperplane is oriented.
 bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
     const auto middle = [&](const PentatopeEdge& edge) {
         return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
@@ -65,7 +66,7 @@ void findFacets(SectionTetrahedron& tetrahedron) {
 }
 
 Section makeSection(unsigned above, bool positive) {
-    std::vector<std::uint8_t> few, many;  // the corners on either side of the hyperplane
+    std::vector<std::uint8_t> few, many;  // the corners on the side with fewer corners, and those on the other side
     for (std::uint8_t i = 0; i < 5; ++i) ((above >> i & 1U) != 0 ? few : many).push_back(i);
     if (few.size() > many.size()) std::swap(few, many);
     const auto edge = [&](std::size_t i, std::size_t j) {

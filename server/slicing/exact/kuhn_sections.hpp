@@ -4,7 +4,8 @@
 // The corners of a cell are numbered 0 … 15: bit a of the number is set at the upper end of axis a. The Freudenthal
 // (Kuhn) subdivision has one pentatope (4-simplex) for each chain of corners from 0 to 15 in which each corner has one
 // bit more than the one before (H. Freudenthal, Annals of Mathematics 43, 1942). All cells are subdivided in the same
-// way, so that neighboring cells share whole facets, and the corners of every simplex of the lattice form such a chain.
+// way, so that neighboring cells share whole facets. The corners of every simplex of the lattice have an order in which
+// no coordinate decreases.
 
 #include <array>
 #include <cstddef>
@@ -22,8 +23,8 @@ struct Pentatope {
 
     /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
     int axis(std::size_t i) const;
-    /// Returns the corner that the pentatope on the other side of the facet opposite to corner i does not share with
-    /// this one, as an offset from corner 0 of the cell, in lattice steps.
+    /// Considers the neighboring pentatope across the facet opposite to corner i. Returns the corner of this neighbor
+    /// that does not belong to the facet, as an offset from corner 0 of the cell, in lattice steps.
     glm::ivec4 acrossFacet(std::size_t i) const;
 };
 
@@ -39,8 +40,8 @@ struct SectionTetrahedron {
 
     /// Corner k of the tetrahedron lies on the edge edges[k] of the pentatope.
     std::array<PentatopeEdge, 4> edges{};
-    /// Per corner k of the tetrahedron: the facet of the pentatope that contains the face opposite to corner k, as the
-    /// number of the corner opposite to the facet; kInner if this face lies in the interior of the section.
+    /// Entry k: the facet of the pentatope that contains the face of the tetrahedron opposite to corner k. Facet i is
+    /// opposite to corner i of the pentatope. kInner if the face lies in the interior of the section.
     std::array<std::uint8_t, 4> facets{};
 };
 

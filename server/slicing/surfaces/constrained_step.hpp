@@ -16,7 +16,7 @@ class ConstrainedStep {
   public:
     /// Adds a function with this gradient, which must be a unit vector, and this value at the current point.
     void add(const glm::dvec3& gradient, double value) {
-        // Gram–Schmidt: basis_ is orthonormal, and targets_ are the components of the step along it.
+        // Gram–Schmidt: basis_ is orthonormal, and targets_ are the components of the step along the vectors of basis_.
         constexpr double kIndependent = 0.05;
         glm::dvec3 rest = gradient;
         double target = -value;

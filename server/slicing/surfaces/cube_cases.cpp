@@ -30,7 +30,8 @@ std::array<Face, 6> makeFaces() {
     return faces;
 }
 
-// Returns the case of a cube. On the face `joined`, alternating inside corners are joined; on all others, separated.
+// Returns the case of a cube. On a face with alternating corners, joins the inside corners if it is the face `joined`,
+// and separates them otherwise.
 CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t joined) {
     const auto isInside = [&](std::uint8_t corner) { return (inside >> corner & 1U) != 0; };
     // loop[e] is the least number of an edge that is in the same loop as edge e.

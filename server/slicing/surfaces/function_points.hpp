@@ -42,13 +42,13 @@ struct FunctionPoints {
             }
         }
     }
-    /// Sets points i … i + count − 1 to a row that begins at the point `first` of the slice. `step` is the vector to
-    /// the next point, in the function's coordinates.
-    void setRow(std::size_t i, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
-                std::size_t count) {
-        set(i, section, first);
+    /// Sets points begin … begin + count − 1 to a row that begins at the point `first` of the slice. `step` is the
+    /// vector to the next point, in the function's coordinates.
+    void setPointsInRow(std::size_t begin, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
+                        std::size_t count) {
+        set(begin, section, first);
         for (int c = 0; c < 4; ++c) {
-            float* out = &coordinates[static_cast<std::size_t>(c)][i];
+            float* out = &coordinates[static_cast<std::size_t>(c)][begin];
             const float origin = *out;
             for (std::size_t k = 0; k < count; ++k) out[k] = origin + static_cast<float>(k) * step[c];
         }

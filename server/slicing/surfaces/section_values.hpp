@@ -16,8 +16,8 @@ namespace oval4d::slicing {
 /// must be Field::toFunction times the inverse of the rotation matrix.
 void placeSection(const fields::Field& field, const glm::dmat4& toFunction, double w, FieldSection& section);
 
-/// Sets `values` to the values of `function` at `points`, which are in the x, y and z of the section. A value is NaN
-/// where the function has none.
+/// Sets `values` to the values of `function` at `points`, which are given by their x, y and z in the slice. A value is
+/// NaN where the function has none.
 void evaluateInSection(const fields::ScalarFunction& function, const FieldSection& section,
                        std::span<const glm::vec3> points, std::vector<float>& values);
 void evaluateInSection(const fields::ScalarFunction& function, const FieldSection& section,

@@ -53,7 +53,7 @@ void sampleFog(const fields::ScalarFunction& function, const FieldSection& secti
         for (int j = 0; j < out.size.y; ++j) {
             for (int i = 0; i < out.size.x;) {
                 const auto count = std::min(static_cast<std::size_t>(out.size.x - i), values.size() - waiting);
-                points.setRow(waiting, section, out.step * (first + glm::dvec3(i, j, k)), along, count);
+                points.setPointsInRow(waiting, section, out.step * (first + glm::dvec3(i, j, k)), along, count);
                 waiting += count;
                 i += static_cast<int>(count);
                 if (waiting == values.size()) evaluate();

@@ -11,15 +11,16 @@ namespace oval4d::slicing {
 
 /// The triangles of one slice of a field. For each level, they form a closed surface, oriented outward, around the body
 /// of the level (see fields::Inside): the part of the level set that lies in the domain of the field, and caps where
-/// the boundary of the domain cuts the body.
+/// the boundary of the domain cuts the body. If only the topology was extracted (see SurfaceDetail::topologyOnly),
+/// `normals`, `growth` and `values` are empty.
 struct SliceSurface {
     /// The bit of SliceSurface::part that marks the triangles of caps.
     static constexpr std::uint8_t kCap = 0x80;
 
     std::vector<glm::vec3> points;   ///< in the units of the object
-    std::vector<glm::vec3> normals;  ///< outward unit normals of the level sets; meaningless on caps
-    /// Per point: the distance by which the level set moves along its normal per unit of w. Positive where the body
-    /// grows with w, negative where it shrinks, and infinite where the level set is tangent to the hyperplane.
+    std::vector<glm::vec3> normals;  ///< per point: the outward unit normal of its level set; meaningless on caps
+    /// Per point: the distance by which the level set moves along its outward normal per unit of w. Positive where the
+    /// body grows with w, negative where it shrinks, and infinite where the level set is tangent to the hyperplane.
     std::vector<float> growth;
     std::vector<float> values;        ///< per point: the value of the function
     std::vector<float> secondValues;  ///< per point: the second function's value; empty if not needed

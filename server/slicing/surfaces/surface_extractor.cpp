@@ -21,17 +21,18 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Distances in steps of the lattice: within which a point counts as on a wall, and the most along each axis by which
-// points are moved onto walls. The layers of points around the domain must be thicker than the latter.
+// Distances in lattice steps. A point within kOnWall of a wall counts as on the wall. Points are moved onto walls by at
+// most kMostMoved along each axis; the layers of points around the domain must be thicker than this.
 constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
 
-/// Returns the least float that is not less than `value`. A float is less than either or less than neither.
+/// Returns the least float that is not less than `value`. A float is less than this result if and only if it is less
+/// than `value`.
 float roundedUp(double value) {
     const auto rounded = static_cast<float>(value);
     return rounded < value ? std::nextafter(rounded, kInfinity) : rounded;
 }
 
-/// For each set of inside corners, a bit for each edge of the cube that has one end inside.
+/// For each set of inside corners of a cube: a bit for each edge that has one end inside and the other end outside.
 constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
     std::array<std::uint16_t, 256> crossed{};
     for (unsigned inside = 0; inside < crossed.size(); ++inside) {
@@ -87,13 +88,13 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     sign_ = options.inside == fields::Inside::below ? 1 : -1;
     constexpr double kEnlarge = 1.6;  // the number of points of a surface falls with the square of the step
-    for (double step = options.step; !extractWith(step, function, section, options, out); step = kEnlarge * step_)
+    for (double step = options.step; !tryExtract(step, function, section, options, out); step = kEnlarge * step_)
         out.clear();
 }
 
 // Extracts the surfaces with this step, or a larger one. Returns false if there are too many points.
-bool SurfaceExtractor::extractWith(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                                   const Options& options, SliceSurface& out) {
+bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                                  const Options& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
     if (active_.empty()) return true;
     sampleBlocks(function, section, options);
@@ -119,7 +120,8 @@ void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& 
                                      const Options& options) {
     const fields::EvaluationCost cost = function.cost();
     constexpr double kEnlarge = 1.25, kBoundsShare = 0.25;
-    // The surface passes about one in six cubes of an active block, and its points are settled with two gradients.
+    // The surface passes through about one in six cubes of an active block, and the gradient is evaluated twice for
+    // each of its points. All times are in nanoseconds.
     constexpr double kPointsPerBlock = kBlockPoints / 6.0, kGradients = 2, kPerPoint = 60, kPerSample = 1;
     const double perBlock =
         kBlockPoints * (cost.value + kPerSample) + static_cast<double>(options.levels.size()) * kPointsPerBlock *
@@ -140,7 +142,7 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
         const glm::dvec3 n = glm::abs(section.walls[i].normal);
         wallReach_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
     }
-    // Two more layers of points on each side: those that may be moved onto walls, and those that are outside.
+    // Two more layers of points on each side: one of points that may be moved onto walls, and one of points outside.
     base_ = glm::ivec3(glm::floor(section.min / step_)) - 2;
     const glm::ivec3 cubes = glm::ivec3(glm::ceil(section.max / step_)) + 2 - base_;
     blockCount_ = (cubes + kBlock - 1) / kBlock + 1;
@@ -156,9 +158,9 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
     capacity_ = needed;
 }
 
-// Returns the walls that a cube with this center may touch or lie beyond, as bits, and sets `outside` if all of it lies
-// beyond one of them, farther than points are moved onto it. `reaches` are those of wallReaches() for the size of the
-// cube.
+// Returns a bit for each wall that a cube with this center may touch or lie beyond. Sets `outside` to true if the whole
+// cube lies so far beyond one of the walls that none of its points is moved onto this wall. `reaches` must be the
+// result of wallReaches() for the size of the cube.
 std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const WallReaches& reaches,
                                        const glm::dvec3& center, bool& outside) const {
     unsigned walls = 0;
@@ -170,7 +172,7 @@ std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const WallRe
     return static_cast<std::uint8_t>(walls);
 }
 
-// For each wall, returns how far a cube of this half size reaches from its center toward the wall.
+// For each wall, returns how far a cube reaches from its center toward the wall. `half` is half the side of the cube.
 SurfaceExtractor::WallReaches SurfaceExtractor::wallReaches(const FieldSection& section, double half) const {
     WallReaches reaches{};
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
@@ -181,20 +183,21 @@ SurfaceExtractor::WallReaches SurfaceExtractor::wallReaches(const FieldSection& 
 }
 
 // Finds the blocks that may contain a surface, and notes which points of their upper neighbors they need. Looks at
-// groups of 2 × 2 × 2 blocks first, and at their blocks only where a group may contain a surface.
+// groups of 2 × 2 × 2 blocks first, and at single blocks only in groups that may contain a surface.
 void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                       const Options& options) {
     blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, Block{});
     active_.clear();
     glm::dvec4 unit(0);  // half the size of the bounding box of a cube with the side 2, in the function's coordinates
     for (const glm::dvec4& axis : section.axes) unit += glm::abs(axis);
-    // Whether a cube of blocks may contain a surface; `half` is half its size, `reaches` belong to it.
+    // Returns whether a cube of blocks may contain a surface. `half` is half the side of the cube, and `reaches` the
+    // result of wallReaches() for it.
     const auto mayContain = [&](const glm::dvec3& center, double half, const WallReaches& reaches) {
         bool outside = false;
         const std::uint8_t walls = wallsAt(section, reaches, center, outside);
         if (outside) return false;
-        // Half the size of its bounding box in the function's coordinates. Points that are moved onto a wall may leave
-        // it.
+        // Half the size of the bounding box of the cube in the function's coordinates. Points that are moved onto a
+        // wall may leave the cube.
         const glm::dvec4 reach = unit * (walls == 0 ? half : half + kMostMoved * step_);
         const glm::dvec4 middle =
             section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
@@ -205,7 +208,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
             return bounds.mayCross(level) || (walls != 0 && full);
         });
     };
-    // Bounds of a block pay if they cost less than the samples that they may save.
+    // Computing the bounds of a block is worthwhile if it takes less time than the samples that it may save.
     const fields::EvaluationCost cost = function.cost();
     const bool refines = cost.bounds < 0.5 * kBlockPoints * cost.value;
     const double half = 0.5 * kBlock * step_;
@@ -231,7 +234,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     });
 }
 
-// Notes that all points of this block are needed, and the first ones of its upper neighbors.
+// Notes that all points of this block are needed, and the first layer of points of each of its upper neighbors.
 void SurfaceExtractor::activate(glm::ivec3 block) {
     active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
     for (int i = 0; i < 8; ++i) {
@@ -251,14 +254,14 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     struct Part {
         const Block* block;
         glm::ivec3 first;   // the lattice point at its lower end
-        std::size_t begin;  // of its points in the batch
+        std::size_t begin;  // the index of its first point in the batch
     };
     constexpr std::size_t kCapacity = FunctionPoints::kCapacity;
     FunctionPoints points;
     std::array<Part, kCapacity> parts{};
     std::array<float, kCapacity> values{};
     std::array<std::uint8_t, kCapacity> inside{};
-    std::array<bool, kCapacity> inDomain{};  // of blocks at walls
+    std::array<bool, kCapacity> inDomain{};  // set only for the points of blocks at walls
     std::size_t partCount = 0, size = 0;
     const auto sample = [&] {
         function.evaluate(points.batch(size), std::span(values).first(size));
@@ -299,7 +302,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     sample();
 }
 
-// Sets the bit of each level for those values that are inside.
+// For each value, sets the bits of the levels whose body contains a point with this value.
 void SurfaceExtractor::findInside(std::span<const float> values, const Options& options,
                                   std::span<std::uint8_t> inside) const {
     std::ranges::fill(inside, std::uint8_t{0});
@@ -315,8 +318,9 @@ void SurfaceExtractor::findInside(std::span<const float> values, const Options& 
     }
 }
 
-// Moves those points of a block that are just beyond walls onto them, and finds which are then in the domain. `size` is
-// the number of points along each axis, `begin` the number of the first one in `points`.
+// Moves those points of a block that are just beyond walls onto these walls, and sets `inDomain` to whether each point
+// is then in the domain. `first` is the lattice point at the lower end of the block, `size` the number of points along
+// each axis, and `begin` the index in `points` of the point `first`.
 void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
                                      FunctionPoints& points, std::span<bool> inDomain) const {
     const std::uint8_t walls = wallsNear(section, position(first), kBlock, step_);
@@ -347,8 +351,9 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
     }
 }
 
-// Returns whether a point is in the domain or just beyond some of these walls, which must include all that are
-// near it. In the latter case, moves it onto these walls: along an axis of the lattice if there is only one.
+// Returns whether a point is in the domain or just beyond some walls. In the latter case, moves the point onto these
+// walls: along an axis of the lattice if there is only one. `walls` has a bit for each wall to consider; these must
+// include all walls near the point.
 bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
     const auto wall = [&](unsigned bits) -> const FieldSection::Wall& {
         return section.walls[static_cast<std::size_t>(std::countr_zero(bits))];
@@ -375,7 +380,7 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (beyond == 0) return true;
     const glm::dvec3 start = point;
     if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
-    // Beyond several walls, moves the point to where they meet. This may lead beyond another wall.
+    // A point beyond several walls is moved to where these walls meet. This may move it beyond another wall.
     for (int round = 0; round < 3; ++round) {
         unsigned now = 0;
         for (unsigned rest = walls; rest != 0; rest &= rest - 1)
@@ -402,10 +407,11 @@ std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level)
 
 // Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points.
 bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
-    // A byte for each of the four cubes of a row.
+    // About a row of lattice points along x. There is a byte for each of the four cubes along the row; the bits of the
+    // byte are those of inside_.
     constexpr std::size_t kRows = kBlock + 1;
     struct Row {
-        std::uint32_t some, all;  // whether some or all of its corners are inside
+        std::uint32_t some, all;  // whether any, and whether both, of the cube's two corners in this row are inside
     };
     const auto rowAt = [&](std::uint32_t at) -> Row {
         std::array<std::uint32_t, 2> ends{};
@@ -456,8 +462,8 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
     cubes_.push_back(cube);
 }
 
-// Appends the points of a cube that no wall passes: the means of the places where its edges meet the level set. Returns
-// false, without points, if the function has no value at one of the corners.
+// Appends the points of a cube that no wall passes, one for each patch: the mean of the places where the edges of the
+// patch meet the level set. Returns false, and appends nothing, if the function has no value at one of the corners.
 bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -472,7 +478,7 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, gl
         const unsigned from = kCubeEdges[e][0];
         const float start = values[from] - level, end = values[kCubeEdges[e][1]] - level;
         glm::vec3 point(from & 1U, from >> 1U & 1U, from >> 2U);
-        // Rounding of the level may put both ends on the same side.
+        // Rounding of the level to a float may put both ends on the same side.
         point[static_cast<int>(e / 4)] = start == end ? 0.5F : std::clamp(start / (start - end), 0.0F, 1.0F);
         const std::size_t patch = patches.patchOfEdge[e];
         sums[patch] += point;
@@ -486,8 +492,8 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, gl
     return true;
 }
 
-// Appends the points of a cube that the boundary of the domain or of a hole may pass, and notes where the surface is a
-// cap.
+// Appends the points of a cube through which the boundary of the domain or of a hole may pass, and notes in `cube.cap`
+// where the surface is a cap.
 void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
                                           glm::ivec3 place, Cube& cube) {
     std::array<Corner, 8> corners{};
@@ -520,7 +526,7 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
 }
 
 // Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
-// a wall, whichever comes first from its inner end.
+// a wall. If it meets several of them, returns the place closest to its inner end.
 SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
                                                       const Corner& inner, float atInner, const Corner& outer,
                                                       float atOuter) const {
@@ -529,7 +535,8 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
     double first = 0.5;
     std::uint16_t constraint = kAtHole;
     bool found = false;
-    // All functions are negative or zero at the inner end. Those that are positive at the outer end cross zero.
+    // The function minus the level (times sign_) and the distances from the walls are negative or zero at the inner
+    // end. Those that are not negative at the outer end cross zero.
     const auto consider = [&](double from, double to, std::uint16_t by) {
         if (to < 0) return false;
         const double zero = from / (from - to);
@@ -560,7 +567,7 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
 // Moves the points of the current level onto their constraints, and appends them to `out`.
 void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, const FieldSection& section,
                                     SliceSurface& out) {
-    constexpr int kRimSteps = 2;  // a rim may be farther from its first approximation than the rest of a surface
+    constexpr int kRimSteps = 2;  // steps at rims, which may be far from their first approximation
     starts_ = positions_;
     moving_.clear();
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
@@ -571,7 +578,7 @@ void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, cons
         }
     }
     approachLevel(function, section);
-    // What has left the domain belongs to the rim.
+    // Points that have left the domain belong to the rim.
     for (const std::uint32_t i : moving_) {
         for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
             const auto& [normal, offset] = section.walls[wall];
@@ -600,7 +607,7 @@ void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, cons
     }
 }
 
-// Makes one step of Newton's method from the points `moving_` toward the level set and their other constraints.
+// Makes one step of Newton's method for the points `moving_`, toward the level set and their other constraints.
 void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section) {
     Evaluation at;
     for (std::size_t begin = 0; begin < moving_.size(); begin += FunctionPoints::kCapacity) {
@@ -620,7 +627,7 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
     }
 }
 
-// Returns the step of a point to its walls.
+// Returns the step that moves a point onto the walls in its constraint mask.
 ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
     ConstrainedStep step;
     for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {
@@ -630,7 +637,8 @@ ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, s
     return step;
 }
 
-// Moves a point, but not out of the neighborhood of its cube: then it has followed a wrong approximation.
+// Moves a point. If it would then be more than one lattice step from its start along an axis, moves it back to its
+// start, because the approximation is wrong.
 void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) {
     const glm::dvec3 next = positions_[point] + step.solve();
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
@@ -662,7 +670,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 glm::ivec3 other = place;
                 other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
                 other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
-                // Always true if the function keeps to its bounds.
+                // Always true if the values of the function keep to the bounds of boundsIn().
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const Cube& around = cubes_[cubeAt_[index(other)]];

@@ -72,11 +72,11 @@ class SurfaceExtractor {
     };
     // A cube through which the surface passes, and the points of its patches.
     struct Cube {
-        std::uint32_t at;  // the lattice index of its corner 0
-        std::uint8_t inside;
-        bool separated;
+        std::uint32_t at;                 // the lattice index of its corner 0
+        std::uint8_t inside;              // a bit for each corner: whether it is inside the body
+        bool separated;                   // whether its case is separatedCubeCase(inside)
         std::array<std::uint8_t, 3> cap;  // per edge from corner 0: 1 if a cap crosses the edge
-        std::uint32_t firstPoint;
+        std::uint32_t firstPoint;         // the index in positions_ of its first point
     };
     // A corner of a cube.
     struct Corner {
@@ -86,14 +86,14 @@ class SurfaceExtractor {
     // A place where the surface crosses an edge of the lattice.
     struct Crossing {
         glm::dvec3 position;
-        std::uint16_t constraint;
+        std::uint16_t constraint;  // a constraint mask
     };
 
     using WallReaches = std::array<double, FieldSection::kMaxWalls>;
 
     void layOut(const FieldSection& section, double step);
-    bool extractWith(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                     const Options& options, SliceSurface& out);
+    bool tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                    const Options& options, SliceSurface& out);
     void chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
                        const Options& options);
     void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
@@ -143,7 +143,7 @@ class SurfaceExtractor {
     std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
-    std::array<double, FieldSection::kMaxWalls> wallReach_{};  // how far beyond each wall points are moved onto it
+    std::array<double, FieldSection::kMaxWalls> wallReach_{};  // per wall: how far beyond it points are moved onto it
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps
     glm::ivec3 blockCount_{0};                      // including a layer of unused blocks at the upper end of each axis

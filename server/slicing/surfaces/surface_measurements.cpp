@@ -43,7 +43,7 @@ class ConnectedParts {
 
 struct Part {
     double volume = 0;
-    glm::dvec3 moment{0};  // the volume times the centroid, relative to the representative point
+    glm::dvec3 moment{0};  // the volume times the centroid, relative to the point that represents the part
 };
 
 template <typename Point>
@@ -56,7 +56,8 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& corners = triangles[t];
         const std::uint32_t root = connected.of(corners[0]);
-        // Coordinates are relative to a point of the same part, so that rounding errors do not swamp small volumes.
+        // Coordinates are relative to a point of the same part, so that rounding errors are small even if the volume is
+        // small.
         const glm::dvec3 base(points[root]);
         const glm::dvec3 a = glm::dvec3(points[corners[0]]) - base, b = glm::dvec3(points[corners[1]]) - base,
                          c = glm::dvec3(points[corners[2]]) - base;
@@ -74,7 +75,7 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
         moment += part.moment + part.volume * glm::dvec3(points[point]);
     }
     if (result.volume > 0) result.centroid = moment / result.volume;
-    // Each triangle has three edges, which it shares with others: V − E + F with E = 3F / 2.
+    // Each triangle has three edges, and each edge belongs to two triangles: V − E + F with E = 3F / 2.
     result.euler = static_cast<long>(std::ranges::count(used, true)) - static_cast<long>(triangles.size() / 2);
     return result;
 }

@@ -78,7 +78,7 @@ class Simulation {
             if (!next) return;
             next->job(0);
             ++running_;
-            at(now_ + begun_.takes, [this, begun = std::make_shared<FairQueue::StartedJob>(*next), job = begun_] {
+            at(now_ + begun_.takes, [this, begun = std::make_shared<FairQueue::DueJob>(*next), job = begun_] {
                 --running_;
                 used_[job.lane.get()] += job.takes;
                 queue_.finished(*begun, job.takes);

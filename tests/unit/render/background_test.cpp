@@ -29,7 +29,7 @@ std::vector<GroundExample> examples() {
             {"small stellated 120-cell", {.view = scene::View::single, .parts = {}, .orbit = {}}}};
 }
 
-class Backgrounds : public testing::TestWithParam<ShapeDrawing> {};
+class Backgrounds : public testing::TestWithParam<ShapeBackend> {};
 
 TEST_P(Backgrounds, AreSeenWhereNothingIsDrawn) {
     Renderer renderer(fontFile(), GetParam());
@@ -78,7 +78,7 @@ TEST_P(Backgrounds, ATransparentPictureOnWhiteIsTheWhiteOne) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Drawing, Backgrounds, testing::Values(ShapeDrawing::fastest, ShapeDrawing::open_gl));
+INSTANTIATE_TEST_SUITE_P(Drawing, Backgrounds, testing::Values(ShapeBackend::fastest, ShapeBackend::open_gl));
 
 }  // namespace
 }  // namespace oval4d::render

@@ -231,7 +231,7 @@ TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
                 const glm::dvec3 u = glm::normalize(glm::cross(patch.normal, glm::dvec3(0.1, 0.7, -0.3)));
                 const glm::dvec3 v = glm::cross(patch.normal, u);
                 std::vector<std::vector<glm::dvec2>> loops;
-                for (auto f = patch.firstLoop; f < patch.lastLoop; ++f) {
+                for (auto f = patch.firstLoop; f < patch.endLoop; ++f) {
                     loops.emplace_back();
                     for (auto i = slices.cornerBegin[f]; i < slices.cornerBegin[f + 1]; ++i) {
                         const glm::dvec3 x = corner(slices, 0, i);

@@ -1,5 +1,5 @@
-// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of lines for many vertices. Of
-// a field, draws the histogram of its values along each axis instead.
+// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of the lines if there are
+// many vertices. For a field, draws the histogram of its values along each axis instead.
 
 import type { Histogram, Slices, Viewport } from "@oval4d/protocol";
 
@@ -13,7 +13,7 @@ const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of 
 
 const density = new DensityImage();
 
-/** `leastText` is the least size of names, in canvas pixels. */
+/** `leastText` is the least font size of names, in canvas pixels. */
 export function drawCoordinates(
     pen: CanvasRenderingContext2D,
     picture: Slices,
@@ -26,7 +26,7 @@ export function drawCoordinates(
     else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
-/** The vertex whose column contains this point, in pixels. */
+/** The vertex in whose column the point (x, y) lies, in pixels; undefined if there is none, or no lines are drawn. */
 export function columnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
     const { columns, per_row: perRow, rows, ...layout } = scene.coordinates;
@@ -93,7 +93,7 @@ function drawLines(
     }
 }
 
-/** Draws a name with this middle and baseline, unless the edge of the picture would cut it: it may be enlarged. */
+/** Draws a name, which may be enlarged, with this middle and baseline, unless the picture's edge would cut it. */
 function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
     const half = pen.measureText(name).width / 2;
     if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));

@@ -9,8 +9,8 @@ export class DensityImage {
     private density: Uint8Array | undefined;
 
     /**
-     * Converts the density to pixels. Between two axes of a strip, the color is interpolated between the colors of the
-     * axes; a panel of a histogram has the color of its axis.
+     * Converts the density of a picture to pixels. In a strip, the color between two axes is interpolated between the
+     * colors of these axes. In a histogram, each panel has the color of its axis.
      */
     update({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.density) return;
@@ -38,7 +38,7 @@ export class DensityImage {
         this.pen.putImageData(this.pixels, 0, 0);
     }
 
-    /** Draws panel k of a histogram; the centers of its outermost pixels lie on the edges of the rectangle. */
+    /** Draws panel k of a histogram such that the centers of its outermost pixels lie on the edges of the rectangle. */
     drawPanel(pen: CanvasRenderingContext2D, k: number, x: number, y: number, width: number, height: number): void {
         const columns = this.canvas.width / 4;
         const left = k * columns + 0.5;

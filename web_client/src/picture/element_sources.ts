@@ -1,8 +1,9 @@
 // Finds the parts of a picture that show an element of the polytope: its pieces in the slices and in the projection,
-// and its vertices, if the picture determines them. Source numbers are explained at `of` in protocol/README.md.
+// and its vertices, if the picture determines them. A source is a number in `of`, which tells from what element a part
+// was cut; protocol/README.md explains these numbers.
 //
-// The vertices of an element of a convex polytope follow from the hyperplanes of its cells: a slice of a cell lies in a
-// plane, and the hyperplane of the cell contains this plane and has the whole polytope on one side.
+// The vertices of an element of a convex polytope follow from the hyperplanes of the cells around it. The slice of a
+// cell lies in a plane. The hyperplane of the cell contains this plane and has the whole polytope on one side.
 
 import type { Elements, PolytopeElement, Slice, Slices } from "@oval4d/protocol";
 
@@ -11,11 +12,12 @@ import type { ElementCounts, HighlightedElements } from "./highlighted_elements"
 import { areaVector } from "./polygon";
 
 const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
-const kLevel = 1e-4; // circumradii: a vertex nearer to the slice does not determine the slope of a hyperplane
+const kLevel = 1e-4; // circumradii along w: a vertex nearer to a slice is not used to find the slope of a hyperplane
 
 /** The hyperplane a · x + b · y + c · z + m · w = offset, with a unit vector (a, b, c). */
 type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
 
+/** The element of the polytope that a hit shows. */
 export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): PolytopeElement {
     if (kind === "points") {
         if (source < counts.faces) return { element: "face", number: source };
@@ -67,7 +69,7 @@ export class ElementSources {
         return { vertices, edges, ownVertices, ...(element.element === "cell" && { cell: number }) };
     }
 
-    /** The vertices of an element, as indices into `coordinates`; empty if the picture does not determine them. */
+    /** The vertices of an element, numbered as in `coordinates`; empty if the picture does not determine them. */
     private verticesOf({ element, number }: PolytopeElement): ReadonlySet<number> {
         const { edges: edgeCount, faces: faceCount, cells: cellCount } = this.counts;
         if (element === "vertex") return new Set([number]);
@@ -93,7 +95,7 @@ export class ElementSources {
         return found;
     }
 
-    /** The cells whose slices meet at the slice of an edge or of a 2-face. */
+    /** The cells around an edge or a 2-face: those whose slices meet at its slice. Empty if they are not determined. */
     private cellsAround(element: "edge" | "face", number: number): number[] {
         for (const { vertices, edges, faces, of } of this.slices) {
             const at = (element === "edge" ? of.vertices : of.edges).indexOf(number);
@@ -122,7 +124,7 @@ export class ElementSources {
         return [];
     }
 
-    /** Adds the edges at a vertex that slices cut. All cells around such an edge contain the vertex. */
+    /** Adds those edges at a vertex that slices cut. All cells around such an edge contain the vertex. */
     private addEdgesAt(vertex: number, sources: Set<number>): void {
         for (const { vertices, faces, of } of this.slices) {
             const candidates = new Uint8Array(vertices.length / 3);
@@ -153,7 +155,7 @@ export class ElementSources {
         if (source < this.counts.edges) sources.add(this.counts.faces + source);
     }
 
-    /** Adds the 2-faces and edges of a cell that slices cut or contain. */
+    /** Adds those 2-faces and edges of a cell that slices cut or contain. */
     private addFacesOf(cell: number, sources: Set<number>): void {
         for (const { vertices, edges, faces, of } of this.slices) {
             if (!of.faces.includes(cell)) continue;
@@ -169,7 +171,7 @@ export class ElementSources {
         }
     }
 
-    /** Adds the 2-faces and edges of a cell that planar sections cut. */
+    /** Adds those 2-faces and edges of a cell that planar sections cut. */
     private addSectionEnds(cell: number, sources: Set<number>): void {
         for (const { edges, of } of this.picture.matrix?.sections ?? []) {
             for (const end of edges.filter((_, e) => of.edges[e] === cell).flat()) {
@@ -179,7 +181,7 @@ export class ElementSources {
         }
     }
 
-    /** Adds the edges whose two vertices are in this set. */
+    /** Adds the edges whose two vertices are in `own`. */
     private addEdgesBetween(own: ReadonlySet<number>, sources: Set<number>): void {
         const { edges: edgeCount, faces: faceCount } = this.counts;
         for (const { edges, of } of this.slicesAndParts) {
@@ -213,17 +215,17 @@ export class ElementSources {
         let [largest, extent]: [readonly [Slice, number] | undefined, number] = [undefined, 0];
         for (const slice of this.slices) {
             const f = slice.of.faces.indexOf(cell);
-            const area = f < 0 ? 0 : Math.hypot(...areaOf(slice, f));
+            const area = f < 0 ? 0 : Math.hypot(...areaVectorOf(slice, f));
             if (area > extent) [largest, extent] = [[slice, f], area];
         }
         if (!largest) return undefined;
         const [slice, f] = largest;
-        const [a, b, c] = areaOf(slice, f).map((value) => value / extent) as [number, number, number];
+        const [a, b, c] = areaVectorOf(slice, f).map((value) => value / extent) as [number, number, number];
         const p = 3 * slice.faces.corners[slice.faces.begin[f]!]!;
         const [x, y, z] = slice.vertices.subarray(p, p + 3);
         const offset = a * x! + b * y! + c * z!;
-        // No vertex is outside, so a · x + b · y + c · z + m · (w − slice.w) ≤ offset. A vertex above the slice bounds m
-        // from above, one below it from below.
+        // All vertices satisfy a · x + b · y + c · z + m · (w − slice.w) ≤ offset. So each vertex with w > slice.w gives
+        // an upper bound of m. The least bound is m itself, because such a vertex of this cell attains equality.
         let m = Infinity;
         for (let v = 0; v < coordinates.length; v += 4) {
             const level = coordinates[v + 3]! - slice.w;
@@ -241,6 +243,6 @@ function heightAbove([a, b, c, m, offset]: Hyperplane, points: Float32Array, v: 
 }
 
 /** The outward normal of a face of a slice; its length is twice the area. */
-function areaOf({ vertices, faces: { begin, corners } }: Slice, f: number): [number, number, number] {
+function areaVectorOf({ vertices, faces: { begin, corners } }: Slice, f: number): [number, number, number] {
     return areaVector(vertices, corners, [begin[f]!, begin[f + 1]!]);
 }

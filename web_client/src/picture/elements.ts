@@ -12,7 +12,7 @@ export interface SliceRanges {
     vertices: Range;
     edges: Range;
     faces: Range;
-    distance: number; // from the eye, at the last sort
+    distance: number; // from the eye, as of the last sort
 }
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */

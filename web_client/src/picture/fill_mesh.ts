@@ -1,5 +1,5 @@
-// Draws slices that may be nonconvex: triangles that fill their faces, with a depth buffer. The opaque triangles come
-// first, then the faded ones; within each group, slices are ordered from far to near.
+// The mesh of slices whose faces may cross: triangles that fill the faces, to be drawn with a depth buffer. The opaque
+// triangles come first, then the faded ones; within each group, slices are ordered from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -11,7 +11,7 @@ import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 
-/** The visibility of a triangle in `Fill.seen`; 0 is hidden. */
+/** Values of `Fill.seen`: the visibility of a triangle; 0 means hidden. */
 const kFaded = 1;
 const kFull = 2;
 
@@ -19,7 +19,7 @@ const kFull = 2;
 interface SliceFill {
     fill: Fill;
     position: Vector;
-    first: number; // index of its first point
+    first: number; // the index of its first point in the mesh
 }
 
 export class FillMesh {
@@ -52,7 +52,7 @@ export class FillMesh {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
-                // A triangle takes its color from its last point, which is never that of a triangle of another tint.
+                // A triangle takes its color from its last point, which no triangle of another tint has as its last.
                 const item = first + fill.triangles[3 * t + 2]!;
                 this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, highlighted), alpha);
             }

@@ -1,5 +1,5 @@
 // Draws the fog of a field by ray casting over what is already drawn, as server/render/slices/fog_painter.cpp does.
-// Shares the context with three.js, which must know when its state changes.
+// The painter shares the WebGL context with three.js, and tells three.js when it has changed the state of the context.
 
 import { DepthTexture, WebGLRenderTarget, type WebGLRenderer } from "three";
 
@@ -10,7 +10,7 @@ import { makeProgram } from "./shader_program";
 
 const kVertexShader = `#version 300 es
 precision highp float;
-layout(location = 0) in vec3 corner;  // 0 or 1
+layout(location = 0) in vec3 corner;  // 0 or 1 along each axis of the box
 uniform mat4 view, projection;
 uniform vec4 origin;  // the world position of the slice's origin, and the scale
 uniform vec3 low, size;
@@ -29,14 +29,14 @@ const kFragmentShader = `#version 300 es
 precision highp float;
 precision highp sampler3D;
 in vec3 place;
-in float depthSeen;  // the distance along the view axis
+in float depthSeen;  // the distance of this place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
 uniform sampler3D blocks;    // per block of 4 × 4 × 4 cells of the lattice: 0 if there is no fog in it
 uniform sampler2D table;     // per value: the color, and the absorption per circumradius
 uniform sampler2D frameDepths, surfaceDepths;
-uniform vec2 toDepth;        // the depth of a point, -1 to 1, is x + y / distance
+uniform vec2 toDepth;        // the depth of a point, from -1 to 1, is toDepth.x + toDepth.y / distance
 uniform bool isBehind;       // whether the fog behind balls and bars is drawn, or that in front of them
-uniform vec3 eye;            // this and the next are in slice coordinates
+uniform vec3 eye;            // in slice coordinates, like walls and low
 uniform vec4 walls[8];
 uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
@@ -44,13 +44,13 @@ uniform vec3 size;           // the number of its points
 uniform float latticeStep;
 uniform float circumradius;
 out vec4 pixel;
-// The distance of the nearest thing along the view axis.
+// The distance along the view axis of the nearest thing in a depth texture; 1e30 if there is none.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
 }
 void main() {
-    // The ray is eye + t way; its part in the fog is from t = begin to t = end.
+    // The ray is eye + t * way. Its part in the fog is from t = begin to t = end.
     vec3 way = place - eye;
     way += vec3(equal(way, vec3(0.0))) * 1e-20;
     vec3 first = (low - eye) / way, last = (low + latticeStep * (size - 1.0) - eye) / way;
@@ -76,7 +76,7 @@ void main() {
     for (float i = 0.0; i < count && clear > 0.002; ++i, at += move) {
         vec3 block = clamp((at * size - 0.5) / 4.0, vec3(0.0), (size - 1.001) / 4.0);
         if (texelFetch(blocks, ivec3(block), 0).r == 0.0) {
-            // Leaps to the first step beyond the block.
+            // Leaps to the last step in the block; the loop then leaves it.
             vec3 perStep = move * size / 4.0;
             vec3 steps = (floor(block) + vec3(greaterThan(perStep, vec3(0.0))) - block) / perStep;
             float leap = max(ceil(min(steps.x, min(steps.y, steps.z))) - 1.0, 0.0);
@@ -103,15 +103,15 @@ const kUniforms = [
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
 
 const kBlock = 4; // cells of a lattice along each side of a block
-const kClearest = 1e-4; // the least fraction of the light that a layer as thick as the circumradius lets through
+const kClearest = 1e-4; // the least fraction of light that a layer as thick as the circumradius lets through
 const kCorners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [i & 1, (i >> 1) & 1, i >> 2]);
-/** The triangles of a box, counterclockwise from outside. */
+/** The triangles of a box as indices of its corners, counterclockwise from outside. */
 const kTriangles = [
     ...[0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4],
     ...[2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6],
 ];
 
-/** The objects of one WebGL context, with which they are lost. */
+/** The objects of one WebGL context. They are lost together with the context. */
 interface Resources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
@@ -121,13 +121,13 @@ interface Resources {
     lattices: Map<Slice, { values: WebGLTexture; blocks: WebGLTexture }>;
 }
 
-/** What hides fog: balls and bars, whose edges are translucent because they are antialiased, and surfaces. */
+/** What hides fog: the balls and bars ("frame"), whose antialiased edges are translucent; or the surfaces. */
 type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
     private picture: Slices | undefined; // undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise; they hold the depths
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -196,7 +196,7 @@ export class FogPainter {
         this.renderer.resetState();
     }
 
-    /** Calls `draw`, which draws all that hides fog of one kind, to find its depths. */
+    /** Finds the depths of what hides fog: calls `draw`, which must draw all occluders of this kind. */
     drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
         const target = this.targets[occluders];
@@ -207,7 +207,7 @@ export class FogPainter {
         this.renderer.setRenderTarget(null);
     }
 
-    /** Prepares for drawing; call it after drawDepths() for both kinds. */
+    /** Prepares for draw(). To be called after drawDepths() for both kinds of occluders. */
     begin(lens: Lens): void {
         const { gl, picture, resources } = this;
         if (!picture || !resources) return;
@@ -222,9 +222,9 @@ export class FogPainter {
     }
 
     /**
-     * Blends a part of the fog of one slice with the picture. `behind`: the fog behind the nearest ball or bar, which
-     * is drawn before the balls and bars and is seen through their edges. `inFront`: the fog in front of them. The
-     * caller draws the slices from far to near.
+     * Blends a part of the fog of one slice with the picture. `behind`: the fog behind the nearest ball or bar. It is
+     * drawn before the balls and bars, and is seen through their edges. `inFront`: the fog in front of them. The caller
+     * draws the slices from far to near.
      */
     draw(slice: Slice, lens: Lens, part: "behind" | "inFront"): void {
         const { gl, picture, resources, targets } = this;
@@ -263,7 +263,7 @@ export class FogPainter {
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-        gl.enable(gl.CULL_FACE); // the back of the box is seen even if the eye is in it
+        gl.enable(gl.CULL_FACE); // draws the back of the box, which is seen even if the eye is in the box
         gl.cullFace(gl.FRONT);
         gl.drawElements(gl.TRIANGLES, kTriangles.length, gl.UNSIGNED_BYTE, 0);
         gl.bindVertexArray(null);
@@ -271,12 +271,12 @@ export class FogPainter {
     }
 }
 
-/** A framebuffer whose depths can be read. Multisampled for balls and bars, whose edges are alpha to coverage. */
+/** A framebuffer whose depths can be read. Balls and bars need samples, because they use alpha to coverage. */
 function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
 
-/** For each value, the color, and the absorption per circumradius. */
+/** For each value, the color from 0 to 1, and the absorption per circumradius. */
 function looksOf(table: ArrayLike<number>): Float32Array {
     const looks = new Float32Array(4 * table.length);
     for (let i = 0; i < table.length; ++i) {
@@ -287,7 +287,7 @@ function looksOf(table: ArrayLike<number>): Float32Array {
     return looks;
 }
 
-/** Pairs of a value and 255, or 0 and 0 where the field has no value. */
+/** For each point, its value and 255, or 0 and 0 where the field has no value. */
 function texelsOf({ values }: Fog): Uint8Array {
     const texels = new Uint8Array(2 * values.length);
     for (let i = 0; i < values.length; ++i) {
@@ -298,8 +298,8 @@ function texelsOf({ values }: Fog): Uint8Array {
 }
 
 /**
- * The number of blocks along each axis, and for each block 255 if a value between the least and the greatest of its points
- * is not transparent, else 0.
+ * The number of blocks along each axis; and for each block 255 if a value between the least and the greatest value of
+ * its points is not transparent, else 0.
  */
 function blocksOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;
@@ -315,7 +315,7 @@ function blocksOf({ size, values }: Fog, table: ArrayLike<number>): [[number, nu
             for (let j = first[1]!; j <= Math.min(first[1]! + kBlock, y - 1); ++j) {
                 for (let i = first[0]!; i <= Math.min(first[0]! + kBlock, x - 1); ++i) {
                     const value = values[(k * y + j) * x + i]!;
-                    if (value === 0) continue; // interpolation leaves it out
+                    if (value === 0) continue; // a point without a value does not count
                     least = Math.min(least, value);
                     greatest = Math.max(greatest, value);
                 }

@@ -8,10 +8,10 @@ export class FrameView {
     private bitmap: ImageBitmap | undefined;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
-        this.context = canvas.getContext("bitmaprenderer")!; // with alpha, which a transparent picture has
+        this.context = canvas.getContext("bitmaprenderer")!; // with an alpha channel, for transparent pictures
     }
 
-    /** Decodes the frame that draw() shows next, in a worker. Transfers the buffer: the caller can no longer use it. */
+    /** Decodes a frame in a worker; draw() then shows it. Transfers the buffer: the caller can no longer use it. */
     async decode(png: Uint8Array): Promise<void> {
         this.decoder ??= new ImageDecoder();
         const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);

@@ -2,7 +2,7 @@
 // content on a second canvas, which lies on top.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
-// A Drawing is a geometry with the material that it is drawn with.
+// A Drawing, which three.js calls Mesh, is a geometry with the material that it is drawn with.
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
@@ -90,9 +90,9 @@ export class GeometryView {
     }
 
     /**
-     * The material of a mesh. `painted`: everything is drawn in painter's order, without a depth test. `solid`: balls and
-     * bars have depth, and are antialiased by alpha to coverage. `blended`: as `solid`, but in painter's order, and
-     * nothing hides what is drawn later.
+     * The material of a mesh. `painted`: everything is drawn in painter's order, without a depth test. `solid`: balls
+     * and bars have depth, and are antialiased by alpha to coverage. `blended`: shapes have depth, and are blended in
+     * painter's order; they hide nothing that is drawn later.
      */
     private material(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
         const [painted, solid] = [kind === "painted", kind === "solid"];
@@ -105,8 +105,8 @@ export class GeometryView {
     }
 
     /**
-     * Replaces the slices to draw; `orbit` is the orbit for which the server placed the camera, `counts` are the
-     * polytope's.
+     * Replaces the slices to draw. `orbit` is the orbit for which the server placed the camera; `counts` are the
+     * polytope's numbers of elements.
      */
     update(picture: Slices, orbit: Orbit, counts: ElementCounts): void {
         this.counts = counts;
@@ -131,7 +131,7 @@ export class GeometryView {
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Highlights the element under the pointer, until the next call. */
+    /** Highlights these elements as those under the pointer, until the next call. Does not draw. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         if (!this.picture) return;
@@ -143,7 +143,8 @@ export class GeometryView {
     }
 
     /**
-     * Draws the slices as seen from this orbit. `size` is in device pixels, and so is `leastText`, the least size of labels.
+     * Draws the slices as seen from this orbit. `size` and `leastText`, the least font size of labels, are in device
+     * pixels.
      */
     draw(orbit: Orbit, size: Viewport, leastText: number): void {
         if (!this.picture || !this.pictureOrbit) return;
@@ -168,7 +169,7 @@ export class GeometryView {
         drawOverlay(this.pen, this.picture, this.lens, size, leastText, this.highlighted!, this.counts);
     }
 
-    /** Draws the picture on white with `pen`, whose canvas has this size. Then draw() must be called again. */
+    /** Draws the picture on white with `pen`, whose canvas has this size. The caller must then call draw() again. */
     print(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
         const { picture, pictureOrbit, counts, pointed } = this;
         if (!picture || !pictureOrbit) return;
@@ -181,8 +182,8 @@ export class GeometryView {
     }
 
     /**
-     * Renders the slices and the projection. Painted slices have no depth, so the projection is drawn after the farther
-     * ones and before the nearer ones.
+     * Renders the slices and the projection. Painted slices have no depth, so the projection is drawn after the slices
+     * behind it, and before those in front of it.
      */
     private render(): void {
         const { renderer, sliceMesh, drawing, projectionDrawings } = this;
@@ -211,8 +212,8 @@ export class GeometryView {
     }
 
     /**
-     * Draws a part of the fog of each slice, from far to near. The fog in front of the balls and bars is drawn after the
-     * translucent surfaces of its slice.
+     * Draws a part of the fog of each slice, from far to near. The fog in front of the balls and bars is drawn after
+     * the translucent surfaces of its slice.
      */
     private drawFog(part: "behind" | "inFront"): void {
         this.fogPainter.begin(this.lens);

@@ -7,7 +7,7 @@ type Numbers = Float32Array | Int8Array | Uint8Array | Uint32Array;
 
 export class GrowingBuffer<T extends Numbers> {
     attribute: BufferAttribute;
-    used = 0; // items
+    used = 0; // the number of items in use; an item has `itemSize` numbers
 
     constructor(
         private readonly make: new (length: number) => T,

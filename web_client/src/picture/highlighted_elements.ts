@@ -11,9 +11,9 @@ export interface HighlightedElements {
     /** Values of `of.vertices` and `of.edges`, in slices and in the projection. */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;
-    /** Vertices of the polytope, as indices into `coordinates`. */
+    /** Vertices of the polytope, numbered as in `coordinates`. */
     ownVertices: ReadonlySet<number>;
-    /** The cell whose faces are highlighted. The server colors the faces of a kept cell. */
+    /** The cell under the pointer, whose faces are highlighted. For the kept cell, the server's colors do this. */
     cell?: number;
 }
 
@@ -27,7 +27,7 @@ export function allHighlighted({ highlight }: Slices, pointed: HighlightedElemen
     };
 }
 
-/** The color of a face that this cell colors. */
+/** The color that this cell gives to a face. */
 export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
     return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
 }

@@ -6,12 +6,15 @@ import { ensureCapacity } from "./elements";
 import type { Lens } from "./lens";
 import { areaVector } from "./polygon";
 
-/** An element of a slice, of a part of the projection, or of a planar section. An edge of a section counts as a face. */
+/**
+ * What was hit in a slice, in the projection or in the matrix of planar sections. An edge of a planar section has the
+ * kind `faces`, because it is cut from a cell, as the face of a slice is.
+ */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
-    /** The value of `of`: the element of the polytope. */
+    /** The value of `of`, which tells the element of the polytope. */
     source: number;
-    /** Absent in the projection and in the matrix. */
+    /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
 }
 
@@ -28,18 +31,18 @@ interface PickableMesh {
 }
 
 export const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
-// How far balls and bars extend toward the viewer, in multiples of their radius. Thus a ball is nearer than the faces
-// around it and than the bars that end in it.
+// The hit test takes balls and bars as nearer to the viewer by this many of their radii, so that a ball wins over the
+// faces around it and over the bars that end in it.
 const kBallRise = 3;
 const kBarRise = 2;
 
-/** Camera coordinates x, y, z and screen coordinates x, y of the vertices of a mesh. */
+/** Camera coordinates x, y, z and screen coordinates x, y (in pixels) of the vertices of a mesh. */
 let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at a point, in pixels of the lens: the nearest element of the nearest mesh that has one there. `ratio`
- * is the number of these pixels per pixel of the page.
+ * The element at the point (x, y), in pixels of the lens: the nearest element of the nearest mesh that has one there;
+ * undefined if no mesh has one. `ratio` is the number of these pixels per pixel of the page.
  */
 export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
     const meshes = pickableMeshes(picture, lens).sort((a, b) => a.distance - b.distance);
@@ -59,7 +62,7 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: Lens): P
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
-        const look = { ball, bar, hasFaces: shown.faces && !scene.surfaces }; // the domain of a field has none
+        const look = { ball, bar, hasFaces: shown.faces && !scene.surfaces }; // the box of a field has none
         meshes.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
     }
     for (const part of projection?.parts ?? []) {
@@ -75,7 +78,7 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, lens: Lens, x: number
     const { position, scale, ball } = mesh;
     const center = lens.project(position);
     const depth = lens.depthOf(position);
-    const kMagnified = 2; // a vertex of a perspective projection may be farther from the center
+    const kMagnified = 2; // in a perspective projection, a vertex may be farther from the center than the radius
     const radius = kMagnified * scale * scene.circumradius + kBallRise * ball;
     if (!center || depth <= radius) return true;
     return Math.hypot(center.x - x, center.y - y) <= (lens.pixelsPerUnit * radius) / (depth - radius);
@@ -111,7 +114,7 @@ class MeshTest {
         this.project(vertices, position, scale);
     }
 
-    /** Writes the points' coordinates into `projected`. */
+    /** Writes the camera and screen coordinates of points into `projected`. */
     private project(points: Float32Array, position: Vector, scale: number): void {
         const view = this.lens.view.elements;
         for (let i = 0, at = 0; i < points.length; i += 3, at += kStride) {
@@ -183,7 +186,7 @@ class MeshTest {
         }
     }
 
-    /** The depth of a polygon at the point; Infinity if it does not contain the point. */
+    /** The depth of a polygon at the point; Infinity if the polygon does not contain the point. */
     private depthOfPolygon(corners: Uint32Array, begin: number, end: number): number {
         let isInside = false;
         let p = kStride * corners[end - 1]!;

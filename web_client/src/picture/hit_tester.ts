@@ -7,7 +7,7 @@ import { type Hit, hitAt, kReach } from "./hit_test";
 import { Lens } from "./lens";
 import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
-import { topOfCoordinates } from "./overlay";
+import { heightOfCoordinates } from "./overlay";
 
 export class HitTester {
     private readonly lens = new Lens();
@@ -18,7 +18,7 @@ export class HitTester {
         private readonly orbit: Orbit,
     ) {}
 
-    /** The fraction of the slices whose centers are within a picture of this size, as seen from an orbit. */
+    /** The fraction of the drawn slices whose centers are within a picture of this size, as seen from an orbit. */
     visibleShare(orbit: Orbit, size: Viewport): number {
         this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
         const drawn = this.picture.slices.filter((slice) => slice.drawn);
@@ -48,7 +48,8 @@ export class HitTester {
     }
 
     /**
-     * What is drawn at a point of the picture, in pixels. `ratio` is the number of these pixels per pixel of the page.
+     * The element at a point of the picture, in pixels; undefined if there is none. `ratio` is the number of these
+     * pixels per pixel of the page.
      */
     hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | undefined {
         const { matrix, scene } = this.picture;
@@ -60,26 +61,25 @@ export class HitTester {
     }
 
     /**
-     * Returns the index of the vertex in whose parallel-coordinates plot the point (x, y) lies, in pixels; undefined if
-     * there is none.
+     * The vertex whose parallel coordinates are drawn at a point of the picture, in pixels; undefined if there is none.
      */
     columnAt(x: number, y: number, size: Viewport): number | undefined {
         return this.panelAt(x, y, size) ? undefined : columnAt(this.picture, size, x, y);
     }
 
-    /** Whether the coordinates cover the slices at this height, seen with the lens as it is set. */
+    /** Whether the parallel coordinates cover the slices at the height y in pixels, with the lens as it is set. */
     private isCovered(y: number, size: Viewport): boolean {
         const { scene } = this.picture;
-        return scene.shown.coordinates && this.lens.isMoved && y >= size.height - topOfCoordinates(scene, size);
+        return scene.shown.coordinates && this.lens.isMoved && y >= size.height - heightOfCoordinates(scene, size);
     }
 
-    /** The panel of the matrix at a point of the picture, in pixels. */
+    /** The panel of the matrix at a point of the picture, in pixels; undefined if there is none. */
     private panelAt(x: number, y: number, size: Viewport): MatrixPanel | undefined {
         const { matrix } = this.picture;
         return matrix && panelAt(matrix, x, y, size);
     }
 
-    /** The largest distance of a vertex from the slice's center on the screen, in pixels. */
+    /** The largest distance of a vertex from the slice's center in the picture, in pixels. */
     private radiusOf({ vertices, position: [x, y, z] }: Slice): number {
         const { scale } = this.picture.scene;
         const center = this.lens.project([x, y, z]);

@@ -1,5 +1,5 @@
-// The view and projection matrices of the camera: the server's camera, moved by the change of the viewer's orbit since
-// the server placed it.
+// The view and projection matrices of the camera. The server has placed the camera for one orbit of the viewer; the
+// page moves it from there to the newest orbit.
 
 import { Matrix4, Vector3, Vector4 } from "three";
 
@@ -17,7 +17,7 @@ export class Lens {
     readonly view = new Matrix4();
     readonly projection = new Matrix4();
     readonly eye = new Vector3();
-    /** Whether the viewer has moved the camera. */
+    /** Whether the viewer has moved the camera from its initial orbit. */
     isMoved = false;
     private readonly axes = [new Vector3(), new Vector3(), new Vector3()] as const;
     private readonly clip = new Vector4();
@@ -62,7 +62,7 @@ export class Lens {
         return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
     }
 
-    /** Projects the camera coordinates x, y, z that begin at `points[at]`, and writes the pixels x, y after them. */
+    /** Projects the camera coordinates x, y, z that begin at points[at]; writes the pixels x, y after them. */
     toScreen(points: Float32Array, at: number): void {
         const f = this.projection.elements;
         const depth = -points[at + 2]!;
@@ -70,7 +70,7 @@ export class Lens {
         points[at + 4] = ((1 - (f[5]! * points[at + 1]!) / depth + f[9]!) / 2) * this.height;
     }
 
-    /** The camera coordinates x and y, at the depth 1, of what is seen at a point in pixels. */
+    /** The camera coordinates x and y, at the depth 1, of the ray through a point in pixels. */
     rayAt(x: number, y: number): [number, number] {
         const f = this.projection.elements;
         return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
@@ -87,7 +87,7 @@ export class Lens {
         return new Vector3().setFromMatrixColumn(this.view, i);
     }
 
-    /** Pixels per world unit at distance 1. */
+    /** Pixels per world unit at the depth 1. */
     get pixelsPerUnit(): number {
         return (this.projection.elements[5]! * this.height) / 2;
     }

@@ -12,8 +12,8 @@ const kFillOpacity = 0.16;
 const kAxisOpacity = 0.55; // of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
 const kNameHeight = 0.3; // of an axis' name, as a fraction of a panel's side
-const kFocusLine = 0.0011; // the width of the lines, as a fraction of the viewport's height
-// The lines of the focus point in the focus slice: half their length in circumradii, and their width.
+const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
+// The focus point in the focus slice: half the length of its lines, in circumradii; their width, like kFocusLine.
 const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
@@ -110,7 +110,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 
 type Quadruple = [number, number, number, number];
 
-/** Fills the section, unless its edges cross. */
+/** Fills the section if its edges are one closed polygon and cannot cross each other. */
 function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelContext): void {
     const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
     if (boundary.length === 0 || !isConvex) return;
@@ -121,7 +121,7 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
     pen.fill();
 }
 
-/** Draws the lines in which the plane meets the other planes of its row and its column. */
+/** Draws the lines in which the panel's plane meets the planes of the other panels in its row and its column. */
 function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelContext): void {
     const { row, column, section } = panel;
     const [first, second] = section.axes;

@@ -7,7 +7,10 @@ import type { MatrixPanel } from "./matrix_panel";
 
 type Pixel = readonly [x: number, y: number];
 
-/** The nearest point within reach; otherwise the nearest edge. `reach` is in pixels: their least radius. */
+/**
+ * The nearest point of the section that is drawn at the pixel; otherwise the nearest edge. Here, the radius of a point
+ * and half the width of an edge are at least `reach` pixels.
+ */
 export function hitInPanel(
     panel: MatrixPanel,
     matrix: SectionMatrix,

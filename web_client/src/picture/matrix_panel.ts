@@ -7,10 +7,10 @@ const kAxes = [0, 1, 2, 3] as const; // x, y, z, w
 /** The panel of the plane that is parallel to two axes: axis `column` points to the right, axis `row` upward. */
 export class MatrixPanel {
     readonly section: PlanarSection;
-    /** The center, which shows the origin. */
+    /** The center in pixels, where the panel shows the origin. */
     readonly x: number;
     readonly y: number;
-    /** Half the side of the panel. */
+    /** Half the side of the panel, in pixels. */
     readonly half: number;
     private readonly pixelsPerUnit: number;
 
@@ -28,13 +28,13 @@ export class MatrixPanel {
         this.pixelsPerUnit = this.half / reach;
     }
 
-    /** Where a point with these coordinates along the axes of the section is drawn. */
+    /** The pixel of a point of the section, given by its coordinates along the first and second axis of the section. */
     pixelOf([first, second]: readonly [number, number]): [x: number, y: number] {
         const [across, up] = this.column < this.row ? [first, second] : [second, first];
         return [this.x + across * this.pixelsPerUnit, this.y - up * this.pixelsPerUnit];
     }
 
-    /** The coordinates along axis `column` and axis `row` of the point in the panel that is nearest to a pixel. */
+    /** The point of the panel that is nearest to a pixel: its coordinates along axis `column` and axis `row`. */
     coordinatesAt(x: number, y: number): [across: number, up: number] {
         const within = (offset: number): number => Math.min(this.half, Math.max(-this.half, offset));
         return [within(x - this.x) / this.pixelsPerUnit, within(this.y - y) / this.pixelsPerUnit];
@@ -48,7 +48,7 @@ export function panelsOf(matrix: SectionMatrix, viewport: Viewport): MatrixPanel
     );
 }
 
-/** The center of the panel on the diagonal that names an axis. */
+/** The center in pixels of the panel on the diagonal that shows the name of an axis, 0 to 3. */
 export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
     return {
         x: (left + axis * step + panel / 2) * height,
@@ -56,7 +56,7 @@ export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: n
     };
 }
 
-/** The panel that contains a pixel; none on the diagonal, between the panels and outside the matrix. */
+/** The panel that contains a pixel; undefined on the diagonal, between the panels and outside the matrix. */
 export function panelAt(matrix: SectionMatrix, x: number, y: number, viewport: Viewport): MatrixPanel | undefined {
     const { left, bottom, panel, step } = matrix;
     const [across, up] = [x / viewport.height - left, 1 - y / viewport.height - bottom];

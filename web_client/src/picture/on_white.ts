@@ -1,11 +1,12 @@
-// A picture in colors that hold on white paper, for printing: the page cannot wait for the server to draw it on white.
+// Converts a picture to colors with enough contrast on white paper, for printing. The page does this itself, because it
+// cannot wait until the server has drawn the picture on white.
 
 import type { Slices } from "@oval4d/protocol";
 
 import table from "../../../protocol/colors.json";
 
-const kLeastContrast = 3.6; // to white, as in server/scene/color.cpp
-const kMostLuminance = 1.05 / kLeastContrast - 0.05; // by WCAG 2.2
+const kLeastContrast = 3.6; // the least contrast to white, as in server/scene/color.cpp
+const kMostLuminance = 1.05 / kLeastContrast - 0.05; // the luminance with this contrast, as WCAG 2.2 defines it
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;
@@ -14,12 +15,12 @@ function fixedColors({ text, focus, ball, bar, zero, highlight, axes }: typeof d
     return [text, focus, ball, bar, zero, highlight, ...axes].map(numberOf);
 }
 
-/** The fixed colors on a dark ground, and those that replace them. */
+/** For each fixed color on a dark ground: the color on a light ground that replaces it. */
 const kReplaced = new Map(
     fixedColors(dark).map((color, i): [number, number] => [color, fixedColors(light)[i]!]),
 );
 
-/** Returns a copy of the picture that shares what has no color. */
+/** Returns the picture in colors for white. The copy shares all data without colors with `picture`. */
 export function onWhite(picture: Slices): Slices {
     const { scene, slices, projection, histogram } = picture;
     const background = numberOf(table.grounds.white);
@@ -43,7 +44,7 @@ export function onWhite(picture: Slices): Slices {
     const opaque = 0xff000000;
     return {
         ...picture,
-        density: picture.density.slice(), // its image is made again, in other colors
+        density: picture.density.slice(), // a new array, so that DensityImage uses the new colors
         scene: {
             ...scene,
             colors,

@@ -9,7 +9,7 @@ import type { ElementCounts, HighlightedElements } from "./highlighted_elements"
 import { drawMatrix } from "./matrix_drawing";
 import { cssColor, setFont } from "./pen";
 
-/** `leastText` is the least size of labels, in canvas pixels. */
+/** `leastText` is the least font size of labels, in canvas pixels. */
 export function drawOverlay(
     pen: CanvasRenderingContext2D,
     picture: Slices,
@@ -30,14 +30,14 @@ export function drawOverlay(
     drawMatrix(pen, picture, lens, viewport, highlighted, counts);
 }
 
-/** The height of the upper edge of the parallel coordinates, from the bottom: CoordinatesLayout::top() of the server. */
-export function topOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
+/** The height of the parallel coordinates' upper edge above the bottom, in pixels, as CoordinatesLayout::top(). */
+export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
 }
 
-/** Covers the slices that extend into the parallel coordinates, because the viewer has moved the camera. */
+/** Covers slices that extend into the parallel coordinates. They can do so only if the viewer has moved the camera. */
 function clearCoordinates(pen: CanvasRenderingContext2D, scene: SceneDescription, viewport: Viewport): void {
-    const top = Math.round(topOfCoordinates(scene, viewport));
+    const top = Math.round(heightOfCoordinates(scene, viewport));
     pen.fillStyle = cssColor(scene.colors.background);
     pen.fillRect(0, viewport.height - top, viewport.width, top);
 }
@@ -46,15 +46,16 @@ interface Label {
     slice: Slice;
     x: number;
     y: number;
-    size: number; // font size
+    size: number; // font size, in canvas pixels like all lengths here
     digits: number; // height of the digits
     half: number; // half the width of the text
-    room: number; // half the width that the label takes beside others
+    room: number; // half the width that other labels must leave free
 }
 
 /**
- * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps one
- * nearer to the focus slice, or if the picture's edge would cut it: it may be enlarged, or moved by the viewer's orbit.
+ * Draws the labels of the slices. A label that is too small to read is enlarged. Except that of the focus slice, a
+ * label is omitted if it overlaps a label nearer to the focus slice, or if the picture's edge would cut it, because it
+ * was enlarged or the viewer has moved the camera.
  */
 function drawLabels(
     pen: CanvasRenderingContext2D,
@@ -65,10 +66,10 @@ function drawLabels(
     leastText: number,
 ): void {
     const placed: Label[] = [];
-    const bottom = scene.shown.coordinates && lens.isMoved ? viewport.height - topOfCoordinates(scene, viewport) : viewport.height;
+    const bottom = scene.shown.coordinates && lens.isMoved ? viewport.height - heightOfCoordinates(scene, viewport) : viewport.height;
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
-    // All labels take as much room as the widest one, so that those with a minus are omitted on their side of the focus
-    // exactly where those without one are omitted on the other side.
+    // All labels take as much room as the widest one. Otherwise more labels would be omitted on the side of the focus
+    // where they have a minus sign than on the other side.
     const sample = 100; // a font size
     setFont(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
@@ -118,7 +119,7 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     pen.fillText(slice.label, x, baseline);
 }
 
-/** Draws the x, y and z axes as seen by the camera, from far to near. */
+/** Draws the axes x, y and z in their corner, as seen by the camera, from far to near. */
 function drawAxes(
     pen: CanvasRenderingContext2D,
     scene: SceneDescription,

@@ -1,7 +1,7 @@
-// The painter's algorithm for a mesh. The order is exact for convex slices that do not overlap: slices from far to
-// near; within a slice the back faces, the balls and bars on them, the front faces, and the other balls and bars. Balls
-// are ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers its farther ball, and
-// its nearer ball covers the bar.
+// The painter's algorithm for the mesh of slice_mesh.ts. The order is exact for convex slices that do not overlap:
+// slices from far to near; within a slice the back faces, the balls and bars on them, the front faces, and the other
+// balls and bars. Balls are ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers
+// its farther ball, and its nearer ball covers the bar.
 
 import type { Parts, Vector } from "@oval4d/protocol";
 
@@ -17,7 +17,7 @@ export class PaintersOrder {
     private vertexInFront = new Uint8Array(0);
     private edgeInFront = new Uint8Array(0);
     private faceInFront = new Uint8Array(0);
-    private depth = new Float32Array(0); // of each vertex
+    private nearness = new Float32Array(0); // for each vertex; increases toward the viewer
     private order = new Uint32Array(0); // each slice's vertices from far to near
     private scratch = new Uint32Array(0); // for sorting
     private rank = new Uint32Array(0); // the index of each vertex in `order`
@@ -25,25 +25,25 @@ export class PaintersOrder {
     private readonly edgesByRank = new EdgeBuckets(); // by the rank of the farther vertex
     private out = new Uint32Array(0);
     private used = 0;
-    /** The number of indices of the slices that are farther away than the point passed to writeIndices(). */
+    /** The number of indices that belong to slices farther from the eye than the point passed to writeIndices(). */
     farther = 0;
 
     constructor(private readonly elements: SliceElements) {}
 
-    /** Sets which parts are painted, and makes room for new elements. */
+    /** Sets which parts are painted, and makes room for the elements of a new picture. */
     setParts(parts: SolidParts): void {
         this.shown = parts;
         const { vertexCount, edgeCount, faceCount } = this.elements;
         this.vertexInFront = ensureCapacity(this.vertexInFront, vertexCount);
         this.edgeInFront = ensureCapacity(this.edgeInFront, edgeCount);
         this.faceInFront = ensureCapacity(this.faceInFront, faceCount);
-        this.depth = ensureCapacity(this.depth, vertexCount);
+        this.nearness = ensureCapacity(this.nearness, vertexCount);
         this.order = ensureCapacity(this.order, vertexCount);
         this.scratch = ensureCapacity(this.scratch, vertexCount);
         this.rank = ensureCapacity(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices into `out`; returns their number. */
+    /** Writes the mesh's indices into `out`, and returns their number. `farther` then counts those beyond `point`. */
     writeIndices(lens: Lens, out: Uint32Array<ArrayBuffer>, point: Vector): number {
         this.out = out;
         this.used = this.farther = 0;
@@ -54,7 +54,7 @@ export class PaintersOrder {
             this.sortByDepth(ranges, lens);
             for (const front of [0, 1]) {
                 if (this.shown.faces) this.paintFaces(ranges, front);
-                this.paintFrame(ranges, front);
+                this.paintBallsAndBars(ranges, front);
             }
             if (ranges.distance >= limit) this.farther = this.used;
         }
@@ -70,7 +70,7 @@ export class PaintersOrder {
         this.sliceRanges.sort((a, b) => b.distance - a.distance);
     }
 
-    /** Determines which faces face the viewer; a vertex or edge is in front if it belongs to such a face. */
+    /** Finds which faces of a slice face the viewer. A vertex or edge is in front if it belongs to such a face. */
     private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: Lens): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);
@@ -91,13 +91,13 @@ export class PaintersOrder {
     }
 
     private sortByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: Lens): void {
-        const { depth, order, rank } = this;
+        const { nearness, order, rank } = this;
         const { points, edges } = this.elements;
         for (let v = vertices[0]; v < vertices[1]; ++v) {
-            depth[v] = view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
+            nearness[v] = view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
             order[v] = v;
         }
-        sortByKey(order, vertices, depth, this.scratch);
+        sortByKey(order, vertices, nearness, this.scratch);
         for (let i = vertices[0]; i < vertices[1]; ++i) rank[order[i]!] = i;
         this.edgesByRank.sort(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
     }
@@ -115,7 +115,7 @@ export class PaintersOrder {
         }
     }
 
-    private paintFrame({ vertices }: SliceRanges, front: number): void {
+    private paintBallsAndBars({ vertices }: SliceRanges, front: number): void {
         const { begin, items } = this.edgesByRank;
         const { balls, bars } = this.shown;
         for (let i = vertices[0]; i < vertices[1]; ++i) {

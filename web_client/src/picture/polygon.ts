@@ -1,6 +1,9 @@
 // Geometry of polygons in flat arrays.
 
-/** The polygon's normal, whose length is twice the area, by Newell's method. Point p begins at points[stride · p]. */
+/**
+ * The normal of the polygon corners[begin] … corners[end − 1], by Newell's method; its length is twice the area. The
+ * coordinates of point p begin at points[stride · p].
+ */
 export function areaVector(
     points: Float32Array,
     corners: Uint32Array,

@@ -1,5 +1,6 @@
-// The projection of the whole object as two meshes, both with a depth test: balls and bars of the object, which hide
-// what is behind them; and faces, sections and faded elements, which are blended from far to near.
+// The projection of the whole object as two meshes, both with a depth test. The solid mesh has the balls and bars of
+// the object, which hide what is behind them. The translucent mesh has the faces, the sections and the faded elements,
+// which are blended from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -14,7 +15,7 @@ import { kBall, kBar, kFace } from "./shaders";
 import { kQuad, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
 
-/** What determines when a translucent shape is drawn: the middle of a polygon, a ball's center, or an end of a bar. */
+/** What determines the depth of a translucent shape: a polygon's middle, a ball's center, or an end of a bar. */
 const kMiddle = 0;
 const kCenter = 1;
 const kFarEnd = 2;
@@ -25,23 +26,23 @@ export class ProjectionMesh {
     readonly translucent = new BufferGeometry();
     /** The radius of the thickest bar. */
     barRadius = 0;
-    /** The center, in world space. */
+    /** The center of the projection, in world space. */
     position: readonly [number, number, number] = [0, 0, 0];
 
     private readonly shapes = new ShapeBuffers();
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
-    private used = 0; // vertices
-    // The translucent shapes: the first vertex of each, the number of its vertices, and what determines its depth.
+    private used = 0; // number of vertices
+    // For each translucent shape: its first vertex, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
     private depthKind = new Uint8Array(0);
-    private depth = new Float32Array(0);
+    private nearness = new Float32Array(0);
     private order = new Uint32Array(0);
     private scratch = new Uint32Array(0);
     private count = 0;
 
-    /** Takes over the projection of a new picture; returns whether there is one. */
+    /** Takes over the projection of a new picture; returns whether the picture has one. */
     update(picture: Slices, highlighted: HighlightedElements): boolean {
         const { projection, scene } = picture;
         if (!projection) return false;
@@ -83,7 +84,7 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section shines through the faces
+                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // sections are drawn late: they shine through faces
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
             if (part.opacity > 0) this.addFaces(part, point, color, opacities);
@@ -104,17 +105,17 @@ export class ProjectionMesh {
             view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
         for (let i = 0; i < this.count; ++i) {
             const [first, kind] = [this.first[i]!, this.depthKind[i]!];
-            let height = heightOf(at, first); // toward the viewer
+            let height = heightOf(at, first); // increases toward the viewer
             if (kind === kFarEnd) height = Math.min(height, heightOf(to, first));
             else if (kind === kNearEnd) height = Math.max(height, heightOf(to, first));
             else if (kind === kMiddle) {
                 for (let v = first + 1; v < first + this.size[i]!; ++v) height += heightOf(at, v);
                 height /= this.size[i]!;
             }
-            this.depth[i] = height;
+            this.nearness[i] = height;
             this.order[i] = i;
         }
-        sortByKey(this.order, [0, this.count], this.depth, this.scratch);
+        sortByKey(this.order, [0, this.count], this.nearness, this.scratch);
         let used = 0;
         for (let k = 0; k < this.count; ++k) {
             const i = this.order[k]!;
@@ -161,7 +162,7 @@ export class ProjectionMesh {
         }
     }
 
-    /** Adds a shape that consists of the last vertices. */
+    /** Adds a translucent shape that consists of the last `vertices` vertices. */
     private addTranslucent(vertices: number, depthKind: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;
@@ -179,7 +180,7 @@ export class ProjectionMesh {
             this[name] = ensureCapacity(this[name], quads + faces);
         }
         this.depthKind = ensureCapacity(this.depthKind, quads + faces);
-        this.depth = ensureCapacity(this.depth, quads + faces);
+        this.nearness = ensureCapacity(this.nearness, quads + faces);
         const solidGrown = this.solidIndex.reserve(6 * quads);
         const translucentGrown = this.translucentIndex.reserve(6 * quads + 3 * corners);
         const grown = this.shapes.reserve(4 * quads + corners);

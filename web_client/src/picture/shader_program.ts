@@ -1,6 +1,6 @@
 // Shader programs of painters that use WebGL without three.js.
 
-/** Compiles and links a program; `of` names it in the message of an error. */
+/** Compiles and links a program with the uniforms `names`. On failure, throws an Error that contains the text `of`. */
 export function makeProgram<Name extends string>(
     gl: WebGL2RenderingContext,
     of: string,

@@ -1,9 +1,10 @@
-// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal is
-// X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye; on a bar, v is 0 and u runs across
-// the bar; on a face, u = v = 0. Directions of light are passed as dot products with X, Y and Z. Edges are
-// antialiased over one pixel. The far end of a bar is round, so that v is not 0 there. An element that is thinner than kThinnest is drawn with that width and reduced opacity.
+// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal of the
+// body at (u, v) is X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye. On a bar, u runs
+// across the bar; v is 0 except at the far end, which is round. On a face, u = v = 0. Directions of light are passed as
+// dot products with X, Y and Z. Edges are antialiased over one pixel. A ball or bar whose radius is below kThinnest is
+// drawn with this radius and reduced opacity.
 
-/** Values of the attribute `shape`'s third component. */
+/** Values of the third component of the attribute `shape`: the kind of patch. */
 export const kBall = 0;
 export const kBar = 1;
 export const kFace = 2;
@@ -15,21 +16,21 @@ uniform vec3 light;
 uniform vec4 shading;  // ambient, diffuse, specular, shininess
 uniform float ballRadius, barRadius, pixels;
 in vec3 at, to;  // a ball's center and relative radius (to.x); a bar's ends; a face's corner and normal
-in vec4 shape;   // across: -1, 1; along: -1, 1; the kind of patch; a bar's relative radius in percent
+in vec4 shape;   // -1, 1 across; -1, 1 along; the kind of patch; a bar's radius in percent of barRadius
 in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
-flat out float leastV;  // smaller values of v mean this one
+flat out float leastV;  // smaller values of v count as this one
 #ifdef SOLID
-out float depth;        // of the patch, along the camera's axis
+out float depth;        // of the patch: z in camera coordinates
 flat out float bulge;   // how far the body rises from the patch toward the viewer
 #endif
 
 const float kThinnest = 0.6;      // radius in pixels
 const float kMinFootRadius = 1.8;  // in pixels; thinner bars have no foot
 
-// Widens a thin radius; returns the factor, and sets alpha and place.z accordingly.
+// Widens a thin radius, in pixels; returns the factor, and sets alpha and place.z accordingly.
 float widen(float radius, bool round) {
     float part = min(radius / kThinnest, 1.0);
     alpha = round ? part * part : part;
@@ -69,8 +70,9 @@ void bar(vec3 from, vec3 end, vec3 h) {
     vec3 side = x * (place.x * radius * wide * sqrt(n2 / inside2));
     vec3 corner = (shape.y < 0.0 ? from : end) + side;
 #ifndef SOLID
-    // A bar is drawn over the ball at its far end, and has a round foot there: the half of the circle at this end that is
-    // turned to the eye. The patch extends to where this half ends in the picture; v rises from 0 at the far end.
+    // A bar is drawn over the ball at its far end, and has a round foot there: the half of the circle at this end
+    // that is turned to the eye. The patch extends to where this half ends in the picture. v is 0 at the far end, and
+    // grows to the end of the patch.
     bool fromIsFar = from.z < end.z;
     vec3 far = fromIsFar ? from : end, along = (fromIsFar ? axis : -axis) / sqrt(axis2);
     float rise = radius * reach, extension = dot(far, along) * rise / (dot(far, z) + rise);

@@ -10,7 +10,7 @@ const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
 /** The triangles of a quad. */
 export const kQuad = [0, 1, 2, 2, 1, 3] as const;
 
-/** A relative thickness of 1, as a number in `shape`. */
+/** The fourth component of `shape` for a relative thickness of 1. */
 export const kFullThickness = 100;
 
 export class ShapeBuffers {
@@ -50,7 +50,10 @@ export class ShapeBuffers {
         array[3 * vertex + 2] = z;
     }
 
-    /** Sets the kind of patch, the corner of its quad (0 for faces), and the thickness relative to the uniform radius. */
+    /**
+     * Sets the kind of patch, the corner of its quad, 0 to 3 (0 for faces), and the radius of a bar relative to the
+     * uniform barRadius.
+     */
     setShape(vertex: number, kind: number, corner = 0, thickness = 1): void {
         const { array } = this.shape;
         array[4 * vertex] = kCorners[2 * corner]!;

@@ -1,6 +1,6 @@
-// Balls, bars and faces of all slices as one mesh. A new picture changes its vertices; a new picture or camera changes
-// its indices, which order all elements from far to near, so that transparency and soft edges are correct without a
-// depth buffer.
+// Balls, bars and faces of all slices as one mesh. A new picture changes the vertices of the mesh. A new picture or
+// camera changes the indices, which order all elements from far to near; therefore transparency and soft edges are
+// correct without a depth buffer.
 
 import { BufferGeometry } from "three";
 
@@ -20,7 +20,7 @@ export class SliceMesh {
     private readonly elements = new SliceElements();
     private readonly order = new PaintersOrder(this.elements);
     private readonly shapes = new ShapeBuffers();
-    private count = 0; // indices
+    private count = 0; // number of indices
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /** Writes the elements of a new picture; `faces` is false if FillMesh draws the faces. */
@@ -30,7 +30,7 @@ export class SliceMesh {
         this.reserve();
         const { scene } = picture;
         const { shown } = scene;
-        // Without balls, round joints of the bars' radius join the bars.
+        // Without balls, the bars are joined by balls of their own radius.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
         for (const { slice, vertices, edges } of elements.sliceRanges) {
             for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -76,7 +76,7 @@ export class SliceMesh {
         shapes.color.markChanged();
     }
 
-    /** Orders all elements for this camera. */
+    /** Orders all elements for this camera. select() then compares slices with the position `projection`. */
     sortForCamera(lens: Lens, projection: Vector = [0, 0, 0]): void {
         this.count = this.order.writeIndices(lens, this.index.array, projection);
         this.index.used = this.count;

@@ -2,7 +2,7 @@
 
 const kRun = 8; // items per run that is sorted by insertion
 
-/** Sorts items[begin] … items[end − 1] by key, stably. `scratch` must be at least as long as `items`. */
+/** Sorts items[begin] … items[end − 1] by keys[item], ascending, stably. `scratch` has at least `end` elements. */
 export function sortByKey(
     items: Uint32Array,
     [begin, end]: readonly [begin: number, end: number],

@@ -14,7 +14,7 @@ export type Mode = "geometry" | "frames";
 export interface StageEvents {
     presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
-    /** Called before the newest slices are drawn. */
+    /** Called before each scheduled drawing. */
     beforeDraw(): void;
     /** Called when the WebGL context is lost, or restored after a loss. */
     graphicsChanged(isAvailable: boolean): void;
@@ -30,9 +30,9 @@ export interface SizeLimits {
 
 const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
-const kMaxPrintSide = 4096; // larger canvases are not drawn everywhere
-const kLeastText = 9; // CSS pixels
-const kLeastTextInFullScreen = 0.02; // of the screen's height, legible from the back of a room
+const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
+const kLeastText = 9; // the least height of texts, in CSS pixels
+const kLeastTextInFullScreen = 0.02; // in full screen: a fraction of its height, legible from the back of a room
 
 /** Returns the largest factor by which a picture can be enlarged within the limits. */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
@@ -45,7 +45,7 @@ function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels
 
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
-    size: Viewport = { width: 1280, height: 720 }; // device pixels
+    size: Viewport = { width: 1280, height: 720 }; // of the picture, in device pixels
     private currentMode: Mode = "frames";
     private readonly geometry: GeometryView | undefined;
     private isContextLost = false;
@@ -68,7 +68,7 @@ export class Stage {
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
-        // After a loss, three.js lets the browser restore the context, and then fills the new one.
+        // After a loss, three.js lets the browser restore the context, and then uploads its data to the new one.
         for (const change of ["lost", "restored"]) {
             this.canvases.solids.addEventListener(`webglcontext${change}`, () => {
                 this.isContextLost = change === "lost";
@@ -100,11 +100,12 @@ export class Stage {
         return this.currentMode === "geometry" ? this.geometry?.hitTester : undefined;
     }
 
-    /** Highlights the element under the pointer; the caller then draws. */
+    /** Highlights these elements as those under the pointer. The caller then draws. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.geometry?.highlightPointed(pointed);
     }
 
+    /** Shows new slices at the next drawing. `orbit` is the orbit for which the server placed their camera. */
     showSlices(slices: Slices, orbit: Orbit, counts: ElementCounts): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit, counts);
@@ -136,14 +137,14 @@ export class Stage {
         requestAnimationFrame(() => this.draw());
     }
 
-    /** Draws within the current animation frame. */
+    /** Draws the slices at once, within the current animation frame. Does nothing if the server draws the picture. */
     drawNow(): void {
         if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size, this.leastText);
     }
 
     /**
-     * The size of the picture for printing, in pixels; its shape is that of the picture on the page. The size of the
-     * server's pictures is within its limits.
+     * The size of the picture for printing, in pixels. It has the aspect ratio of the picture on the page. If the
+     * server draws the picture, the size is within the server's limits.
      */
     get printSize(): Viewport {
         const { width, height } = this.size;
@@ -152,7 +153,7 @@ export class Stage {
         return { width: Math.floor(width * scale), height: Math.floor(height * scale) };
     }
 
-    /** Draws the picture for printing to a canvas: on white, or as it is shown if the server has drawn it. */
+    /** Draws the picture for printing to a canvas: on white or, if the server has drawn the picture, as it is shown. */
     print(canvas: HTMLCanvasElement): void {
         const { frame } = this.canvases;
         const { width, height } = this.currentMode === "geometry" ? this.printSize : frame;
@@ -167,14 +168,14 @@ export class Stage {
     }
 
     /**
-     * The height of the picture on the page, in CSS pixels. The picture has fewer pixels than its area of the screen if
-     * that has more than kMaxPixels or the server's limits allow.
+     * The height of the picture on the page, in CSS pixels. The picture itself may have fewer pixels than this area of
+     * the screen, because kMaxPixels and the server's limits bound its size.
      */
     get shownHeight(): number {
-        return this.root.clientHeight || this.size.height / devicePixelRatio; // nothing has a height in print
+        return this.root.clientHeight || this.size.height / devicePixelRatio; // in print, the element has no height
     }
 
-    /** The least height of texts in the picture, in its pixels. */
+    /** The least height of texts in the picture, in pixels of the picture. */
     private get leastText(): number {
         const isFull = document.documentElement.hasAttribute("data-full-screen");
         const least = isFull ? Math.max(kLeastText, kLeastTextInFullScreen * innerHeight) : kLeastText;
@@ -219,7 +220,7 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
-        this.redraw(); // zooming the page can change the size of texts alone
+        this.redraw(); // zooming the page may change only the size of texts
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
         this.events.resized(size);

@@ -1,7 +1,7 @@
 // Draws the surfaces of a field with a depth buffer, as server/render/slices/surface_batch.cpp does: first the opaque
 // ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded as they
-// are; each slice has its own range of the buffers, and the vertex shader puts it in its place. Shares the context with
-// three.js, which must know when its state changes.
+// are. Each slice has its own range of the buffers, and the vertex shader moves the slice to its place. The painter
+// shares the WebGL context with three.js, and tells three.js when it has changed the state of the context.
 
 import type { WebGLRenderer } from "three";
 
@@ -57,11 +57,11 @@ void main() {
 
 const kUniforms = ["view", "projection", "place", "color", "hasPointColors", "isCap", "light", "shading"] as const;
 
-/** The buffers, in the order of the attributes' locations, and the indices. */
+/** The buffers of the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and of the indices. */
 const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as const;
 type BufferName = (typeof kBuffers)[number];
 
-/** The objects of one WebGL context, with which they are lost. */
+/** The objects of one WebGL context. They are lost together with the context. */
 interface Resources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
@@ -75,9 +75,9 @@ interface SliceSurfaces {
     surface: Surface;
     position: Vector;
     groups: TriangleGroups;
-    depth: number; // of the slice's origin
+    depth: number; // of the slice's origin, along the camera's axis
     firstPoint: number;
-    firstByte: number; // of its indices
+    firstByte: number; // the offset of its indices in the buffer
 }
 
 export class SurfacePainter {
@@ -92,7 +92,7 @@ export class SurfacePainter {
         this.gl = renderer.getContext() as WebGL2RenderingContext;
     }
 
-    /** Takes over the surfaces of a new picture; returns whether the picture shows a field. */
+    /** Takes over the surfaces of a new picture; returns whether the picture shows the surfaces of a field. */
     update(picture: Slices): boolean {
         this.spare.push(...this.parts.splice(0));
         this.levels = picture.scene.surfaces ?? [];
@@ -136,7 +136,7 @@ export class SurfacePainter {
             part.firstPoint = points;
             part.firstByte = bytes;
             points += part.surface.points.length / 3;
-            bytes += Math.ceil(part.groups.triangles.byteLength / 4) * 4; // offsets of 32-bit indices are multiples of 4
+            bytes += Math.ceil(part.groups.triangles.byteLength / 4) * 4; // 32-bit indices must begin at multiples of 4
         }
         gl.bindVertexArray(arrays);
         this.reserve("points", 12 * points);
@@ -165,7 +165,7 @@ export class SurfacePainter {
         return (cap === 1 ? surface?.cap_colors : surface?.colors) !== undefined;
     }
 
-    /** Binds a buffer, and enlarges it if it has fewer bytes. */
+    /** Binds a buffer. If it has fewer than this many bytes, makes it larger; its contents are then lost. */
     private reserve(name: BufferName, bytes: number): void {
         const { gl } = this;
         const target = name === "triangles" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
@@ -176,7 +176,7 @@ export class SurfacePainter {
         gl.bufferData(target, entry.size, gl.DYNAMIC_DRAW);
     }
 
-    /** Draws the opaque surfaces, or the translucent ones from far to near: those of all slices, or of one. */
+    /** Draws the opaque surfaces, or the translucent ones from far to near: of all slices, or only of one. */
     draw(which: "opaque" | "translucent", lens: Lens, only?: Slice): void {
         const { gl, picture, parts } = this;
         const opaque = which === "opaque";
@@ -231,13 +231,13 @@ export class SurfacePainter {
         if (!isOpaque(level)) {
             for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
         } else if (level.caps) {
-            this.drawSides(part, level, gl.BACK); // a closed surface hides its own back
+            this.drawSides(part, level, gl.BACK); // with caps, the surface is closed and hides its own back
         } else {
             this.drawSides(part, level, undefined);
         }
     }
 
-    /** Draws the triangles of a level, except those that face forward or backward. */
+    /** Draws the triangles of a level, except those of the side `hidden` (gl.FRONT or gl.BACK), if it is given. */
     private drawSides(
         { groups, firstByte, firstPoint }: SliceSurfaces,
         { level, caps }: SurfaceLevel,
@@ -263,8 +263,8 @@ export class SurfacePainter {
     }
 
     /**
-     * Selects the colors for what is drawn next: those of the points of level sets (0) or caps (1), or the color of the
-     * level.
+     * Selects the colors for what is drawn next: the colors of the points of level sets (0) or caps (1) or, if they
+     * have none, the color of the level.
      */
     private useColors(cap: number, firstPoint: number): void {
         const { gl } = this;

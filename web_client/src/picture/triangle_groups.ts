@@ -1,17 +1,17 @@
-// The triangles of a surface, grouped by level, with the caps of a level in a group of their own. Triangles that are
-// already in this order are not copied.
+// The triangles of a surface, grouped by level; the caps of a level are a group of their own. Triangles that are in
+// this order already are not copied.
 
 import type { Integers, Surface } from "@oval4d/protocol";
 
-const kMaxLevels = 4; // of a field, as in the specification
+const kMaxLevels = 4; // of a field, as in protocol/README.md
 const kGroups = 2 * kMaxLevels;
 
 export class TriangleGroups {
-    /** Triples of points, group by group. Valid until the surface changes. */
+    /** Three indices of points for each triangle, group by group. Valid as long as the arrays of the surface. */
     triangles: Integers = new Uint8Array(0);
     private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
     private readonly next = new Uint32Array(kGroups);
-    private memory = new ArrayBuffer(0); // for the triangles in another order
+    private memory = new ArrayBuffer(0); // for triangles that are not in order
 
     /** Groups the triangles of a surface. */
     update(surface: Surface): void {
@@ -38,13 +38,13 @@ export class TriangleGroups {
         }
     }
 
-    /** The triangles of a level: those of its caps (cap = 1), or the others (cap = 0). */
+    /** The range of the triangles of a level: those of its caps (cap = 1), or the others (cap = 0). */
     range(level: number, cap: number): [begin: number, end: number] {
         const group = groupOf(level, cap);
         return [this.begin[group]!, this.begin[group + 1]!];
     }
 
-    /** Returns an array of the same type and length in memory that is reused. */
+    /** Returns an array of the same type and length. The next surface uses the same memory again. */
     private roomLike(triangles: Integers): Integers {
         if (triangles.byteLength > this.memory.byteLength) {
             this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(triangles.byteLength)));

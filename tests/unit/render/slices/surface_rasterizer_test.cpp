@@ -74,7 +74,7 @@ class SurfacesInMemory : public testing::TestWithParam<SurfaceExample> {
 TEST_P(SurfacesInMemory, LookLikeThoseOfOpenGl) {
     const SurfaceExample& example = GetParam();
     const FieldSubject subject(example, 41);
-    Renderer inMemory, withOpenGl(fontFile(), ShapeDrawing::open_gl);
+    Renderer inMemory, withOpenGl(fontFile(), ShapeBackend::open_gl);
     const image::Image one = subject.draw(inMemory), other = subject.draw(withOpenGl);
     ASSERT_EQ(one.pixels.size(), other.pixels.size());
     int unequal = 0, covered = 0;
@@ -98,7 +98,7 @@ TEST_P(SurfacesInMemory, AreTheSameWithTwoThreads) {
     const SurfaceExample& example = GetParam();
     const FieldSubject subject(example, 42);
     parallel::ForkJoin forkJoin;
-    Renderer one, two(fontFile(), ShapeDrawing::fastest, &forkJoin);
+    Renderer one, two(fontFile(), ShapeBackend::fastest, &forkJoin);
     const image::Image expected = subject.draw(one);
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }
@@ -155,7 +155,7 @@ class Triangles : public testing::Test {
 
     void SetUp() override {
         if (!ShapeRasterizer::isSupported()) GTEST_SKIP() << "this processor lacks AVX2 or FMA";
-        picture.scene.crossing = true;
+        picture.scene.isNonconvex = true;
         picture.slices.vertices.clear();
         surface = &picture.slices.surfaces.emplace_back();
     }

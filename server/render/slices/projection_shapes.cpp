@@ -1,4 +1,4 @@
-#include "render/slices/projection_painter.hpp"
+#include "render/slices/projection_shapes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@ namespace oval4d::render {
 
 using slicing::Visibility;
 
-void ProjectionPainter::paint(const scene::Scene& scene, Layers& out) {
+void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const scene::ObjectProjection& projection = scene.projection;
     const slicing::SliceSet& elements = projection.elements;
     const glm::dmat4 toView = scene.camera.view();
@@ -42,12 +42,13 @@ void ProjectionPainter::paint(const scene::Scene& scene, Layers& out) {
     }
 }
 
-void ProjectionPainter::collect(const scene::Scene& scene, std::uint32_t part) {
+void ProjectionShapeCollector::collect(const scene::Scene& scene, std::uint32_t part) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPart& look = scene.projection.parts[part];
     const auto add = [&](const Item& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
-        // The bars of sections are so thin that they do not cover whole pixels, so faces must be visible behind them.
+        // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. So faces must be
+        // visible behind them, and these bars are in the translucent layer.
         const bool solid = item.kind != Kind::face && part == 0 && visibility == Visibility::full;
         (solid ? solid_ : translucent_).push_back(item);
     };
@@ -59,8 +60,8 @@ void ProjectionPainter::collect(const scene::Scene& scene, std::uint32_t part) {
     if (look.barRadius > 0) {
         for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {
             const auto& [a, b] = elements.edges[e];
-            // A bar is drawn after everything that is farther away than its far end; that of a section, which shines
-            // through the faces, after everything that is farther away than its near end.
+            // A bar of the object is sorted by its far end. A bar of a section is sorted by its near end, so that it is
+            // drawn after the faces along it and is visible through them.
             const auto [far, near] = std::minmax(points_[first + a].z, points_[first + b].z);
             add({-(part == 0 ? far : near), Kind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
@@ -76,7 +77,7 @@ void ProjectionPainter::collect(const scene::Scene& scene, std::uint32_t part) {
     }
 }
 
-void ProjectionPainter::paintItem(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
+void ProjectionShapeCollector::paintItem(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPart& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];

@@ -14,7 +14,7 @@ namespace oval4d::render {
 /// Sorts the shapes of the projection of the whole object, and of the sections that are shown in it, into layers, and
 /// converts them to patches. Drawing them needs a depth buffer, because bars of the projection cross each other
 /// everywhere in the picture. Reuses its memory for the next picture.
-class ProjectionPainter {
+class ProjectionShapeCollector {
   public:
     /// The layers, in drawing order, each from far to near. `solid` has the opaque balls and bars of the object;
     /// because of the order, their antialiased edges blend with the shapes behind them. `translucent` has faces,
@@ -25,14 +25,14 @@ class ProjectionPainter {
     };
 
     /// Overwrites `out` with the projection, as the camera of the scene sees it. The scene must show the projection.
-    void paint(const scene::Scene& scene, Layers& out);
+    void collect(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, face };
     struct Item {
         float depth;  // the distance from the eye along the view axis
         Kind kind;
-        std::uint32_t part, number;  // number: the index of the vertex, edge or face in the elements
+        std::uint32_t part, number;  // number: the index of a vertex, edge or face in ObjectProjection::elements
     };
 
     void collect(const scene::Scene& scene, std::uint32_t part);

@@ -8,16 +8,16 @@
 
 #include <gtest/gtest.h>
 
-#include "polytopes/import/written_precision.hpp"
+#include "polytopes/import/rounding_estimator.hpp"
 
 namespace oval4d::polytopes {
 namespace {
 
-TEST(WrittenPrecision, IsThatOfSinglePrecisionNumbers) {
+TEST(RoundingEstimator, IsThatOfSinglePrecisionNumbers) {
     std::mt19937 random(36);
     std::uniform_real_distribution<double> uniform(0.5, 1);
     const auto errorOf = [](const std::vector<std::string>& words, double size = 1) {
-        WrittenPrecision precision;
+        RoundingEstimator precision;
         for (const std::string& word : words) precision.add(word, 0, std::strtod(word.c_str(), nullptr));
         return precision.maxRoundingError(size).x;
     };
@@ -45,9 +45,9 @@ TEST(WrittenPrecision, IsThatOfSinglePrecisionNumbers) {
     EXPECT_EQ(errorOf({"16777216", "33554432", "1234567168"}, 1e9), 0.5);
 }
 
-TEST(WrittenPrecision, IsHalfTheUnitOfTheLastDigit) {
+TEST(RoundingEstimator, IsHalfTheUnitOfTheLastDigit) {
     const auto maxRoundingError = [](const std::vector<const char*>& words, double size) {
-        WrittenPrecision precision;
+        RoundingEstimator precision;
         for (const char* word : words) precision.add(word, 0, std::stod(word));
         return precision.maxRoundingError(size).x;
     };

@@ -1,4 +1,4 @@
-#include "polytopes/import/written_precision.hpp"
+#include "polytopes/import/rounding_estimator.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,11 +13,12 @@ namespace {
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
 constexpr int kMinSingleExponent = -149;     // the least exponent of two of its last bit
 constexpr double kSingleRounding = 0x1p-24;  // its maximum rounding error, relative to the number
-// Numbers that are not single-precision numbers are taken for them with a probability of 2 to the power of −this.
+// The least sufficient singleEvidence_: other numbers are taken for single-precision numbers with a probability of at
+// most 2 to the power of −this.
 constexpr double kSingleEvidence = 10;
 constexpr double kMaxExactUnits = 400;  // coordinates are exact if their size is at most this many last-digit units
 
-constexpr int kMaxExponent = 10'000;  // exponents beyond are limited to it
+constexpr int kMaxExponent = 10'000;  // the largest absolute value; other exponents are limited to it
 
 // The precision of a single number.
 struct Digits {
@@ -51,14 +52,14 @@ Digits digitsOf(std::string_view word) {
     return result;
 }
 
-// Returns the distance from a number to the next one of single precision.
+// Returns the distance between neighboring single-precision numbers near `value`.
 double singleSpacing(double value) {
     return std::ldexp(1.0, std::max(std::ilogb(value) + 1 - kSingleBits, kMinSingleExponent));
 }
 
 }  // namespace
 
-void WrittenPrecision::add(std::string_view word, int axis, double value) {
+void RoundingEstimator::add(std::string_view word, int axis, double value) {
     const Digits digits = digitsOf(word);
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
@@ -68,17 +69,17 @@ void WrittenPrecision::add(std::string_view word, int axis, double value) {
     if (single_ && value != 0) addSingle(digits.last, digits.lastNonzero, axis, value);
 }
 
-void WrittenPrecision::addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value) {
+void RoundingEstimator::addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value) {
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // Of the decimals of this length, this part is next to a single-precision number. Zeros at the end do not count: a
-    // number such as 0.50000000 is both a single-precision number and a short decimal.
+    // The fraction of all decimals with this last digit that are next to a single-precision number. Zeros at the end do
+    // not count as digits here: a number such as 0.50000000 is both a single-precision number and a short decimal.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
 
-glm::dvec4 WrittenPrecision::unit() const {
+glm::dvec4 RoundingEstimator::unit() const {
     if (digits_ == 0) return glm::dvec4(0);
     glm::dvec4 unit(0);
     for (int axis = 0; axis < 4; ++axis) {
@@ -89,15 +90,15 @@ glm::dvec4 WrittenPrecision::unit() const {
     return unit;
 }
 
-glm::dvec4 WrittenPrecision::roundingErrorIfRounded() const {
-    // The shortest digits that tell a single-precision number from the next may be farther from it than half a unit of
-    // the longest numbers.
+glm::dvec4 RoundingEstimator::roundingErrorIfRounded() const {
+    // The shortest decimal that identifies a single-precision number may be farther from this number than half a unit
+    // of the last digit of the longest decimals.
     if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
         return largest_ * kSingleRounding + glm::max(unit() / 2.0, fromSingle_);
     return unit() / 2.0;
 }
 
-glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
+glm::dvec4 RoundingEstimator::maxRoundingError(double size) const {
     const glm::dvec4 last = unit();
     const bool exact = size <= kMaxExactUnits * std::min({last.x, last.y, last.z, last.w});
     return exact ? glm::dvec4(0) : roundingErrorIfRounded();

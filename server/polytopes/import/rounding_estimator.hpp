@@ -14,22 +14,23 @@ namespace oval4d::polytopes {
 /// file, and from the maximum number of significant digits. The larger estimate is used.
 ///
 /// Single-precision numbers (IEEE 754 binary32) are often written with more digits than they have, such as 0.1 as
-/// 0.100000001. All coordinates are taken as rounded to single precision if each has a single-precision number within
-/// half a unit of its last digit, and this is hardly a coincidence: decimals with as many digits would have one with a
-/// probability of at most 2⁻¹⁰. Whole numbers are never taken so.
-class WrittenPrecision {
+/// 0.100000001. The coordinates count as rounded to single precision if two conditions are met. First, the distance of
+/// each coordinate from a single-precision number is at most half a unit of its last digit. Second, this is hardly a
+/// coincidence: other decimals with as many digits would meet the first condition with a probability of at most 2⁻¹⁰.
+/// Whole numbers never count as rounded to single precision.
+class RoundingEstimator {
   public:
     /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedCoordinate::text) and as a number.
     void add(std::string_view word, int axis, double value);
 
     /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit; in single
     /// precision, also half the unit of the last bit of the largest coordinate. `size` is half the diagonal of the
-    /// points' bounding box. If it is at most 400 units of the last digit, the coordinates count as exact, and the
-    /// result is 0 for all axes: programs hardly ever round so coarsely, so that coordinates such as 0.5 and 10.5 are
+    /// points' bounding box. If `size` is at most 400 units of the last digit, the coordinates count as exact, and the
+    /// result is 0 for all axes: programs hardly ever round so coarsely. Therefore coordinates such as 0.5 and 10.5 are
     /// probably exact.
     glm::dvec4 maxRoundingError(double size) const;
 
-    /// Returns maxRoundingError() of coordinates that do not count as exact, whatever their size.
+    /// Returns the result that maxRoundingError() has if the coordinates do not count as exact.
     glm::dvec4 roundingErrorIfRounded() const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
@@ -45,7 +46,7 @@ class WrittenPrecision {
     bool whole_ = true;
     bool single_ = true;         // whether every coordinate is a single-precision number, to the digits written
     glm::dvec4 fromSingle_{0};   // per axis: the largest distance of a coordinate from a single-precision number
-    double singleEvidence_ = 0;  // decimals with as many digits would be so by coincidence with probability 2^−this
+    double singleEvidence_ = 0;  // −log₂ of the probability that other decimals of these lengths would fit as well
 };
 
 }  // namespace oval4d::polytopes

@@ -1,0 +1,95 @@
+#pragma once
+// The sessions in the memory of a write-behind store, and the queue of the sessions that have changes to write.
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/session.hpp"
+#include "store/store.hpp"
+
+namespace oval4d::store {
+
+/// A callback for the end of a save. Its argument is `true` if the changes are stored, or if they wait in memory
+/// because the store is unavailable; `false` if they will not be stored.
+using Written = std::function<void(bool)>;
+
+/// Changes of a session that are not yet in the store. `head`: the session whose current state must be written.
+/// `whole`: the session that must be written as a whole. Each is null if there is nothing to write.
+struct PendingChanges {
+    std::shared_ptr<const session::Session> head, whole;
+    std::vector<Written> waiting;  ///< callbacks to call when these changes are written
+
+    /// Adds older changes: takes `head` and `whole` from them only where this object has none, and adds their
+    /// callbacks.
+    void addOlder(PendingChanges older);
+};
+
+/// A session in memory, with its changes that are not yet in the store.
+struct SessionInMemory {
+    using Clock = std::chrono::steady_clock;
+
+    SessionCredentials credentials;
+    Fence fence = 1;
+    PendingChanges pending;
+    bool everSaved = false;      ///< whether the session has ever been in the store
+    bool queued = false;         ///< whether the session is in the queue
+    bool inFlight = false;       ///< whether the session is being written
+    bool closed = false;         ///< whether no client has the session open; a closed session is dropped once written
+    Clock::time_point closedAt;  ///< the time at which it was closed, if `closed`
+    std::size_t bytes = 0;       ///< estimated memory of the session in bytes, if `closed`
+};
+
+/// The sessions in memory, by id, and the queue of the sessions to write. Not thread-safe.
+class SessionsInMemory {
+  public:
+    /// Adds a session that has never been in the store.
+    void add(const SessionCredentials& credentials) { sessions_[credentials.id].credentials = credentials; }
+    /// Adds a session that another server, or this one, has stored.
+    void addStored(const SessionCredentials& credentials, Fence fence);
+
+    bool contains(const std::string& id) const { return sessions_.contains(id); }
+    /// Returns the session with this id; a null pointer if it is not in memory.
+    SessionInMemory* find(const std::string& id);
+    /// Removes a session and returns it; an empty optional if it is not in memory. The caller can then destroy the
+    /// session without holding a lock.
+    std::optional<SessionInMemory> remove(const std::string& id);
+    /// Removes the closed sessions that were closed before `time`, and returns their ids.
+    std::vector<std::string> removeClosedBefore(SessionInMemory::Clock::time_point time);
+    /// Removes closed sessions until the remaining closed ones take at most `quota` bytes, and returns the removed ones
+    /// with their ids. Removes first the sessions that were never changed, in the order in which they were closed, then
+    /// the others in this order. Neither removes nor counts sessions that are being written.
+    std::vector<std::pair<std::string, SessionInMemory>> evictClosed(std::size_t quota);
+
+    /// Appends a session to the queue unless it is already queued.
+    void enqueue(const std::string& id, SessionInMemory& cached);
+    /// Takes the first session from the queue, marks it as being written, and returns its id; an empty optional if the
+    /// queue is empty.
+    std::optional<std::string> takeQueued();
+    /// Returns the length of the queue.
+    std::size_t queueLength() const { return queue_.size(); }
+
+    std::size_t size() const { return sessions_.size(); }
+    /// Returns the number of sessions that have never been in the store.
+    std::size_t neverSaved() const;
+    /// Returns the number of sessions with changes that are not known to be in the store.
+    std::size_t unsaved() const;
+    /// Returns the ids of the sessions that clients have open and that have been in the store.
+    std::vector<std::string> openAndSaved() const;
+
+  private:
+    std::map<std::string, SessionInMemory, std::less<>> sessions_;
+    std::deque<std::string> queue_;
+};
+
+/// Returns an estimate of a session's memory in bytes, including objects that it shares with other sessions.
+std::size_t estimateMemory(const session::Session& session);
+
+}  // namespace oval4d::store
