@@ -30,10 +30,10 @@ struct PointTableOptions {
 /// what was left out or read as a radius. Throws a FileError with line and column if a row is refused, or if there are
 /// too many rows.
 ///
-/// - The columns are separated by semicolons, else by commas (unless these may be decimal commas), else by tabs, else
-///   by blanks. Where semicolons, tabs or blanks separate them, numbers may have decimal commas. Words in double quotes
-///   are read without the quotes. A separator at the end of a row is ignored. Comments begin with # and extend to the
-///   end of the line.
+/// - The columns are separated by tabs if there are at least four numbers between tabs; else by semicolons, else by
+///   commas (unless these may be decimal commas), else by tabs, else by blanks. Where semicolons, tabs or blanks
+///   separate them, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator
+///   at the end of a row is ignored. Comments begin with # and extend to the end of the line.
 /// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns,
 ///   which may be text, need a header: a first row in which no word is a number, or a comment above the first row that
 ///   has a name for each column. The header names the columns x, y, z, w (or t, or time, if none is called w), and r or

@@ -28,12 +28,23 @@ bool hasSeparatorInside(std::string_view line, char separator) {
     return last != std::string_view::npos && line.find(separator) < last;
 }
 
-// Returns whether tabs separate at least as many columns, not counting empty ones, as a point has coordinates.
-// Otherwise, tabs may stand among blanks.
-bool hasColumnsBetweenTabs(std::string_view line, TableRow& row) {
+// The columns of a line that tabs separate.
+struct ColumnsBetweenTabs {
+    std::size_t filled = 0;      // the number of columns that are not empty
+    std::size_t numbers = 0;     // the number of columns that are numbers
+    bool decimalCommas = false;  // whether one of the numbers has a comma
+};
+
+ColumnsBetweenTabs columnsBetweenTabs(std::string_view line, TableRow& row) {
+    ColumnsBetweenTabs result;
     split(line, '\t', row);
-    const auto filled = [](std::string_view column) { return !column.empty(); };
-    return static_cast<std::size_t>(std::ranges::count_if(row.columns, filled)) >= kMinColumns;
+    for (const std::string_view column : row.columns) {
+        if (!column.empty()) ++result.filled;
+        if (column.ends_with(',') || !isNumber(column, DecimalMark::comma)) continue;
+        ++result.numbers;
+        result.decimalCommas = result.decimalCommas || column.find(',') != std::string_view::npos;
+    }
+    return result;
 }
 
 // Returns an empty optional if commas may separate the columns of a line. Otherwise, blanks or tabs separate them,
@@ -101,8 +112,13 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         const std::string_view content = withoutTexts(line->content, memory);
         if (!isRow(content, least)) continue;
         any = true;
+        const ColumnsBetweenTabs between = columnsBetweenTabs(content, row);
+        tabs = tabs || between.filled >= kMinColumns;  // otherwise, tabs may stand among blanks
+        if (between.numbers >= kMinColumns) {          // then other commas and semicolons belong to texts
+            decimalCommas = decimalCommas || between.decimalCommas;
+            continue;
+        }
         semicolons = semicolons || hasSeparatorInside(content, ';');
-        tabs = tabs || hasColumnsBetweenTabs(content, row);
         const auto decimal = hasDecimalCommas(content, row);
         commas = commas || (!decimal && hasSeparatorInside(content, ','));
         decimalCommas = decimalCommas || decimal.value_or(false);

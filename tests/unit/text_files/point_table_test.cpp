@@ -76,6 +76,15 @@ TEST(Columns, MayBeTextIfTheyAreLeftOut) {
               std::string(kRow) + "line 1, 'Results of the run, in mm', has no numbers and was left out\n");
 }
 
+TEST(Columns, BetweenTabsMayBeTextsWithCommasAndSemicolons) {
+    const std::string leftOut = "these columns were left out: 'name'\n";
+    for (const char* table :
+         {"name\tx\ty\tz\tw\nParis, France\t0.5\t1\t-2\t3\n", "x\ty\tz\tw\tname\n0.5\t1\t-2\t3\ta; b, c\n",
+          "x\ty\tz\tw\tname\n0,5\t1\t-2,0\t3\tParis, France\n"})
+        EXPECT_EQ(read(table), kRow + leftOut) << table;
+    for (const char* row : {"0.5,\t1,\t-2,\t3", "0.5;\t1;\t-2;\t3"}) EXPECT_EQ(read(row), kRow) << row;
+}
+
 TEST(Columns, MayBeNamedByAComment) {
     for (const char* comment : {"# w x y z", "# w, x, y, z", "# columns: w x y z", "# columns w x y z",
                                 "# (w, x, y, z)", "# columns = (w,x,y,z)", "# w x y z\n# another comment",
