@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
             oval4d::raster::serveRasterizer(oval4d::process::kChildSocket, oval4d::net::rasterizerConfinement(options),
                                             forkJoin, heap);
         } else if (*read) {
-            oval4d::file_reading::serveFileReader(oval4d::process::kChildSocket,
-                                                  oval4d::net::fileReaderConfinement(options));
+            oval4d::file_reading::runFileReader(oval4d::process::kChildSocket,
+                                                oval4d::net::fileReaderConfinement(options));
         } else if (*render) {
             oval4d::renderPicture(*render, renderOptions, forkJoin);
         } else if (*exporting) {

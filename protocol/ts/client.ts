@@ -53,7 +53,7 @@ export interface Options {
     onLost?(reason: string): void;
 }
 
-/** The reason why a request failed: `code` is that of the server's error message, or "not_connected". */
+/** The reason why a request failed: `code` is the code in the server's error message, or "not_connected". */
 export class RequestError extends Error {
     constructor(
         readonly code: string,
@@ -93,7 +93,7 @@ const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // the same while a file is requested: the answer to the test follows the file
+const kFileTestTimeout = 300; // seconds, the same while a file is requested, because the answer follows the file
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -163,7 +163,7 @@ export class Client {
         return this.request({ type: "hello", stream, encoding, ...own });
     }
 
-    /** Sends a request; resolves to its answer. Rejects with RequestError if it is refused, or without a connection. */
+    /** Sends a request; resolves to its answer. Rejects with RequestError if it is refused or cannot be sent. */
     request(message: HelloRequest): Promise<Welcome>;
     request(message: PingRequest): Promise<Pong>;
     request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswers[What]>;
@@ -279,7 +279,7 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsent } = this; // bytes without the test, because sending the test is no sign of a connection
+        const { unsent } = this; // without the bytes of the test: that they are sent is no sign of a connection
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitAnswer(unsent);
     }

@@ -1,5 +1,6 @@
 // Converts the slices of a CBOR message to objects. The message has one array (a column) per property, with the values
-// of all slices in turn. The parts of the projection have the same columns for their elements.
+// of all slices in turn. It stores the vertices, edges and faces of the projection's parts (see ObjectProjection)
+// likewise.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
@@ -13,20 +14,22 @@ interface ElementColumns {
     counts: PerElementKind<Integers>;
     /** x, y, z of each vertex. */
     vertices: Float32Array;
-    /** Two vertices of each edge, counted from the first vertex of the slice or part. */
+    /** The indices of the two vertices of each edge, counted from the first vertex of the slice or part. */
     edges: Integers;
     /** The number of corners of each face. */
     sides: Integers;
-    /** The vertices of each face in turn, counted from the first vertex of the slice or part. */
+    /** The indices of the vertices of each face in turn, counted from the first vertex of the slice or part. */
     corners: Integers;
+    // For the meaning of the following members, see Elements.
+
     of: PerElementKind<Integers>;
     tints?: Integers;
     seen?: PerElementKind<Integers>;
     balls?: { scale: Float32Array; opacity: Float32Array };
 }
 
-/** The member `slices` of a CBOR message (README.md, "CBOR"). */
-export interface Columns extends ElementColumns {
+/** The member `slices` of a CBOR message (protocol/README.md, "CBOR"). */
+export interface SliceColumns extends ElementColumns {
     index: number[];
     w: Float64Array;
     position: Float32Array;
@@ -71,7 +74,7 @@ export interface PartColumns extends ElementColumns {
 }
 
 /** Returns an array of `count` integers, which may be uninitialized. */
-export type Room = (count: number) => Uint32Array;
+export type IntegerAllocator = (count: number) => Uint32Array;
 
 type Range = [begin: number, end: number];
 
@@ -87,18 +90,20 @@ function vector(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
-function widener(room: Room): (integers: Integers) => Uint32Array {
+function widener(allocate: IntegerAllocator): (integers: Integers) => Uint32Array {
     return (integers) => {
         if (integers instanceof Uint32Array) return integers;
-        const all = room(integers.length);
+        const all = allocate(integers.length);
         all.set(integers);
         return all;
     };
 }
 
-/** Returns the elements of each slice or part. The arrays are views of `columns`, or of arrays that `room` returned. */
-function elementsOf(columns: ElementColumns, room: Room): Elements[] {
-    const wide = widener(room);
+/**
+ * Returns the elements of each slice or part. The arrays are views of `columns`, or of arrays that `allocate` returned.
+ */
+function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elements[] {
+    const wide = widener(allocate);
     const wideOfEach = (lists: PerElementKind<Integers>): PerElementKind<Uint32Array> => {
         return { vertices: wide(lists.vertices), edges: wide(lists.edges), faces: wide(lists.faces) };
     };
@@ -116,7 +121,7 @@ function elementsOf(columns: ElementColumns, room: Room): Elements[] {
     const seen = columns.seen && wideOfEach(columns.seen);
     let corner = 0;
     const loops = ([first, last]: Range): Slice["faces"] => {
-        const begin = room(last - first + 1);
+        const begin = allocate(last - first + 1);
         begin[0] = 0;
         for (let face = first; face < last; ++face) begin[face - first + 1] = begin[face - first]! + sides[face]!;
         return { begin, corners: corners.subarray(corner, (corner += begin[last - first]!)) };
@@ -140,10 +145,10 @@ function elementsOf(columns: ElementColumns, room: Room): Elements[] {
 }
 
 /** Returns one object per slice. */
-export function rowsOf(columns: Columns, room: Room): Slice[] {
-    const elements = elementsOf(columns, room);
-    const filled = columns.fill && fillsOf(columns.fill, widener(room));
-    const surfaces = columns.surface && surfacesOf(columns.surface, widener(room));
+export function rowsOf(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
+    const elements = elementsOf(columns, allocate);
+    const filled = columns.fill && fillsOf(columns.fill, widener(allocate));
+    const surfaces = columns.surface && surfacesOf(columns.surface, widener(allocate));
     const fogs = columns.fog && fogsOf(columns.fog);
     return columns.index.map((index, i) => {
         const slice: Slice = {
@@ -165,11 +170,11 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
 }
 
 /** Returns one object per part of the projection. */
-export function partsOf(columns: PartColumns, room: Room): ObjectProjection["parts"] {
-    return elementsOf(columns, room).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
+export function partsOf(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
+    return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }
 
-function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {
+function fillsOf(fill: NonNullable<SliceColumns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {
     const points = ranges(fill.counts.points, fill.points.length / 3);
     const triangles = ranges(fill.counts.triangles, fill.tints.length);
     const [corners, tints, seen] = [wide(fill.triangles), wide(fill.tints), fill.seen && wide(fill.seen)];
@@ -184,7 +189,7 @@ function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => U
     });
 }
 
-function surfacesOf(surface: NonNullable<Columns["surface"]>, wide: (list: Integers) => Uint32Array): Surface[] {
+function surfacesOf(surface: NonNullable<SliceColumns["surface"]>, wide: (list: Integers) => Uint32Array): Surface[] {
     const points = ranges(surface.counts.points, surface.points.length / 3);
     const triangles = ranges(surface.counts.triangles, surface.level.length);
     const colors = surface.colors && wide(surface.colors);
@@ -204,7 +209,7 @@ function surfacesOf(surface: NonNullable<Columns["surface"]>, wide: (list: Integ
     });
 }
 
-function fogsOf(fog: NonNullable<Columns["fog"]>): Fog[] {
+function fogsOf(fog: NonNullable<SliceColumns["fog"]>): Fog[] {
     const walls = ranges(fog.counts.walls, fog.walls.length / 4);
     const sizes = Array.from(fog.step, (_, i): Vector => [fog.size[3 * i]!, fog.size[3 * i + 1]!, fog.size[3 * i + 2]!]);
     const points = ranges(Uint32Array.from(sizes, ([x, y, z]) => x * y * z), fog.values.length);

@@ -3,33 +3,33 @@
 
 import * as cborX from "cbor-x/decode-no-eval";
 
-import type { Arena, Numbers } from "./arena.js";
-import { partsOf, rowsOf, type Columns, type PartColumns } from "./columns.js";
+import type { Arena, TypedArrayConstructor } from "./arena.js";
+import { partsOf, rowsOf, type SliceColumns, type PartColumns } from "./columns.js";
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
 import type { Message } from "./types.js";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
-/** The function of cbor-x that limits the sizes of arrays and maps; its type declarations do not contain it. */
+/** The function of cbor-x that limits the sizes of arrays and maps. The type declarations of cbor-x lack it. */
 const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
-let arena: Arena | undefined; // the memory for arrays of the message that is being decoded
+let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeCbor()
 
-/** Registers a decoder for a tag of RFC 8746, a little-endian typed array. It copies only data that are not aligned. */
-function readTyped<T>(tag: number, numbers: Numbers<T>): void {
-    const size = numbers.BYTES_PER_ELEMENT;
+/** Registers a decoder for little-endian typed arrays with this tag of RFC 8746. It copies only unaligned arrays. */
+function registerTypedArrayTag<T>(tag: number, arrayType: TypedArrayConstructor<T>): void {
+    const size = arrayType.BYTES_PER_ELEMENT;
     const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
         bytes.byteOffset % size === 0
-            ? new numbers(bytes.buffer, bytes.byteOffset, bytes.length / size)
-            : (arena?.take(bytes, numbers) ?? new numbers(bytes.slice().buffer, 0, bytes.length / size));
+            ? new arrayType(bytes.buffer, bytes.byteOffset, bytes.length / size)
+            : (arena?.copy(bytes, arrayType) ?? new arrayType(bytes.slice().buffer, 0, bytes.length / size));
     cborX.addExtension({ tag, decode } as Parameters<typeof cborX.addExtension>[0]);
 }
-readTyped(69, Uint16Array);
-readTyped(70, Uint32Array);
-readTyped(85, Float32Array);
-readTyped(86, Float64Array);
+registerTypedArrayTag(69, Uint16Array);
+registerTypedArrayTag(70, Uint32Array);
+registerTypedArrayTag(85, Float32Array);
+registerTypedArrayTag(86, Float64Array);
 
 const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
 
@@ -37,7 +37,7 @@ export function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
-/** Returns whether the bytes are an exported file: it begins with an ASCII character, but PNG and CBOR do not. */
+/** Returns whether a binary message is an exported file, which begins with an ASCII character. PNG and CBOR do not. */
 export function isFile(bytes: Uint8Array): boolean {
     return bytes[0]! < 0x80;
 }
@@ -87,7 +87,7 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** The elements of a slice in the JSON encoding, which has nested arrays. */
+/** The elements of a slice, or of a part of the projection, in the JSON encoding, which has nested arrays. */
 interface JsonElements {
     vertices: number[][];
     edges: number[][];
@@ -118,7 +118,7 @@ function flattened(message: Message): Message {
     const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density" | "projection"> & {
         coordinates?: FlatOrNested<Float32Array>;
         density?: FlatOrNested<Uint8Array>;
-        slices: JsonSlice[] | Columns;
+        slices: JsonSlice[] | SliceColumns;
         projection?: Omit<ObjectProjection, "parts"> & { parts: (JsonElements & ProjectionLook)[] | PartColumns };
     };
     const { scene, slices, projection, ...rest } = loose;
@@ -127,13 +127,13 @@ function flattened(message: Message): Message {
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
-        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : rowsOf(slices, room),
+        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : rowsOf(slices, allocateIntegers),
         ...(projection && {
             projection: {
                 ...projection,
                 parts: Array.isArray(projection.parts)
                     ? projection.parts.map(flattenedElements)
-                    : partsOf(projection.parts, room),
+                    : partsOf(projection.parts, allocateIntegers),
             },
         }),
     };
@@ -186,8 +186,8 @@ function ofAll(lists: JsonSlice["of"]): Slice["of"] {
     return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
 }
 
-function room(count: number): Uint32Array {
-    return arena?.room(count, Uint32Array) ?? new Uint32Array(count);
+function allocateIntegers(count: number): Uint32Array {
+    return arena?.allocate(count, Uint32Array) ?? new Uint32Array(count);
 }
 
 function floats(values: FlatOrNested<Float32Array>): Float32Array {
@@ -197,7 +197,7 @@ function floats(values: FlatOrNested<Float32Array>): Float32Array {
 function indices(values: FlatOrNested<Integers>): Uint32Array {
     if (values instanceof Uint32Array) return values;
     if (!ArrayBuffer.isView(values)) return Uint32Array.from((values as number[]).flat());
-    const wide = room(values.length);
+    const wide = allocateIntegers(values.length);
     wide.set(values);
     return wide;
 }

@@ -1,6 +1,7 @@
 // Types of the slices message after decoding. Long arrays of numbers are typed arrays, both with JSON and with CBOR.
 // Angles are in radians. Lengths are in the polytope's units, except where world units are stated. In world units, the
-// polytope's circumradius is 1 if there are 21 slices, and less if there are more.
+// polytope's circumradius is 1; in the oval, this holds for 21 slices, and the circumradius is less for more slices and
+// greater for fewer.
 
 import type { Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
@@ -30,7 +31,7 @@ export interface SceneDescription {
     scale: number;
     /** In the polytope's units. */
     circumradius: number;
-    /** The radii of balls and bars, in world units. */
+    /** The radii of the balls at vertices and of the bars along edges, in world units. */
     ball: number;
     bar: number;
     /** The opacity of a face, from 0 to 1; 1 if faces may cross each other. */
@@ -61,8 +62,8 @@ export interface SceneDescription {
     axes: { x: number; y: number; length: number };
     /**
      * The layout of the parallel coordinates, measured from the lower left corner. Vertex i is in row i / per_row (from
-     * the top) and column i % per_row. `zero` is the height of the top row's zero line. A coordinate c is a line of the
-     * length c · amplitude / circumradius. `named`: whether names are written below the columns.
+     * the top) and column i % per_row. `zero` is the height of the top row's zero line. A coordinate c is drawn as a
+     * vertical line of the length c · amplitude / circumradius. `named`: whether names are written below the columns.
      */
     coordinates: {
         rows: number;
@@ -75,7 +76,7 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
-        /** The number of columns of `density`; 0 if each coordinate is drawn as a line instead. */
+        /** The number of columns of Slices.density; 0 if each coordinate is drawn as a line instead. */
         columns: number;
         /** The width of each of the four panels of a field's histogram; 0 if no histogram is drawn. */
         panel: number;
@@ -85,9 +86,9 @@ export interface SceneDescription {
 }
 
 /**
- * Triangles that fill the faces of a slice; they may cross each other. `points` has x, y, z of each point, `triangles`
- * three indices of points for each triangle. For each triangle, `tints` has the cell that colors it, and `seen` its
- * visibility, as in Elements.
+ * The faces of a slice, which may cross each other, as triangles. `points` has x, y, z of each point, `triangles` three
+ * indices of points for each triangle. For each triangle, `tints` has the index of the cell that determines its color,
+ * and `seen` its visibility, as in Elements.
  */
 export interface Fill {
     points: Float32Array;
@@ -144,27 +145,30 @@ export interface Elements {
     vertices: Float32Array;
     /** Two indices of vertices for each edge. */
     edges: Uint32Array;
-    /** Face f is the loop of vertices corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise from outside. */
+    /** Face f has the vertices corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
     /**
-     * What each vertex, edge and face was cut from: the index of an edge, a 2-face or a cell of the 4-D polytope. An
-     * element of the polytope that lies in the hyperplane itself has the number edges + vertex, 2-faces + edge, or
-     * cells + 2-face.
+     * What each vertex, edge and face of a slice was cut from: the index of an edge, a 2-face or a cell of the 4-D
+     * polytope. If a vertex, edge or 2-face of the polytope lies in the hyperplane itself, its number here is its index
+     * plus the polytope's number of edges, 2-faces or cells. So it is in the projection of the whole object.
      */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The index of the cell that determines the color of each face; if absent, `of.faces` has these indices. */
     tints?: Uint32Array;
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The radius of each vertex's ball, relative to scene.ball, and the ball's opacity; absent if all are 1. */
+    /**
+     * The radius of each vertex's ball, relative to scene.ball or, in the projection, to the part's `ball`; and the
+     * ball's opacity. Absent if all are 1.
+     */
     balls?: { scale: Float32Array; opacity: Float32Array };
 }
 
 export interface Slice extends Elements {
-    /** n of the hyperplane w = offset + n · spacing; and this w, measured from the object's center. */
+    /** The slice lies in the hyperplane w = offset + index · spacing, where w is measured from the object's center. */
     index: number;
     w: number;
-    /** The triangles to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
+    /** The triangles to draw, with a depth buffer, instead of `faces`; present only if faces may cross each other. */
     fill?: Fill;
     /** The surfaces of a field; absent for other objects, or if the hyperplane meets no surface. */
     surface?: Surface;
@@ -184,8 +188,9 @@ export interface Slice extends Elements {
 }
 
 /**
- * Where the picture shows the highlighted element. `vertices` and `edges` are values of `of.vertices` and `of.edges` in
- * the slices and the projection. `own_vertices` are the numbers of the element's own vertices, as in `coordinates`.
+ * Where the picture shows the highlighted element. Those vertices and edges of the slices and the projection show it
+ * whose values of `of.vertices` and `of.edges` are in `vertices` and `edges`. `own_vertices` has the numbers of the
+ * element's own vertices, as in `coordinates`.
  */
 export interface Highlight {
     vertices: ArrayLike<number> & Iterable<number>;
@@ -212,7 +217,7 @@ export interface ObjectProjection {
     /** The world position of the center of the projection: a vertex p is drawn at position + scale · p. */
     position: Vector;
     scale: number;
-    /** The whole object, then the section of the focus hyperplane or, with shown.sections, those of all hyperplanes. */
+    /** The whole object; then the section by the focus hyperplane or, if shown.sections is true, by each hyperplane. */
     parts: (Elements & ProjectionLook)[];
 }
 
@@ -227,9 +232,9 @@ export interface PlanarSection {
     /** The points in the order in which they bound the section; empty if the edges are not one closed polygon. */
     boundary: number[];
     /**
-     * The number of the element that each point and edge was cut from. For a point, it is that of a 2-face, or
-     * faces + e if edge e was cut, or faces + edges + v if vertex v lies in the plane. For an edge, that of a cell, or
-     * cells + f if 2-face f was cut along the plane.
+     * The element of the polytope that each point and edge was cut from. For a point: f for 2-face f, faces + e for
+     * edge e, and faces + edges + v for vertex v. For an edge: c for cell c, and cells + f for 2-face f. Here, faces,
+     * edges and cells are the polytope's numbers of elements.
      */
     of: { points: number[]; edges: number[] };
     /** The index of the cell that determines the color of each edge. */
@@ -243,12 +248,13 @@ export interface PlanarSection {
 /**
  * The matrix of planar sections. The panel in row i and column j, from the upper left, shows the section by the plane
  * through the focus point that is parallel to the axes i and j: axis j to the right, axis i upward. Lengths are
- * fractions of the viewport's height, measured from the viewport's lower left corner.
+ * fractions of the viewport's height, unless another unit is stated.
  */
 export interface SectionMatrix {
+    /** The distances of the lower left corner of the matrix from the left and the bottom edge of the viewport. */
     left: number;
     bottom: number;
-    /** The side of a panel, and the distance from the left edge of a panel to that of the next. */
+    /** The side of a panel, and the distance from the left edge of a panel to the left edge of the next. */
     panel: number;
     step: number;
     line_width: number;
@@ -256,7 +262,7 @@ export interface SectionMatrix {
     ball: number;
     /** The distance from the center of a panel, which shows the origin, to the sides of the panel, in object units. */
     reach: number;
-    /** The focus point x, y, z, w, through which all planes pass. */
+    /** The focus point x, y, z, w, through which all planes pass, in object units from the object's center. */
     point: [number, number, number, number];
     /** The sections by the planes xy, xz, yz, xw, yw and zw, in this order. */
     sections: PlanarSection[];
@@ -281,7 +287,10 @@ export interface Slices {
     scene: SceneDescription;
     /** x, y, z, w of each vertex of the rotated polytope; empty for fields, or if the coordinates are not shown. */
     coordinates: Float32Array;
-    /** The density strip or the histogram, if one is drawn: values 0 … 255, row by row from the top; else empty. */
+    /**
+     * If the parallel coordinates are drawn as a density, or as the histogram of a field: its values 0 … 255, row by
+     * row from the top (protocol/README.md, "slices"). Otherwise empty.
+     */
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */
     histogram?: Histogram;

@@ -17,7 +17,7 @@ export interface Viewport {
     height: number;
 }
 
-/** The settings that a `set` changes. Absent ones keep their values. */
+/** The settings that a `set` changes. Absent settings keep their values. */
 export type Settings = Omit<SetRequest, "type" | "id" | "continues" | "revision" | "draft" | "moving" | "section">;
 /** Which parts of the picture are drawn. */
 export type Parts = State["shown"];

@@ -37,7 +37,7 @@ std::string alternativesOf(const Choices& choices) {
     return out;
 }
 
-/// Limits far above those of the server, because the user decides how much time and memory to spend on this machine.
+/// Returns limits far above those of the server, because on this machine the user decides about time and memory.
 exports::ExportLimits commandLineLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;

@@ -55,9 +55,9 @@ bool isArray(const fields::FileContents& file) {
     return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
 }
 
-/// Reads the object in a file. An array may be larger than the main memory. Removes the options that say how to read
-/// such an object from the query.
-Result<session::LoadedObject> readFile(const std::string& path, session::QueryParameters& query) {
+/// Reads the object in a file or a Zarr folder. An array may be larger than the main memory. Removes from the query the
+/// options that say how to read an object of this kind.
+Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
     if (name != fileName)
@@ -98,7 +98,7 @@ std::optional<session::State> readState(const std::string& path, session::Object
     const std::string_view bytes(reinterpret_cast<const char*>(file->bytes.data()), file->bytes.size());
     if (!wire::mayContainState(bytes)) return {};
     const auto fault = [&](const Error& error) { return std::runtime_error(path + ": " + error.message); };
-    const auto set = wire::setFromFile(bytes);
+    const auto set = wire::setCommandFromFile(bytes);
     if (!set) throw fault(set.error());
     session::Session session;
     if (const auto done = session::apply(session, *set, session::Limits{}, loader); !done) throw fault(done.error());

@@ -8,29 +8,30 @@
 
 namespace oval4d {
 
-/// The codes of all errors that a client can receive. protocol/errors.json and the specification list their names and
+/// The codes of all errors that a client can receive. protocol/errors.json and protocol/README.md list their names and
 /// meanings; a test compares the names with this enum.
 enum class ErrorCode {
-    bad_json,            ///< the text is not JSON, nests too deeply or holds too many values
+    bad_json,            ///< the text is not JSON, is nested too deeply, or has too many values
     bad_message,         ///< the JSON does not match the message's schema
     unknown_type,        ///< the type of the message is unknown
     unknown_key,         ///< the key is not bound to an action
     unknown_polytope,    ///< the name of the polytope is unknown
     unknown_command,     ///< the page's command line names an unknown command or setting
-    bad_expression,      ///< a number or angle on the page's command line or in a query cannot be parsed
+    bad_expression,      ///< a value on the page's command line or in a query, such as an angle, cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
     bad_polytope,        ///< a loaded polytope is invalid
     bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
-    no_body,             ///< what is to be exported is empty or flat, too small for its label, or not highlighted
+    no_body,             ///< what is to be exported is empty or flat, has no room for its label, is not highlighted,
+                         ///< or does not fit the file format
     nothing_to_undo,     ///< there is nothing to undo, redo, repeat or keep turning
     hello_first,         ///< a message was sent before hello
     not_found,           ///< the session or resource does not exist
     bad_token,           ///< the token does not open this session
     too_many,            ///< a limit on sessions, connections or requests is reached
     too_large,           ///< a message, frame, file or polytope is over its limit
-    canceled,            ///< a search was no longer needed before it was done
+    canceled,            ///< a search was stopped, because its result was no longer needed
     internal,            ///< an internal error of the server; the session is unchanged
 };
 

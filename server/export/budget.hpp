@@ -18,8 +18,9 @@ struct ExportLimits {
     std::chrono::duration<double> time{20};  ///< from the construction of the Budget to the end of the export
     /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
     /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
-    std::function<bool(std::size_t)> reserve = nullptr;
-    int slices = 201;  ///< the number of slices that ExportRequest::at or ExportRequest::fit may choose
+    std::function<bool(std::size_t)> grantTotalBytes = nullptr;
+    /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
+    int slices = 201;
 };
 
 /// The reason why an export produces no file. `message` is its text for the user.
@@ -28,7 +29,7 @@ struct ExportError {
         no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
         too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
         too_long,   ///< the export exceeds ExportLimits::time, or a stop was requested
-        no_room,    ///< ExportLimits::reserve returned false
+        no_room,    ///< ExportLimits::grantTotalBytes returned false
     };
     Cause cause;
     std::string message;
@@ -61,8 +62,8 @@ class Budget {
         }
     }
     /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
-    /// ExportLimits::triangles, or if ExportLimits::reserve refuses the memory for them.
-    void checkTriangles(std::size_t total) const {
+    /// ExportLimits::triangles, or if ExportLimits::grantTotalBytes refuses the memory for them.
+    void checkTrianglesAndMemory(std::size_t total) const {
         if (total > limits_.triangles) {
             throw ExportRefused{
                 {ExportError::Cause::too_large, "the file would have about " + std::to_string(total) +
@@ -71,8 +72,8 @@ class Budget {
         }
         checkRoom(kBytesOfTriangle * total);
     }
-    /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if ExportLimits::reserve
-    /// refuses this number of bytes.
+    /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if
+    /// ExportLimits::grantTotalBytes refuses this number of bytes.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
             throw ExportRefused{{ExportError::Cause::too_large,
@@ -87,7 +88,7 @@ class Budget {
     static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
 
     void checkRoom(std::size_t bytes) const {
-        if (limits_.reserve && !limits_.reserve(bytes))
+        if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))
             throw ExportRefused{{ExportError::Cause::no_room, "the memory limit leaves no room for the file"}};
     }
 

@@ -112,7 +112,7 @@ class Exporter {
                 continue;
             }
             for (const PlacedMesh& solid : solids) triangles += solid.mesh.triangles.size();
-            budget_.checkTriangles(triangles);
+            budget_.checkTrianglesAndMemory(triangles);
             groups.push_back({i, std::move(solids)});
         }
         if (groups.empty() && element_) refuseFlatElement();
@@ -142,8 +142,8 @@ class Exporter {
         return slices_.vertexCount(i) == 0;
     }
 
-    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. A printer gets only the
-    /// outermost, which contains the others.
+    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. If they are for a 3-D
+    /// printer, returns only the outermost, which contains the others.
     std::vector<PlacedMesh> surfaceBodies(int i) const {
         const auto& levels = scene_.surfaces.levels;
         const bool single = request_.format->arrangement == Format::Arrangement::plate;
@@ -174,7 +174,7 @@ class Exporter {
             }
             const Box box = boxOf(group.bodies.front().mesh);
             const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
-            group.bodies.push_back({group.bodies.front().name + " (label)", text.plate(request_.size, grid_),
+            group.bodies.push_back({group.bodies.front().name + " (label)", text.labelBody(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
             ++done;
         }
@@ -197,7 +197,7 @@ class Exporter {
         const double coarse = estimateTriangles(slices_, scale_, radii_);
         const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
-        budget_.checkTriangles(static_cast<std::size_t>(coarse / (cube * cube)));
+        budget_.checkTrianglesAndMemory(static_cast<std::size_t>(coarse / (cube * cube)));
         cube_ = cube * radii_.bar;
     }
 
@@ -230,7 +230,7 @@ class Exporter {
     void refuseOtherObjects() const {
         const Format& format = *request_.format;
         const bool isField = slicing::fieldIn(object_) != nullptr;
-        if (isField && format.objects == Format::Objects::polytopes) {
+        if (isField && format.objects == Format::Objects::polytopes_and_points) {
             throw ExportRefused{{ExportError::Cause::no_body, format.name +
                                                                   " files contain polytopes or points, and a field has "
                                                                   "none; choose another format, such as stl or vtp"}};
@@ -248,7 +248,7 @@ class Exporter {
                                                               (isCell ? ", or too little for this size" : "") +
                                                               "; choose body=skeleton, its balls and bars"}};
     }
-    /// Refuses slices that are not flat, but too small for the grid, because the polytope is far from its origin.
+    /// Throws ExportRefused if the whole polytope is only a few grid steps large, because it is far from its origin.
     void refuseTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         Box box;

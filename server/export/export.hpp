@@ -17,26 +17,29 @@ namespace oval4d::exports {
 /// An exported file.
 struct ExportedFile {
     std::string bytes;
-    /// What the user may miss in the file: slices without a body, and labels without room. Each warning is an ASCII
-    /// text without semicolons and without a full stop.
+    /// What the user may miss in the file: slices without a body, and labels without room. A warning contains no
+    /// semicolon and does not end with a full stop. Its only character outside of ASCII is the minus sign U+2212.
     std::vector<std::string> warnings;
 };
 
 /// Returns a file with the slices of `scene` or with a drawing of it. The slices must have been cut from `object`
-/// rotated by `orientation`. For ExportContents::focus, `scene` must contain only the focus slice; for
-/// ExportContents::oval, it must be laid out for the oval view. For ExportContents::highlight, its Look::highlight must
-/// be the element to export, and its only slice must be slicing::shapeOf() this element. For
-/// ExportContents::projection, drawings require a scene that shows the projection; bodies require a scene whose only
-/// slice is the projection. For ExportContents::matrix, the scene must show the matrix. For the solid bodies of a
-/// field, except a highlighted cell of its box, and for formats with Format::takesSurfaces, the slice set must contain
-/// the surfaces (SliceSet::surfaces).
+/// rotated by `orientation`. `scene` must meet a requirement for some values of ExportRequest::contents:
+/// - focus: it contains only the focus slice.
+/// - oval: it is laid out for the oval view.
+/// - highlight: its Look::highlight is the element to export, and its only slice is this element
+/// (see slicing::writeElementAsSlice()).
+/// - projection: for a drawing, it shows the projection; for bodies, its only slice is the projection.
+/// - matrix: it shows the matrix.
+///
+/// The slice set must contain the surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the
+/// solid bodies of a field, unless an element of the field's box is exported.
 ///
 /// Bodies are in millimeters (in GLB and X3D in meters, as these formats require), closed and 2-manifold: every edge
 /// belongs to exactly two triangles that traverse it in opposite directions, and normals point outward.
 ///
 /// Returns an error if a limit is exceeded, if there is nothing to export, if the format cannot contain what is asked,
-/// or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, or if the font of a
-/// label cannot be read.
+/// or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font of a label
+/// cannot be read, or if the plate of a label cannot be made.
 std::variant<ExportedFile, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
                                                     const geometry::Rotation& orientation, const ExportRequest& request,
                                                     const ExportLimits& limits, std::stop_token stop = {});

@@ -37,15 +37,17 @@ struct ExportRequest {
     /// height.
     double size = 60;
     Label label = Label::none;
-    /// Other slices for ExportContents::oval than those of the session. `at`: slices at these values of w, in the
-    /// coordinates of the object's file (see ObjectInfo::originInFile) and in this order. `fit`: this number of slices,
-    /// one in the middle of each of as many equal parts of the object's extent along w; none of them is empty if the
-    /// object is a convex polytope. At most one of `at` and `fit` is given.
-    std::vector<double> at = {};
-    std::optional<int> fit = {};
+    /// For ExportContents::oval: slices that replace those of the session; at most one of `chosenW` and `fittedSlices`
+    /// is given.
+    /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see
+    ///   ObjectInfo::originInFile), and in this order.
+    /// - `fittedSlices`: the number of equal parts into which the object's extent along w is divided; there is a slice
+    ///   in the middle of each part. No slice is empty if the object is a convex polytope.
+    std::vector<double> chosenW = {};
+    std::optional<int> fittedSlices = {};
 
-    /// Returns whether `at` or `fit` is given.
-    bool choosesSlices() const { return !at.empty() || fit.has_value(); }
+    /// Returns whether `chosenW` or `fittedSlices` is given.
+    bool choosesSlices() const { return !chosenW.empty() || fittedSlices.has_value(); }
 };
 
 /// Returns the default options for a format, which is a row of formats().

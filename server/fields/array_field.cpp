@@ -29,8 +29,8 @@ Result<Field> fieldFromArray(std::string name, const ReadField& array) {
     try {
         Field field = makeField(std::move(name), *function, box, scale);
         field.array = *function;
-        field.level = 0.5 * (static_cast<double>(samples.min) + samples.max);
-        field.inside = Inside::above;
+        field.initialLevel = 0.5 * (static_cast<double>(samples.min) + samples.max);
+        field.initialInside = Inside::above;
         return field;
     } catch (const std::invalid_argument& fault) {
         return Error{ErrorCode::bad_field, fault.what()};

@@ -61,7 +61,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
     }
     Field field;
     field.function = std::move(function);
-    field.coloringRange = std::make_shared<const RangeOnBox>(field.function, box);
+    field.coloringRange = std::make_shared<const TypicalRangeOnBox>(field.function, box);
     field.box = box;
     field.center = box.center();
     for (int axis = 0; axis < 4; ++axis) field.toFunction[axis][axis] = 1 / scale[axis];
@@ -81,16 +81,16 @@ bool Field::isLost() const {
 
 void setSecondFunction(Field& field, SecondFunction second) {
     field.second = std::make_shared<const SecondFunction>(std::move(second));
-    field.coloringRange = std::make_shared<const RangeOnBox>(field.second->function, field.box);
+    field.coloringRange = std::make_shared<const TypicalRangeOnBox>(field.second->function, field.box);
 }
 
-Field imageOf(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
+Field transformedTo(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
     Field image = field;
     image.serial = serial;
-    image.isImage = true;
+    image.isTransformed = true;
     image.toFunction = field.toFunction * frame.inverse();
-    image.domain =
-        std::make_shared<const polytopes::Polytope>(polytopes::imageOf(*field.domain, frame, geometry::nextSerial()));
+    image.domain = std::make_shared<const polytopes::Polytope>(
+        polytopes::transformedTo(*field.domain, frame, geometry::nextSerial()));
     image.circumradius = image.domain->circumradius;
     return image;
 }

@@ -32,33 +32,33 @@ struct SecondFunction {
 };
 
 /// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
-/// it. Each member has the meaning of the member of session::LoadObject with the same name.
+/// it. session::LoadObject explains the members; it has members with the same names.
 struct FileSource {
-    std::string path, format, axes, variable, values, valuesVariable;
+    std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;
 };
 
 /// A 4-D scalar field: a function on a box. As a 4-D object, it is centered at the origin: the object's point p has the
-/// function's coordinates center + toFunction · p. Made by makeField() or imageOf(); setSecondFunction() can add a
-/// second function.
+/// function's coordinates center + toFunction · p. Made by makeField() or transformedTo(); setSecondFunction() can add
+/// a second function.
 struct Field : geometry::ObjectInfo {
     std::shared_ptr<const ScalarFunction> function;
     Box box;               ///< the domain, in the function's coordinates
-    glm::dvec4 center{0};  ///< of the box, in the function's coordinates
+    glm::dvec4 center{0};  ///< the center of the box, in the function's coordinates
     glm::dmat4 toFunction{1};
     std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; if
-                                                        ///< isImage, a parallelepiped
-    bool isImage = false;                               ///< whether imageOf() made this field; it shares the functions
-                                                        ///< of the original
-    double level = 0;                                   ///< the initial level
-    Inside inside = Inside::below;                      ///< which side of the levels is inside initially
-    std::string formula;                                ///< the text of the formula; empty if the function is none
-    std::shared_ptr<const ArrayFunction> array;         ///< the same function if it is an array; else null
-    std::shared_ptr<const SecondFunction> second;       ///< null if there is none
-    /// The range of the values of coloringFunction() on the box.
-    std::shared_ptr<const RangeOnBox> coloringRange;
-    bool shared = false;                       ///< whether sessions share it; it then is not a part of their memory
-    std::shared_ptr<const FileSource> source;  ///< see FileSource; null for all other fields
+                                                        ///< isTransformed, a parallelepiped
+    bool isTransformed = false;                    ///< whether transformedTo() made this field; it shares the functions
+                                                   ///< of the original
+    double initialLevel = 0;                       ///< the only level that is shown at first
+    Inside initialInside = Inside::below;          ///< which side of the levels is inside at first
+    std::string formula;                           ///< the text of the formula; empty if there is none
+    std::shared_ptr<const ArrayFunction> array;    ///< the same function if it is an array; else null
+    std::shared_ptr<const SecondFunction> second;  ///< null if there is none
+    /// The range, without outliers, of the values of coloringFunction() on the box.
+    std::shared_ptr<const TypicalRangeOnBox> coloringRange;
+    bool shared = false;                       ///< whether sessions share it; if so, it is not counted as their memory
+    std::shared_ptr<const FileSource> source;  ///< see FileSource; null unless the samples are too large for memory
 
     /// Returns whether samples of the field or of its second array are in a mapped file that can no longer be read.
     bool isLost() const;
@@ -81,6 +81,6 @@ void setSecondFunction(Field& field, SecondFunction second);
 
 /// Returns the image of the field in the frame of reference `frame`, with the serial number `serial`. The image has the
 /// same functions on the same box; only its coordinates as a 4-D object differ.
-Field imageOf(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+Field transformedTo(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::fields

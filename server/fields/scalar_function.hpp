@@ -21,10 +21,10 @@ struct Box {
 /// Bounds of the values of a function in a region. If the function has no value at any point of the region, min > max.
 struct Bounds {
     double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
-    bool total = true;  ///< false if the function may have no value (NaN) somewhere in the region
+    bool hasValueEverywhere = true;  ///< false if the function may have no value (NaN) somewhere in the region
 
     /// Returns whether the function may take the value `level`, or may have no value, somewhere in the region.
-    bool mayCross(double level) const { return !total || (min <= level && level <= max); }
+    bool mayCross(double level) const { return !hasValueEverywhere || (min <= level && level <= max); }
 };
 
 /// Points as a structure of arrays: point i is (x[i], y[i], z[i], w[i]). All arrays must have the same size.

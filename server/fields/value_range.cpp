@@ -10,7 +10,7 @@ namespace oval4d::fields {
 // The points are u_n = (1/2 + n a) mod 1. The vector a has the components a_j = g^−(j+1) for j = 0 … 3, and g is the
 // real root of g⁵ = g + 1. The coordinates are stored as multiples of 2⁻³² in 32-bit integers, so that integer overflow
 // computes them modulo 1.
-void writeUnitPoints(std::size_t first, UnitPoints& out) {
+void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;
     for (std::array<float, kUnitPoints>& axis : out) {
@@ -48,7 +48,7 @@ FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
 
 FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(values, 0.1); }
 
-const ValueRange& RangeOnBox::get() const {
+const ValueRange& TypicalRangeOnBox::get() const {
     std::call_once(measured_, [&] {
         // Slow functions are evaluated at fewer points.
         constexpr double kTime = 1e6;  // nanoseconds, for all points
@@ -56,12 +56,13 @@ const ValueRange& RangeOnBox::get() const {
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kUnitPoints);
-        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});  // samples in memory
-        UnitPoints points;
+        // For an array that is too large for memory, this is a selection of its samples that is in memory.
+        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});
+        UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
-            writeUnitPoints(batch * kUnitPoints, points);
-            // The first 81 points are the corners of the box and the midpoints of its edges, faces, cells and of the
-            // box.
+            writeQuasirandomPoints(batch * kUnitPoints, points);
+            // The first 81 points are the corners of the box, the midpoints of its edges, faces and cells, and its
+            // center.
             for (std::size_t i = 0; batch == 0 && i < kCorners; ++i)
                 for (std::size_t axis = 0, rest = i; axis < 4; ++axis, rest /= 3)
                     points[axis][i] = 0.5F * static_cast<float>(rest % 3);

@@ -18,15 +18,15 @@ struct ValueRange {
     bool operator==(const ValueRange&) const = default;
 };
 
-/// The number of points that writeUnitPoints() writes.
+/// The number of points that writeQuasirandomPoints() writes.
 inline constexpr std::size_t kUnitPoints = 1024;
 
 /// Points of the unit cube [0, 1)⁴ as a structure of arrays.
-using UnitPoints = std::array<std::array<float, kUnitPoints>, 4>;
+using UnitCubePoints = std::array<std::array<float, kUnitPoints>, 4>;
 
 /// Writes the points `first` … `first` + kUnitPoints − 1 of a quasirandom sequence. The sequence is an additive
 /// recurrence that fills the cube evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
-void writeUnitPoints(std::size_t first, UnitPoints& out);
+void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out);
 
 /// Two ranges of a set of values. `full` is from the least to the greatest value. `typical` leaves out outliers, such
 /// as values near a pole: it is the range of the middle 98 % of the values, extended by a tenth of its length at both
@@ -42,9 +42,9 @@ FullAndTypicalRange rangesOf(std::span<const float> values);
 /// length instead of a tenth. The first call of get() computes it from a few thousand points of the box, including the
 /// corners and the midpoints of edges, faces and cells. The range depends only on the function and the box.
 /// Thread-safe.
-class RangeOnBox {
+class TypicalRangeOnBox {
   public:
-    RangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)
+    TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)
         : function_(std::move(function)), box_(box) {}
 
     const ValueRange& get() const;

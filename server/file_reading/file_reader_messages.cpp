@@ -50,7 +50,7 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Returns the size in bytes of those samples that the outcome contains itself, not in a mapped file.
+/// Returns the size in bytes of the samples that the outcome itself contains, without those in mapped files.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -65,7 +65,7 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
 template <typename Archive, typename Load, typename Limits>
 void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
-    archive(load.values), archive(load.valuesVariable), archive(load.center.kind), archive(load.center.place);
+    archive(load.secondFormula), archive(load.secondVariable), archive(load.center.kind), archive(load.center.place);
     archive(limits.maxVertices), archive(limits.maxHullCells), archive(limits.maxFieldBytes);
 }
 
@@ -84,11 +84,11 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
     visitReadRequest(archive, out.load, out.limits);
     bool hasBox = false;
     fields::Box box;
-    archive(hasBox), archive(box), archive(out.series), archive(out.isFolder), archive(out.mayMap);
+    archive(hasBox), archive(box), archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
     if (hasBox) out.load.box = box;
 }
 
-void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out, slicing::MappedFiles files,
+void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out, slicing::MappedFiles files,
                    std::size_t maxInMemory) {
     out.clear();
     ByteWriter archive(out);
@@ -106,8 +106,8 @@ void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& ou
     slicing::writeParts(outcome->object, archive, files, maxInMemory);
 }
 
-Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
-                                            const session::Limits& limits, const slicing::MappedFiles& files) {
+Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
+                                                  const session::Limits& limits, const slicing::MappedFiles& files) {
     ByteReader archive(bytes);
     Kind kind{};
     archive(kind);
@@ -121,7 +121,8 @@ Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::s
     std::vector<std::string> warnings;
     while (warnings.size() < count) warnings.push_back(textFrom(archive));
     try {
-        return session::LoadedObject{slicing::readParts(archive, name, limits.maxVertices, files), std::move(warnings)};
+        return session::ObjectWithWarnings{slicing::readParts(archive, name, limits.maxVertices, files),
+                                           std::move(warnings)};
     } catch (const std::runtime_error& fault) {
         reject(fault.what());
     }
@@ -131,7 +132,7 @@ std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limi
     // In the text of a file, a number takes at least two bytes, including the blank after it. In the outcome, an index
     // takes four bytes, and a cell of a convex hull with its 2-faces takes less than kPerCell bytes.
     constexpr std::size_t kPerTextByte = 16, kPerCell = 512, kBase = 1U << 20U;
-    if (load.isFile() || session::isArrayFormat(load.format)) return kBase + limits.maxFieldBytes;
+    if (load.isArrayInFiles() || session::isArrayFormat(load.format)) return kBase + limits.maxFieldBytes;
     return kBase + kPerTextByte * load.data.size() + kPerCell * limits.maxHullCells;
 }
 

@@ -14,11 +14,11 @@ namespace oval4d::file_reading {
 
 /// What a file reader process must read.
 struct ReadRequest {
-    session::LoadObject load;  ///< its open files and folder, `path`, `continues` and `append` are not sent
-    std::size_t series = 0;    ///< the number of files of a series, whose descriptors follow in further messages
-    bool isFolder = false;     ///< whether a Zarr folder is read; the reader process asks the server for its files
-    bool mayMap = false;       ///< whether the samples of large arrays may stay in the file or go to a new one
-    session::Limits limits;    ///< only maxVertices, maxHullCells and maxFieldBytes are sent
+    session::LoadObject load;      ///< its open files and folder, `dataName`, `continues` and `append` are not sent
+    std::size_t seriesLength = 0;  ///< the number of files of a series, whose descriptors follow in further messages
+    bool isFolder = false;         ///< whether a Zarr folder is read; the reader process asks the server for its files
+    bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or go to a new one
+    session::Limits limits;        ///< only maxVertices, maxHullCells and maxFieldBytes are sent
 };
 
 /// Encodes a request to read the file of `load` within `limits`. Overwrites `out`.
@@ -26,16 +26,17 @@ void encodeReadRequest(const session::LoadObject& load, const session::Limits& l
 /// Decodes the bytes of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
-/// Encodes the result of reading a file. This is an error, or else the warnings and the data from which the object can
-/// be rebuilt (see slicing::writeParts(), also for `files` and `maxInMemory`). Overwrites `out`.
-void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out, slicing::MappedFiles files = {},
-                   std::size_t maxInMemory = fields::kMaxSamples);
+/// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
+/// `files` and `maxInMemory`: see slicing::writeParts(). Overwrites `out`.
+void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
+                   slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 
 /// Decodes the result of encodeOutcome(). The bytes need not be trusted: a malicious file may control the process that
 /// sent them. Returns a valid object called `name` with a bounded number of printable warnings, or an error about the
 /// file that can be sent to the client. Throws std::runtime_error if the bytes are invalid.
-Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
-                                            const session::Limits& limits, const slicing::MappedFiles& files = {});
+Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
+                                                  const session::Limits& limits,
+                                                  const slicing::MappedFiles& files = {});
 
 /// Returns the maximum size in bytes of the encoded outcome of reading this file.
 std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits);

@@ -16,9 +16,9 @@ namespace oval4d::file_reading {
 
 using process::Channel;
 using process::ChildProcess;
-using process::Deadline;
 using process::MessageType;
 using process::TransferResult;
+using process::WaitLimit;
 
 namespace {
 
@@ -72,7 +72,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         std::vector<Process> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
         // acquire() may have created further processes while none was waiting, so there may now be more than needed.
-        while (!used.empty() && waiting_.size() + used.size() > options_.waiting) {
+        while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
         }
@@ -98,27 +98,27 @@ class Conversation {
   public:
     Conversation(const session::LoadObject& load, const FileAllocator& allocate) : load_(load), allocate_(allocate) {}
 
-    TransferResult run(const Channel& channel, const std::string& file, std::size_t maxBytes, Deadline deadline) {
-        TransferResult transfer = channel.send(MessageType::file, file, descriptorOf(load_.file), deadline);
+    TransferResult run(const Channel& channel, const std::string& file, std::size_t maxBytes, WaitLimit limit) {
+        TransferResult transfer = channel.send(MessageType::file, file, descriptorOf(load_.file), limit);
         for (const auto& part : load_.series) {
             if (transfer != TransferResult::complete) return transfer;
-            transfer = channel.send(MessageType::file_part, {}, part->descriptor(), deadline);
+            transfer = channel.send(MessageType::file_descriptor, {}, part->descriptor(), limit);
         }
         while (transfer == TransferResult::complete) {
             MessageType answer{};
-            transfer = channel.receive(answer, outcome, nullptr, deadline, maxBytes);
+            transfer = channel.receive(answer, outcome, nullptr, limit, maxBytes);
             if (transfer != TransferResult::complete || answer == MessageType::outcome) break;
             if (answer == MessageType::open_file && load_.folder) {
                 const fields::FileHandle part(openBelow(load_.folder->descriptor(), outcome));
                 const int descriptor = part.descriptor() < 0 ? Channel::kNoFile : part.descriptor();
-                transfer = channel.send(MessageType::file_part, {}, descriptor, deadline);
+                transfer = channel.send(MessageType::file_descriptor, {}, descriptor, limit);
                 continue;
             }
             if (answer != MessageType::new_file)
                 throw std::runtime_error("a reader process sent an unexpected message");
-            const int descriptor = makeFile(deadline);
+            const int descriptor = makeFile(limit);
             if (refused) break;  // the process is not used again
-            transfer = channel.send(MessageType::file_part, {}, descriptor, deadline);
+            transfer = channel.send(MessageType::file_descriptor, {}, descriptor, limit);
         }
         return transfer;
     }
@@ -145,7 +145,7 @@ class Conversation {
         return file ? file->descriptor() : Channel::kNoFile;
     }
 
-    int makeFile(Deadline& deadline) {
+    int makeFile(WaitLimit& limit) {
         constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
@@ -156,7 +156,7 @@ class Conversation {
             refused = file.error();
             return Channel::kNoFile;
         }
-        deadline.until += std::chrono::seconds(bytes / FileReaderPool::kBytesPerSecond);
+        limit.until += std::chrono::seconds(bytes / FileReaderPool::kBytesPerSecond);
         made_.push_back(*file);
         return (*file)->descriptor();
     }
@@ -168,8 +168,8 @@ class Conversation {
 
 }  // namespace
 
-Result<session::LoadedObject> FileReaderPool::read(const session::LoadObject& load, const session::Limits& limits,
-                                                   const std::stop_token& stop, const FileAllocator& allocate) {
+Result<session::ObjectWithWarnings> FileReaderPool::read(const session::LoadObject& load, const session::Limits& limits,
+                                                         const std::stop_token& stop, const FileAllocator& allocate) {
     std::string file;
     encodeReadRequest(load, limits, static_cast<bool>(allocate), file);
     const std::size_t maxBytes = maxOutcomeBytes(load, limits);
@@ -182,8 +182,8 @@ Result<session::LoadedObject> FileReaderPool::read(const session::LoadObject& lo
         } const lease{*this, acquire()};
         try {
             lease.process->converse(
-                [&](const Channel& channel, const Deadline& deadline) {
-                    return conversation.emplace(load, allocate).run(channel, file, maxBytes, deadline);
+                [&](const Channel& channel, const WaitLimit& limit) {
+                    return conversation.emplace(load, allocate).run(channel, file, maxBytes, limit);
                 },
                 stop);
         } catch (const process::ProcessLost& lost) {

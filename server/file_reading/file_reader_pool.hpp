@@ -26,7 +26,7 @@ struct FileReaderOptions {
     std::chrono::duration<double> idle;     ///< the time without a file after which waiting processes end
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread
     std::vector<std::string> environment;                     ///< see process::ChildOptions
-    std::size_t waiting;                                      ///< the maximum number of processes that wait for a file
+    std::size_t maxWaiting;                                   ///< the maximum number of processes that wait for a file
 };
 
 /// Makes a new file of this size in bytes, with its space reserved on the disk, to which a reader process may write
@@ -44,14 +44,18 @@ class FileReaderPool {
     FileReaderPool(const FileReaderPool&) = delete;
     FileReaderPool& operator=(const FileReaderPool&) = delete;
 
-    /// Reads a file as session::readObject() does, but in another process. With `allocate`, arrays of more than
-    /// Limits::maxFieldBytes are allowed: their samples are in the file, which is mapped, or in a new one. Also returns
-    /// the error `too_large` if the process needs more memory than it may use, or more time than the timeout, which is
-    /// extended by one second for each kBytesPerSecond of a new file. Blocks the calling thread. Throws
-    /// process::Canceled if `stop` is requested. Throws std::runtime_error if the process dies and a second process
-    /// that reads the same file dies, too; if no process can be started; or if the answer of the process is invalid.
-    Result<session::LoadedObject> read(const session::LoadObject& load, const session::Limits& limits,
-                                       const std::stop_token& stop, const FileAllocator& allocate = {});
+    /// Reads a file as session::readObject() does, but in another process. Blocks the calling thread.
+    ///
+    /// If `allocate` is given, arrays of more than Limits::maxFieldBytes are allowed: their samples stay in the file,
+    /// which is mapped, or are in a new file that `allocate` makes. The timeout is extended by one second for each
+    /// kBytesPerSecond of a new file.
+    ///
+    /// Errors: those of session::readObject() and of `allocate`, and `too_large` if the process needs more memory or
+    /// time than is allowed. Throws process::Canceled if `stop` is requested. Throws std::runtime_error if the process
+    /// dies and a second process that reads the same file dies, too; if no process can be started; or if the answer of
+    /// the process is invalid.
+    Result<session::ObjectWithWarnings> read(const session::LoadObject& load, const session::Limits& limits,
+                                             const std::stop_token& stop, const FileAllocator& allocate = {});
 
     static constexpr std::size_t kBytesPerSecond = std::size_t{16} << 20U;
 

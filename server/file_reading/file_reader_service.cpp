@@ -64,18 +64,19 @@ class Reading {
     }
 
   private:
-    Result<session::LoadedObject> object() {
+    Result<session::ObjectWithWarnings> object() {
         const session::LoadObject& load = request_.load;
-        if (request_.series == 0 && !load.file && !request_.isFolder) return session::readObject(load, request_.limits);
+        if (request_.seriesLength == 0 && !load.file && !request_.isFolder)
+            return session::readObject(load, request_.limits);
         fields::NewFile newFile;
         if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
         const fields::ReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
         if (request_.isFolder) {
             const auto open = [this](const std::string& path) { return openFile(path); };
-            return session::readZarr(open, load.name, options, {load.values, load.valuesVariable});
+            return session::readZarr(open, load.name, options, {load.secondFormula, load.secondVariable});
         }
-        if (request_.series > 0) {
-            auto files = receiveSeries(channel_, request_.series);
+        if (request_.seriesLength > 0) {
+            auto files = receiveSeries(channel_, request_.seriesLength);
             if (!files) return files.error();
             sources_ = std::move(*files);
             return session::readSeries(sources_, load, options);
@@ -84,7 +85,7 @@ class Reading {
         if (!contents) return contents.error();
         sources_.push_back(*contents);
         mapped_.push_back(contents->file);
-        return session::readArray(*contents, load.name, options, {load.values, load.valuesVariable});
+        return session::readArray(*contents, load.name, options, {load.secondFormula, load.secondVariable});
     }
 
     // Gets a new file from the server. If there is no room, the server kills this process instead.
@@ -130,11 +131,11 @@ void outcomeOf(const Channel& channel, std::string& body, int descriptor) {
 
 }  // namespace
 
-void serveFileReader(int socket, const process::Confinement& confinement) {
+void runFileReader(int socket, const process::Confinement& confinement) {
     process::initializeChild();
     const Channel channel(socket);
     try {
-        process::confine(process::Role::read, confinement);
+        process::confine(process::Role::parse_file, confinement);
     } catch (const std::exception& fault) {
         channel.send(MessageType::failed, fault.what());
         return;

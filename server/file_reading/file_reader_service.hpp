@@ -10,6 +10,6 @@ inline constexpr const char* kFileReaderCommand = "read";
 
 /// Confines this process to a sandbox, receives one file over `socket`, sends back the object in the file or an error,
 /// and returns.
-void serveFileReader(int socket, const process::Confinement& confinement);
+void runFileReader(int socket, const process::Confinement& confinement);
 
 }  // namespace oval4d::file_reading

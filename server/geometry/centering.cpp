@@ -10,7 +10,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-constexpr double kFar = 3;         // an object is far if its center is farther than this from the origin, in extents
+// In this file, the extent of an object is the largest distance of a point from its center.
+constexpr double kFar = 3;         // an object is far if its center is more than this many extents from the origin
 constexpr int kBitsOfCenter = 36;  // the center is rounded to this many bits below the leading bit of the extent
 
 // Returns the mean of points. Computes it from their differences from the first point, because these are exact if the
@@ -23,7 +24,7 @@ glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
 
 }  // namespace
 
-glm::dvec4 centerFor(const Centering& centering, std::span<const glm::dvec4> points) {
+glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> points) {
     if (centering.kind == Centering::Kind::origin || points.empty()) return glm::dvec4(0);
     if (centering.kind == Centering::Kind::point) return centering.place;
     glm::dvec4 center = meanOf(points);

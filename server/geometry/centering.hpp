@@ -12,7 +12,8 @@ namespace oval4d::geometry {
 /// is measured from there, and its slices lie around it.
 struct Centering {
     enum class Kind : std::uint8_t {
-        automatic,  ///< like `object` if the object is far from the origin of the file (see centerFor()); else `origin`
+        automatic,  ///< like `object` if the object is far from the origin of the file (see newOriginFor()); else
+                    ///< `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
         point,      ///< `place`
@@ -27,6 +28,6 @@ struct Centering {
 /// object is far from the origin of the file if the distance of its center from this origin is more than three times
 /// the largest distance of a point from the center, and this largest distance is not 0. If there are no points, returns
 /// the zero vector for every kind.
-glm::dvec4 centerFor(const Centering& centering, std::span<const glm::dvec4> points);
+glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> points);
 
 }  // namespace oval4d::geometry

@@ -19,12 +19,13 @@ struct CellType {
 /// The properties that 4-D objects of all kinds (polytopes, point clouds and fields) have.
 struct ObjectInfo {
     std::string name;
-    std::uint64_t serial = 0;          ///< unique among the objects in this process; the key of an object in caches
-    double circumradius = 0;           ///< the largest distance of a vertex (or point) from the origin
-    glm::dvec4 originInFile{0};        ///< what to add to the object's coordinates to get those of its file; not 0 if
-                                       ///< the object was moved when it was loaded (see Centering)
-    bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: the faces of
-                                       ///< its slices may cross each other; true for every point cloud and field
+    std::uint64_t serial = 0;    ///< unique among the objects in this process; the key of an object in caches
+    double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin
+    glm::dvec4 originInFile{0};  ///< what to add to the object's coordinates to get those of its file (in the
+                                 ///< frame of the object, see transformedTo()); not 0 if the object was moved when
+                                 ///< it was loaded (see Centering)
+    bool convex = true;          ///< false for a polytope that is not the boundary of a convex body: the faces of
+                                 ///< its slices may cross each other; true for every point cloud and field
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };

@@ -42,7 +42,7 @@ PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std:
     return cloud;
 }
 
-PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial) {
+PointCloud transformedTo(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial) {
     PointCloud image = cloud;
     image.serial = serial;
     image.rebuildableFromName = false;

@@ -10,7 +10,7 @@
 
 namespace oval4d::geometry {
 
-/// A finite set of points in R⁴, each drawn as a ball. Made by makePointCloud() or imageOf(), and not changed
+/// A finite set of points in R⁴, each drawn as a ball. Made by makePointCloud() or transformedTo(), and not changed
 /// afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
@@ -25,6 +25,6 @@ PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std:
 
 /// Returns the cloud in the coordinates of `frame`, with the serial number `serial`. The radii of the balls do not
 /// change.
-PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial);
+PointCloud transformedTo(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::geometry

@@ -16,15 +16,15 @@ namespace oval4d::geometry {
 /// `grid` is the edge length of the cells of a spatial hash.
 ///
 /// The hash stores only the first point of each cell. Therefore points that are not equal should be farther apart than
-/// 2~·~`grid`, the diagonal of a cell. If two unequal points lie in one cell, add() does not find the second one when
-/// it is added again, and appends it again.
+/// 2 · `grid`, the diagonal of a cell. If two unequal points lie in one cell, findOrAdd() does not find the second one
+/// when it is added again, and appends it again.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
 
     /// Finds a point that equals p in `points`; if there is none, appends p. Returns the index of the point, and true
     /// if p was appended. All calls must pass the same vector `points`.
-    std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
+    std::pair<std::uint32_t, bool> findOrAdd(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
             const auto known = cells_.find(key(p, corner));
             if (known != cells_.end() && glm::distance(points[known->second], p) < grid_ / 4)
@@ -37,10 +37,9 @@ class PointIndex {
     }
 
   private:
-    // Returns the hash of a cell. If corner = 0xff, this is the cell that contains p. Otherwise p is moved by grid / 4
-    // along every axis, and this is the cell that contains the moved point; the move along axis i is forward if bit i
-    // of `corner` is set, else backward. The cells of the corners 0 … 15 include every cell that may contain a point
-    // equal to p.
+    // Returns the hash of the cell that contains p if corner = 0xff. Otherwise returns the hash of the cell that
+    // contains the point at a distance of grid / 4 from p along every axis: forward along axis i if bit i of `corner`
+    // is set, else backward. The cells of the corners 0 … 15 include every cell that may contain a point equal to p.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {

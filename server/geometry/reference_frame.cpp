@@ -25,7 +25,7 @@ glm::dmat4 galileanTransformation(const glm::dvec3& velocity) {
 
 glm::dmat4 lorentzBoost(const glm::dvec3& velocity) {
     const double gamma = 1 / std::sqrt(1 - glm::dot(velocity, velocity));
-    const double along = gamma * gamma / (gamma + 1);  // (γ − 1) / v², which is 0 / 0 at rest
+    const double along = gamma * gamma / (gamma + 1);  // equals (γ − 1) / v², which is 0 / 0 for v = 0
     glm::dmat4 matrix(1);
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) matrix[j][i] += along * velocity[i] * velocity[j];

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// A pair of perpendicular planes: the one without the w axis and the one with it. The elements of kPairs belong to the
+// A pair of perpendicular planes, one without the w axis and one with it. The elements of kPairs belong to the
 // imaginary units i, j and k in this order (see Rotation(Turn)). The sign of the pair xz, yw is −1 because R_xz turns x
 // toward z, but in the cycle of the units, i → j → k → i, z turns toward x.
 struct PlanePair {
@@ -94,9 +94,9 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 
 // Multiplication by exp(uθ) from the left, with an imaginary unit u, rotates the plane of the other two imaginary units
 // by θ, and the plane (w, u) by θ from w toward u; multiplication from the right rotates the first plane by −θ and the
-// second by θ. So with the angle A in the plane without w (counted i→j, j→k, k→i) and the angle B from u toward w, the
-// left angle is (A − B) / 2 and the right angle −(A + B) / 2. Multiplications from the left commute with those from the
-// right, so the logarithms of l and of r are the sums over the three units.
+// second by θ. So for the rotation by A in the plane without w (counted i→j, j→k, k→i) and by B from u toward w, θ is
+// (A − B) / 2 on the left and −(A + B) / 2 on the right. Multiplications from the left commute with those from the
+// right, so the logarithms of l and of r are the sums of u θ over the three units u.
 Rotation::Rotation(const Turn& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {
@@ -134,8 +134,8 @@ std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const 
     return found;
 }
 
-// A simple rotation that takes a to b is v ↦ (m ā) v (ā m), where m = (a + b) / |a + b| is half way: a becomes
-// m ā a ā m = m ā m, which is a reflected in m, that is b.
+// A simple rotation that takes a to b is v ↦ (m ā) v (ā m), where m = (a + b) / |a + b| is half way between them: a
+// becomes m ā a ā m = m ā m, which is a reflected in the line of m, that is b.
 Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
     const glm::dquat a = asQuaternion(glm::normalize(from));
     const glm::dquat b = asQuaternion(glm::normalize(to));

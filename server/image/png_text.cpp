@@ -22,7 +22,7 @@ std::uint32_t load32(std::string_view bytes) {
 
 bool isPng(std::string_view file) { return file.starts_with(kPngStart); }
 
-std::optional<std::string_view> stateIn(std::string_view file) {
+std::optional<std::string_view> stateTextIn(std::string_view file) {
     if (!isPng(file)) return {};
     file.remove_prefix(kPngStart.size());
     constexpr std::size_t kAround = 12;  // the bytes of a chunk that are not data: its length, type and checksum

@@ -11,8 +11,7 @@ bool isPng(std::string_view file);
 
 /// Returns the text that PngEncoder::encode() stored in the file, as a part of `file`: the text of the first
 /// uncompressed iTXt chunk with the keyword "oval4d" (PNG specification, section 11.3.3.4). Returns an empty optional
-/// if there is no such chunk, if the file ends before its end, or if the bytes are not a PNG file. Ignores the
-/// checksums.
-std::optional<std::string_view> stateIn(std::string_view file);
+/// if there is no such chunk, if the chunk is incomplete, or if the bytes are not a PNG file. Ignores the checksums.
+std::optional<std::string_view> stateTextIn(std::string_view file);
 
 }  // namespace oval4d::image

@@ -27,8 +27,8 @@ address_v6 mapped(const address& any) {
     return any.is_v6() ? any.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, any.to_v4());
 }
 
-/// Returns the name of the client at an address: the address itself for IPv4, mapped IPv4 and ::1, and the /64 network
-/// for any other IPv6 address.
+/// Returns the name of the client at an address: the IPv4 address for IPv4 and IPv4-mapped IPv6 addresses, "::1" for
+/// ::1, and the /64 network for any other IPv6 address.
 std::string nameOf(const address& any) {
     if (any.is_v4()) return any.to_string();
     address_v6 whole = any.to_v6();
@@ -44,10 +44,11 @@ std::string nameOf(const address& any) {
 Client::Client(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
     : name_(std::move(name)),
       bytes_(std::make_shared<ByteBudget::Account>(budget, limits.bytes)),
-      newSessions_(limits.newSessions / kMinute, limits.newSessions, now),
-      wrongTokens_(limits.wrongTokens / kMinute, limits.wrongTokens, now),
-      requests_(limits.requests, limits.requests, now),
-      messageBytes_(static_cast<double>(limits.messageBytes), static_cast<double>(limits.messageBytes), now) {}
+      newSessions_(limits.newSessionsPerMinute / kMinute, limits.newSessionsPerMinute, now),
+      wrongTokens_(limits.wrongTokensPerMinute / kMinute, limits.wrongTokensPerMinute, now),
+      requests_(limits.requestsPerSecond, limits.requestsPerSecond, now),
+      messageBytes_(static_cast<double>(limits.messageBytesPerSecond),
+                    static_cast<double>(limits.messageBytesPerSecond), now) {}
 
 bool Client::admitNewSession(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
@@ -114,7 +115,7 @@ bool Network::contains(const address& any) const {
 Clients::Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes)
     : limits_(limits), trusted_(trustedProxies.begin(), trustedProxies.end()), budget_(bytes), sweepAt_(kFirstSweep) {}
 
-ClientPtr Clients::at(const address& any) {
+ClientPtr Clients::findOrCreate(const address& any) {
     const auto now = TokenBucket::Clock::now();
     const std::lock_guard lock(mutex_);
     std::string name = nameOf(any);

@@ -21,13 +21,13 @@ namespace oval4d::net {
 
 /// Maximum values for one client. The limits for all clients together are in Options.
 struct ClientLimits {
-    std::size_t connections = 2048;         ///< open connections
-    std::size_t sessions = 2500;            ///< open sessions, and closed ones that have not expired
-    double newSessions = 2000;              ///< new sessions per minute, which may all come at once
-    double wrongTokens = 20;                ///< wrong tokens per minute, which may all come at once
-    double requests = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
-    std::size_t messageBytes = 16U << 20U;  ///< bytes of messages per second; excess messages are delayed
-    std::size_t bytes = 1U << 30U;          ///< bytes held for the client (ByteBudget)
+    std::size_t connections = 2048;                  ///< open connections
+    std::size_t sessions = 2500;                     ///< open sessions, and closed ones that have not expired
+    double newSessionsPerMinute = 2000;              ///< new sessions per minute, which may all come at once
+    double wrongTokensPerMinute = 20;                ///< wrong tokens per minute, which may all come at once
+    double requestsPerSecond = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
+    std::size_t messageBytesPerSecond = 16U << 20U;  ///< bytes of messages per second; excess messages are delayed
+    std::size_t bytes = 1U << 30U;                   ///< bytes held for the client (ByteBudget)
 };
 
 /// A client: everybody at one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one
@@ -62,8 +62,8 @@ class Client {
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
     /// These functions return the client's flows, its shares of the worker pools (see parallel::FairQueue):
-    /// pictureFlow() is for the picture workers, exportFlow() for the export workers. A session creates its lanes for
-    /// the client's jobs in these flows.
+    /// pictureFlow() is for the picture workers, exportFlow() for the export workers. In these flows, a session creates
+    /// its lanes for the client's jobs.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
     /// These functions return the client's lane for jobs that belong to no session: pictureLane() in the pool of
@@ -114,14 +114,14 @@ class Clients {
 
     /// Returns the client at this address; creates the client if it is not known. Once 65,536 clients are known, all
     /// unknown addresses share one client, "others".
-    ClientPtr at(const boost::asio::ip::address& any);
+    ClientPtr findOrCreate(const boost::asio::ip::address& any);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
     /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
     /// `proxy` and goes backward through the entries of X-Forwarded-For as long as the current address is a trusted
-    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. Logs a
-    /// warning about the first entry that is not an address.
+    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. The first
+    /// time that an entry is not an address, logs a warning.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.

@@ -74,15 +74,15 @@ bool isName(const std::string& name) {
 /// Returns a cache key made from everything that determines the result of reading `load`.
 std::string keyOf(const session::LoadObject& load, const std::string& version) {
     std::string key =
-        load.path + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
-    key += load.values + '\0' + load.valuesVariable + '\0';
+        load.dataName + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
+    key += load.secondFormula + '\0' + load.secondVariable + '\0';
     if (load.box) key.append(reinterpret_cast<const char*>(&*load.box), sizeof *load.box);
     return key + '\0' + version;
 }
 
-/// Returns the field with `shared` set, because the data folder counts its memory, and with `source` set if its samples
-/// are in a mapped file. Returns an error if the object is not an array.
-Result<session::LoadedObject> shared(session::LoadedObject loaded, const session::LoadObject& load) {
+/// Returns the field with `shared` set, so that sessions do not count its memory, which the data folder counts. Also
+/// sets `source` if the samples are in a mapped file. Returns an error if the object is not an array.
+Result<session::ObjectWithWarnings> shared(session::ObjectWithWarnings loaded, const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
     if (field == nullptr || !field->array) return Error{ErrorCode::bad_field, "the file is not an array"};
     auto copy = std::make_shared<fields::Field>(*field);
@@ -91,7 +91,7 @@ Result<session::LoadedObject> shared(session::LoadedObject loaded, const session
                           (field->second && field->second->array && field->second->array->storage().file());
     if (isMapped) {
         copy->source = std::make_shared<const fields::FileSource>(fields::FileSource{
-            load.path, load.format, load.axes, load.variable, load.values, load.valuesVariable, load.box});
+            load.dataName, load.format, load.axes, load.variable, load.secondFormula, load.secondVariable, load.box});
     }
     loaded.object = slicing::FieldPtr(std::move(copy));
     return loaded;
@@ -99,8 +99,8 @@ Result<session::LoadedObject> shared(session::LoadedObject loaded, const session
 
 }  // namespace
 
-DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCache& cache)
-    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)), maxBytes_(bytes), cache_(cache) {
+DataFolder::DataFolder(const std::string& folder, std::size_t bytes, SampleFiles& sampleFiles)
+    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)), maxBytes_(bytes), sampleFiles_(sampleFiles) {
     std::error_code fault;
     if (!folder_.empty() && fs::directory_iterator(folder_, fault) == fs::directory_iterator())
         if (fault) throw std::runtime_error("the data folder cannot be read: " + fault.message());
@@ -190,7 +190,7 @@ std::string DataFolder::currentVersion(const Opened& opened) {
 
 /// Returns a field from the cache, and marks it as the most recently used one. Returns null if the cache does not have
 /// it, or if its file can no longer be read. Requires that mutex_ is held.
-const session::LoadedObject* DataFolder::find(const std::string& key) {
+const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
     const auto found = std::ranges::find(recent_, key, &Entry::key);
     if (found == recent_.end()) return nullptr;
     if (slicing::fieldIn(found->loaded.object)->isLost()) {
@@ -216,10 +216,10 @@ bool DataFolder::dropUnused(bool onDisk) {
 }
 
 /// Makes a file of this size in the field cache. If there is no room, drops unused fields with such a file.
-Result<FieldCache::FilePtr> DataFolder::allocate(std::size_t bytes) {
+Result<SampleFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
-        auto file = cache_.make(bytes);
+        auto file = sampleFiles_.make(bytes);
         if (!file || *file) return file;
         if (!dropUnused(true)) {
             return Error{
@@ -231,7 +231,7 @@ Result<FieldCache::FilePtr> DataFolder::allocate(std::size_t bytes) {
 }
 
 /// Puts a field into the cache. Makes room by dropping the least recently used fields that no session uses.
-Result<session::LoadedObject> DataFolder::keep(std::string key, session::LoadedObject loaded, bool onDisk) {
+Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);
     const std::lock_guard lock(mutex_);
     if (size > maxBytes_)
@@ -247,9 +247,9 @@ Result<session::LoadedObject> DataFolder::keep(std::string key, session::LoadedO
     return loaded;
 }
 
-Result<session::LoadedObject> DataFolder::read(const session::LoadObject& load, const session::Limits& limits,
-                                               const Reader& reader) {
-    auto opened = open(load.path);
+Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& load, const session::Limits& limits,
+                                                     const Reader& reader) {
+    auto opened = open(load.dataName);
     if (!opened) return opened.error();
     const std::string key = keyOf(load, opened->version);
     {
@@ -270,8 +270,8 @@ Result<session::LoadedObject> DataFolder::read(const session::LoadObject& load, 
     return readNow(load, limits, std::move(*opened), reader, key);
 }
 
-Result<session::LoadedObject> DataFolder::readNow(const session::LoadObject& load, const session::Limits& limits,
-                                                  Opened opened, const Reader& reader, const std::string& key) {
+Result<session::ObjectWithWarnings> DataFolder::readNow(const session::LoadObject& load, const session::Limits& limits,
+                                                        Opened opened, const Reader& reader, const std::string& key) {
     session::LoadObject file = load;
     if (opened.folder) {
         file.folder = opened.folder;
@@ -282,7 +282,7 @@ Result<session::LoadedObject> DataFolder::readNow(const session::LoadObject& loa
     }
     bool onDisk = false;
     const Error changed{ErrorCode::bad_field, "the file changed while it was being read; load it again"};
-    Result<session::LoadedObject> loaded = changed;
+    Result<session::ObjectWithWarnings> loaded = changed;
     try {
         loaded = reader(file, limits, [&](std::size_t bytes) {
             onDisk = true;

@@ -17,7 +17,7 @@
 #include "errors/error.hpp"
 #include "fields/array/mapped_file.hpp"
 #include "file_reading/file_reader_pool.hpp"
-#include "net/field_cache.hpp"
+#include "net/sample_files.hpp"
 #include "session/load.hpp"
 
 namespace oval4d::net {
@@ -30,28 +30,29 @@ namespace oval4d::net {
 class DataFolder {
   public:
     /// `folder`: empty if the server offers none. `bytes`: the maximum memory, in bytes, of the fields from the folder,
-    /// whether or not sessions use them. `cache` must outlive the fields. Throws std::runtime_error if the folder
+    /// whether or not sessions use them. `sampleFiles` must outlive the fields. Throws std::runtime_error if the folder
     /// cannot be read.
-    DataFolder(const std::string& folder, std::size_t bytes, FieldCache& cache);
+    DataFolder(const std::string& folder, std::size_t bytes, SampleFiles& sampleFiles);
 
     /// Reads a file as FileReaderPool::read() does.
-    using Reader = std::function<Result<session::LoadedObject>(
+    using Reader = std::function<Result<session::ObjectWithWarnings>(
         const session::LoadObject& load, const session::Limits& limits, const file_reading::FileAllocator& allocate)>;
 
-    /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Reads the folder
-    /// unless knownNames() has the names, and blocks the calling thread meanwhile.
+    /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Unless
+    /// knownNames() has the names, reads the folder, which blocks the calling thread.
     std::vector<std::string> names() const;
     /// Returns the names that names() last read from the folder, if that reading began less than kListedFor ago;
     /// otherwise an empty optional. Returns an empty list if there is no data folder.
     std::optional<std::vector<std::string>> knownNames() const;
 
-    /// Returns the field that `load.path` names. If it is not in memory, calls `reader` to read it, with a copy of
+    /// Returns the field that `load.dataName` names. If it is not in memory, calls `reader` to read it, with a copy of
     /// `load` that contains the open files. Blocks the calling thread, also while another thread reads the same field.
     /// Errors: `not_found` if the folder has no such file; `too_large` if the field takes more memory or disk space
-    /// than the limits allow; `too_many` if fields in use leave too little memory or disk space; `bad_field` if the
-    /// file is not an array, or changes while it is read; those of `reader`.
-    Result<session::LoadedObject> read(const session::LoadObject& load, const session::Limits& limits,
-                                       const Reader& reader);
+    /// than the limits allow, or if a series has more than kMaxSeries files; `too_many` if fields in use leave too
+    /// little memory or disk space; `bad_field` if the file is not an array, or is found to have changed while it was
+    /// read; those of `reader`.
+    Result<session::ObjectWithWarnings> read(const session::LoadObject& load, const session::Limits& limits,
+                                             const Reader& reader);
 
     /// Returns the memory, in bytes, of all fields from the folder.
     std::size_t bytes() const;
@@ -72,7 +73,7 @@ class DataFolder {
     // A field in memory.
     struct Entry {
         std::string key;
-        session::LoadedObject loaded;
+        session::ObjectWithWarnings loaded;
         std::size_t bytes = 0;
         bool onDisk = false;  // whether the field has a file in the field cache
     };
@@ -80,16 +81,16 @@ class DataFolder {
     std::vector<std::string> list() const;
     Result<Opened> open(const std::string& name) const;
     static std::string currentVersion(const Opened& opened);
-    Result<session::LoadedObject> readNow(const session::LoadObject& load, const session::Limits& limits, Opened opened,
-                                          const Reader& reader, const std::string& key);
-    Result<FieldCache::FilePtr> allocate(std::size_t bytes);
+    Result<session::ObjectWithWarnings> readNow(const session::LoadObject& load, const session::Limits& limits,
+                                                Opened opened, const Reader& reader, const std::string& key);
+    Result<SampleFiles::FilePtr> allocate(std::size_t bytes);
     bool dropUnused(bool onDisk);
-    Result<session::LoadedObject> keep(std::string key, session::LoadedObject loaded, bool onDisk);
-    const session::LoadedObject* find(const std::string& key);
+    Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
+    const session::ObjectWithWarnings* find(const std::string& key);
 
     const std::filesystem::path folder_;
     const std::size_t maxBytes_;
-    FieldCache& cache_;
+    SampleFiles& sampleFiles_;
     mutable std::mutex mutex_;  // guards the members below
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();

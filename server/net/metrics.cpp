@@ -64,9 +64,9 @@ Metrics::Metrics()
       messagesReceived(
           counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
       bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
-      slowReaders(counters(registry_, "oval4d_slow_readers_total",
-                           "Clients dropped because they read, or send a body, too slowly")
-                      .Add({})),
+      droppedSlowClients(counters(registry_, "oval4d_slow_readers_total",
+                                  "Clients dropped because they read, or send a body, too slowly")
+                             .Add({})),
       sessionsTaken(
           counters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
       storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store is available, else 0")),

@@ -21,32 +21,32 @@ class Metrics {
   public:
     Metrics();
 
-    prometheus::Gauge& connections;         ///< open sockets, HTTP and WebSocket
-    prometheus::Gauge& webSockets;          ///< open WebSocket connections
-    prometheus::Gauge& sessions;            ///< sessions in the store or in memory
-    prometheus::Gauge& openSessions;        ///< sessions with at least one client
-    prometheus::Gauge& jobsWaiting;         ///< jobs that wait for a picture worker
-    prometheus::Counter& rasterizerDeaths;  ///< rasterizer processes that died
-    prometheus::Counter& rasterizerHangs;   ///< rasterizer processes that hung and were killed
-    prometheus::Counter& fileReaderDeaths;  ///< file reader processes that died
-    prometheus::Counter& fileReaderHangs;   ///< file reader processes that hung and were killed
-    prometheus::Gauge& filesUnderWay;       ///< exported files being made
-    prometheus::Histogram& fileTime;        ///< seconds to make an exported file
-    prometheus::Gauge& memory;              ///< resident bytes of this process
-    prometheus::Gauge& polytopes;           ///< bytes of cached polytopes
-    prometheus::Gauge& dataFields;          ///< bytes in memory of fields from the data folder
-    prometheus::Gauge& fieldFiles;          ///< bytes on the disk of fields from the data folder
-    prometheus::Gauge& critical;            ///< bytes of cached results of searches for critical values of w
-    prometheus::Gauge& bytesHeld;           ///< bytes held for clients (ByteBudget)
-    prometheus::Gauge& clients;             ///< known clients (Clients::size())
-    prometheus::Counter& messagesReceived;  ///< messages received over WebSockets
-    prometheus::Counter& bytesSent;         ///< bytes of messages sent over WebSockets
-    prometheus::Counter& slowReaders;       ///< clients dropped because they read, or send a body, too slowly
-    prometheus::Counter& sessionsTaken;     ///< sessions taken over by other servers
-    prometheus::Gauge& storeUp;             ///< 1 if the store is available, else 0
-    prometheus::Gauge& unsaved;             ///< sessions with changes not yet written to the store
-    prometheus::Gauge& workers;             ///< picture workers: threads that slice and draw
-    prometheus::Counter& workerSeconds;     ///< busy seconds, summed over all picture workers
+    prometheus::Gauge& connections;           ///< open sockets, HTTP and WebSocket
+    prometheus::Gauge& webSockets;            ///< open WebSocket connections
+    prometheus::Gauge& sessions;              ///< sessions in the store or in memory
+    prometheus::Gauge& openSessions;          ///< sessions with at least one client
+    prometheus::Gauge& jobsWaiting;           ///< jobs that wait for a picture worker
+    prometheus::Counter& rasterizerDeaths;    ///< rasterizer processes that died
+    prometheus::Counter& rasterizerHangs;     ///< rasterizer processes that hung and were killed
+    prometheus::Counter& fileReaderDeaths;    ///< file reader processes that died
+    prometheus::Counter& fileReaderHangs;     ///< file reader processes that hung and were killed
+    prometheus::Gauge& filesUnderWay;         ///< exported files being made
+    prometheus::Histogram& fileTime;          ///< seconds to make an exported file
+    prometheus::Gauge& memory;                ///< resident bytes of this process
+    prometheus::Gauge& polytopes;             ///< bytes of cached polytopes
+    prometheus::Gauge& dataFields;            ///< bytes in memory of fields from the data folder
+    prometheus::Gauge& fieldFiles;            ///< bytes on the disk of fields from the data folder
+    prometheus::Gauge& critical;              ///< bytes of cached results of searches for critical values of w
+    prometheus::Gauge& bytesHeld;             ///< bytes held for clients (ByteBudget)
+    prometheus::Gauge& clients;               ///< known clients (Clients::size())
+    prometheus::Counter& messagesReceived;    ///< messages received over WebSockets
+    prometheus::Counter& bytesSent;           ///< bytes of messages sent over WebSockets
+    prometheus::Counter& droppedSlowClients;  ///< clients dropped because they read, or send a body, too slowly
+    prometheus::Counter& sessionsTaken;       ///< sessions taken over by other servers
+    prometheus::Gauge& storeUp;               ///< 1 if the store is available, else 0
+    prometheus::Gauge& unsaved;               ///< sessions with changes not yet written to the store
+    prometheus::Gauge& workers;               ///< picture workers: threads that slice and draw
+    prometheus::Counter& workerSeconds;       ///< busy seconds, summed over all picture workers
     prometheus::Histogram& latency;  ///< seconds from a session change until its picture is written to the socket
 
     /// Counts an error sent to a client.

@@ -131,15 +131,16 @@ void addClientLimits(CLI::App& app, Options& options) {
         ->check(atLeastOne);
     add(app, "--max-client-sessions", client.sessions, "Maximum number of stored sessions opened from one address")
         ->check(atLeastOne);
-    add(app, "--max-new-sessions", client.newSessions, "Maximum number of sessions per minute opened from one address")
+    add(app, "--max-new-sessions", client.newSessionsPerMinute,
+        "Maximum number of sessions per minute opened from one address")
         ->check(atLeastOne);
-    add(app, "--max-wrong-tokens", client.wrongTokens,
+    add(app, "--max-wrong-tokens", client.wrongTokensPerMinute,
         "Maximum number of wrong tokens per minute from one address; beyond it, the address is refused for a while")
         ->check(atLeastOne);
-    add(app, "--max-client-requests", client.requests,
+    add(app, "--max-client-requests", client.requestsPerSecond,
         "Messages and HTTP requests per second from one address; further ones are delayed")
         ->check(atLeastOne);
-    addBytes(app, "--max-byte-rate", client.messageBytes,
+    addBytes(app, "--max-byte-rate", client.messageBytesPerSecond,
              "Bytes of messages per second from one address; further ones are delayed");
     addBytes(app, "--max-bytes", options.maxBytes,
              "Maximum bytes held for all clients: unread files and messages, and their own polytopes");
@@ -171,7 +172,7 @@ void addSandbox(CLI::App& app, Options& options) {
 
 void addLimits(CLI::App& app, Options& options) {
     const CLI::Range atLeastOne(1, 1'000'000'000);
-    addBytes(app, "--max-message", options.maxMessage,
+    addBytes(app, "--max-message", options.maxLoadMessageBytes,
              "Maximum size of a `load` message; a larger one closes the connection with code 1009");
     addBytes(app, "--max-request-bytes", options.maxRequestBytes,
              "Maximum size of any other message, and of any message before hello");
@@ -185,7 +186,7 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-connections", options.maxConnections,
         "Maximum number of open connections; further ones get status 503")
         ->check(atLeastOne);
-    add(app, "--max-requests", options.maxRequests,
+    add(app, "--max-requests", options.maxRequestsPerSecond,
         "Messages per second from one connection; bursts of twice as many are allowed")
         ->check(atLeastOne);
     add(app, "--max-jobs", options.jobs.total,
@@ -261,12 +262,12 @@ void addOptions(CLI::App& app, Options& options) {
 }
 
 std::string limitsJson(const Options& options) {
-    return nlohmann::json{{"message", options.maxMessage},
+    return nlohmann::json{{"message", options.maxLoadMessageBytes},
                           {"request_bytes", options.maxRequestBytes},
                           {"upload", options.maxUpload},
                           {"field_bytes", options.session.maxFieldBytes},
                           {"depth", options.maxDepth},
-                          {"requests_per_second", options.maxRequests},
+                          {"requests_per_second", options.maxRequestsPerSecond},
                           {"min_side", options.frame.minSide},
                           {"max_width", options.frame.maxWidth},
                           {"max_height", options.frame.maxHeight},

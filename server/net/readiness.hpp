@@ -8,9 +8,9 @@
 
 namespace oval4d::net {
 
-/// Tracks whether the server is ready. It becomes ready when every picture worker has drawn a first picture, because
-/// this compiles the worker's shaders and builds the initial polytope. It remains ready until it begins to stop.
-/// Thread-safe.
+/// Tracks whether the server is ready. It becomes ready when every picture worker has drawn a first picture, which is
+/// slow because it compiles the worker's shaders and builds the initial polytope. It remains ready until it begins to
+/// stop. Thread-safe.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}

@@ -78,8 +78,8 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
 }
 
 /// Returns one acceptor for each address, all on the same port. Skips addresses that this machine does not have, such
-/// as ::1 without IPv6, if another one can be bound. Throws std::runtime_error if no address can be bound, or if one
-/// cannot be bound for another reason.
+/// as ::1 if IPv6 is off. Throws std::runtime_error if no address is left, or if binding an address fails for any other
+/// reason.
 std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& options) {
     constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if options.port is 0
     for (int attempt = 1;; ++attempt) {
@@ -127,7 +127,7 @@ class Server {
 
     Options options_;
     Clients clients_;
-    FieldCache fieldCache_;           // declared before io_, whose handlers may hold fields: it must outlive all fields
+    SampleFiles sampleFiles_;         // declared before io_, whose handlers may hold fields: it must outlive all fields
     ConnectionRegistry connections_;  // declared before io_, whose coroutines hold registrations
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
@@ -154,7 +154,7 @@ class Server {
 Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
-      fieldCache_(options_.fieldCacheFolder, options_.fieldCache),
+      sampleFiles_(options_.fieldCacheFolder, options_.fieldCache),
       connections_(options_.maxConnections, options_.client.connections),
       acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
@@ -171,7 +171,7 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                 [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
                 static_cast<std::size_t>(options_.loadWorkers)}),
       polytopes_(options_.polytopeCache),
-      data_(options_.data, options_.dataCache, fieldCache_),
+      data_(options_.data, options_.dataCache, sampleFiles_),
       critical_(options_.criticalCache),
       pictureWorkers_({.threads = workers_,
                        .limits = options_.jobs,
@@ -188,8 +188,8 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
-      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,    clients_,
-                loadWorkers_, readers_, polytopes_,      data_,          fieldCache_, critical_},
+      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,     clients_,
+                loadWorkers_, readers_, polytopes_,      data_,          sampleFiles_, critical_},
       sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),

@@ -7,9 +7,9 @@
 #include "file_reading/file_reader_pool.hpp"
 #include "net/clients.hpp"
 #include "net/data_folder.hpp"
-#include "net/field_cache.hpp"
 #include "net/metrics.hpp"
 #include "net/options.hpp"
+#include "net/sample_files.hpp"
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
@@ -46,7 +46,7 @@ struct Services {
     file_reading::FileReaderPool& readers;  ///< the file reader processes
     polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
     DataFolder& data;                       ///< the arrays that the server offers
-    const FieldCache& fieldCache;           ///< files with the samples of such arrays
+    const SampleFiles& sampleFiles;         ///< files with the converted samples of large arrays in `data`
     slicing::CriticalCache& critical;       ///< cached results of searches for critical values of w
 };
 

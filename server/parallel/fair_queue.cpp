@@ -50,7 +50,8 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
     const Seconds cost = correctedCost(*lane, estimate);
-    const JobLength length = cost > kLongJob * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
+    const JobLength length =
+        cost > kLongJobThreshold * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
     lane->jobs_.push_back({std::move(job), estimate, cost, length});
     updateActiveLanes(lane, length, now);
     if (lane->jobs_.size() == 1) scheduleLane(lane);
@@ -69,9 +70,9 @@ std::optional<FairQueue::DueJob> FairQueue::pop(Clock::time_point now) {
     --waiting_;
     --client->waiting_;
     if (length == long_job) ++longRunning_;
-    scheduler_.start(schedulers.state, classCost(length, first.cost));
-    schedulers.clients.start(client->states_[length], first.cost);
-    client->lanes_[length].start(lane->states_[length], first.cost);
+    scheduler_.recordStart(schedulers.state, classCost(length, first.cost));
+    schedulers.clients.recordStart(client->states_[length], first.cost);
+    client->lanes_[length].recordStart(lane->states_[length], first.cost);
     client->lanes_[length].remove(lane->states_[length]);
     scheduleClient(client, length);
     if (!lane->jobs_.empty()) scheduleLane(lane);
@@ -86,9 +87,9 @@ void FairQueue::finished(const DueJob& started, Seconds took) {
     for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
         each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
     const Seconds more = took - started.cost;
-    scheduler_.end(classes_[length].state, classCost(length, more));
-    classes_[length].clients.end(client.states_[length], more);
-    client.lanes_[length].end(lane.states_[length], more);
+    scheduler_.recordEnd(classes_[length].state, classCost(length, more));
+    classes_[length].clients.recordEnd(client.states_[length], more);
+    client.lanes_[length].recordEnd(lane.states_[length], more);
     if (lane.states_[length].entry) {
         scheduleLane(started.lane);
     } else {
@@ -103,7 +104,7 @@ Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
 /// Updates the queue entries of a lane, its client and their class after a change of the lane's first job.
 void FairQueue::scheduleLane(const LanePtr& lane) {
     const QueuedJob& first = lane->jobs_.front();
-    lane->client_->lanes_[first.length].enqueue(lane->states_[first.length], lane, first.cost);
+    lane->client_->lanes_[first.length].enqueueFlow(lane->states_[first.length], lane, first.cost);
     scheduleClient(lane->client_, first.length);
 }
 
@@ -114,33 +115,34 @@ void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     if (client->lanes_[length].empty()) {
         schedulers.clients.remove(client->states_[length]);
     } else {
-        schedulers.clients.enqueue(client->states_[length], client, nextCost(*client, length));
+        schedulers.clients.enqueueFlow(client->states_[length], client, nextCost(*client, length));
     }
     if (schedulers.clients.empty()) {
         scheduler_.remove(schedulers.state);
     } else {
-        scheduler_.enqueue(schedulers.state, length, classCost(length, nextCost(*schedulers.clients.next(), length)));
+        scheduler_.enqueueFlow(schedulers.state, length,
+                               classCost(length, nextCost(*schedulers.clients.next(), length)));
     }
 }
 
 /// Records that the lane queues a job of this length. Puts the lane at the end of `recentShortLanes_`, unless it has
-/// queued a long job within the last kActive. While `recentShortLanes_` is not empty, no long job starts on a reserved
-/// thread, so that these threads stay free for the short jobs of the lanes in `recentShortLanes_`.
+/// queued a long job within the last kActivePeriod. While `recentShortLanes_` is not empty, no long job starts on a
+/// reserved thread, so that these threads stay free for the short jobs of the lanes in `recentShortLanes_`.
 void FairQueue::updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now) {
-    forgetInactive(now);
+    pruneRecentShortLanes(now);
     if (length == long_job) lane->lastLong_ = now;
-    if (lane->lastLong_ && now - *lane->lastLong_ <= kActive) return;
+    if (lane->lastLong_ && now - *lane->lastLong_ <= kActivePeriod) return;
     if (const auto before =
             std::exchange(lane->activity_, recentShortLanes_.emplace(recentShortLanes_.end(), now, lane))) {
         recentShortLanes_.erase(*before);
     }
 }
 
-void FairQueue::forgetInactive(Clock::time_point now) {
+void FairQueue::pruneRecentShortLanes(Clock::time_point now) {
     for (; !recentShortLanes_.empty(); recentShortLanes_.pop_front()) {
         const auto& [last, weak] = recentShortLanes_.front();
         const LanePtr lane = weak.lock();
-        if (lane && now - last <= kActive) return;
+        if (lane && now - last <= kActivePeriod) return;
         if (lane) lane->activity_.reset();
     }
 }
@@ -149,9 +151,10 @@ void FairQueue::forgetInactive(Clock::time_point now) {
 /// not start on a reserved one.
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
-    forgetInactive(now);
+    pruneRecentShortLanes(now);
     const FairScheduler<ClientFlowPtr>& clients = classes_[long_job].clients;
-    return !recentShortLanes_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
+    return !recentShortLanes_.empty() ||
+           (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJobThreshold);
 }
 
 bool FairQueue::hasStartableJob(Clock::time_point now) {

@@ -15,13 +15,14 @@
 
 namespace oval4d::parallel {
 
-/// Decides which flow is served next by weighted fair queueing (A. Demers, S. Keshav, S. Shenker, 1989). A flow is a
+/// Decides by weighted fair queueing (A. Demers, S. Keshav, S. Shenker, 1989) which flow is served next. A flow is a
 /// sequence of jobs, such as those of one client. The cost of a job is its running time. To give a flow a larger
-/// weight, the caller divides the costs of its jobs by that weight. The next job of a flow has the virtual finish time
-/// F = max(V, F of the flow's previous job) + cost, and the flow with the smallest F is served next. A flow is active
-/// while it has waiting or running jobs. The virtual time V is the service that each active flow would have received if
-/// all were served simultaneously: each job that starts advances V by cost / number of active flows. Before that, V is
-/// raised to the virtual start time of the job, which is F − cost, if V is less (J. Bennett, H. Zhang, 1996).
+/// weight, the caller divides the costs of its jobs by that weight. A flow is active while it has waiting or running
+/// jobs. The virtual time V is the service that each active flow would have received if all were served simultaneously.
+/// The next job of a flow has a virtual start time S and a virtual finish time F = S + cost; the flow with the smallest
+/// F is served next. S is the greater of two values: F of the flow's previous job, and V at the time when the flow was
+/// queued. A job that starts first raises V to S if V is less (J. Bennett, H. Zhang, 1996), and then advances V by
+/// cost / number of active flows.
 /// - A flow that is new or was idle starts at V, so it gains no credit for idle time. Among flows that start at V, only
 ///   the costs of their jobs decide which one is served first.
 /// - V advances while a flow waits. Therefore each other flow gets ahead of the waiting flow by at most the cost of the
@@ -47,8 +48,8 @@ class FairScheduler {
     /// Returns the number of active flows: those with waiting or running jobs.
     std::size_t activeFlows() const { return activeFlows_; }
 
-    /// Queues a flow whose next job has this cost. If the flow is already queued, changes the cost of that job.
-    void enqueue(FlowState& state, Flow flow, Seconds cost) {
+    /// Queues a flow whose next job has this cost. If the flow is already queued, updates its position in the queue.
+    void enqueueFlow(FlowState& state, Flow flow, Seconds nextCost) {
         if (state.entry) {
             queue_.erase(*state.entry);
         } else {
@@ -56,7 +57,7 @@ class FairScheduler {
             state.finish = std::max(state.finish, virtualTime_);
             if (state.running == 0) ++activeFlows_;
         }
-        state.entry = queue_.emplace(state.finish + cost, std::move(flow));
+        state.entry = queue_.emplace(state.finish + nextCost, std::move(flow));
     }
     /// Removes a flow from the queue, if it is queued.
     void remove(FlowState& state) {
@@ -65,9 +66,9 @@ class FairScheduler {
         queue_.erase(*entry);
         if (state.running == 0) --activeFlows_;
     }
-    /// Records that the next job of a queued flow starts. The caller must then call `enqueue` if the flow has another
-    /// waiting job, else `remove`.
-    void start(FlowState& state, Seconds cost) {
+    /// Records that the next job of a queued flow starts. The caller must then call enqueueFlow() if the flow has
+    /// another waiting job, else remove().
+    void recordStart(FlowState& state, Seconds cost) {
         virtualTime_ = std::max(virtualTime_, state.finish) + cost / activeFlows_;
         // Keep F from falling behind V by more than the cost of one job, even if estimates were wrong.
         state.finish = std::max(state.finish + cost, virtualTime_ - cost);
@@ -75,8 +76,8 @@ class FairScheduler {
         ++state.running;
     }
     /// Records that a job of the flow ended. `excess`: the measured running time minus the cost of the job. If the flow
-    /// is queued, the caller must then call `enqueue` again, because F has changed.
-    void end(FlowState& state, Seconds excess) {
+    /// is queued, the caller must then call `enqueueFlow` again, because F has changed.
+    void recordEnd(FlowState& state, Seconds excess) {
         state.finish += excess;
         maxFinish_ = std::max(maxFinish_, state.finish);
         if (--state.running == 0 && !state.entry) --activeFlows_;
@@ -88,17 +89,17 @@ class FairScheduler {
     Seconds virtualTime_{0}, maxFinish_{0};  // V; the largest F of all flows
 };
 
-/// A queue of jobs with hierarchical weighted fair queueing. Each job is in a lane, such as that of one session, and
-/// each lane belongs to a client. The clients share the time of the threads equally, and the lanes of a client share
-/// the client's time equally.
+/// A queue of jobs with hierarchical weighted fair queueing. Each job is in a lane, for example the lane of a session,
+/// and each lane belongs to a client. The clients share the time of the threads equally, and the lanes of a client
+/// share the client's time equally.
 ///
 /// The cost of a job is an estimate until the job ends; then the measured time replaces the estimate. Measured times
 /// also correct the estimates of later jobs: in the same lane, in new lanes of the same client, and of new clients.
 ///
 /// Jobs are not preempted, so long jobs could occupy all threads while short jobs wait. Therefore some threads are
 /// reserved: a quarter of them, rounded down, but at least one. If there is only one thread, it is not reserved. A
-/// reserved thread never starts a very long job (see kVeryLongJob). It does not start a long job (see kLongJob) either
-/// while a lane with short jobs is active (see kActive).
+/// reserved thread never starts a very long job (see kVeryLongJobThreshold). It does not start a long job (see
+/// kLongJobThreshold) either while a lane with short jobs is active (see kActivePeriod).
 ///
 /// Short jobs and long jobs are two classes. Within each class, clients are scheduled fairly. The two classes share the
 /// time of the threads in proportion to the numbers of their active clients.
@@ -124,13 +125,13 @@ class FairQueue {
 
     /// A job that costs more than this is long; any other job is short. If jobs in general take longer than estimated,
     /// the threshold rises in proportion, to at most twice this value.
-    static constexpr Seconds kLongJob{0.015};
+    static constexpr Seconds kLongJobThreshold{0.015};
     /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
     /// jobs is active.
-    static constexpr Seconds kVeryLongJob{0.25};
-    /// How long a lane stays active after it has queued a short job, unless the lane is destroyed. Within this time
-    /// after the lane has queued a long job, its short jobs do not make it active.
-    static constexpr std::chrono::seconds kActive{10};
+    static constexpr Seconds kVeryLongJobThreshold{0.25};
+    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. A short job
+    /// that is queued in it within this time after a long job does not make it active.
+    static constexpr std::chrono::seconds kActivePeriod{10};
 
     /// A job that pop() returned. The caller must run it at once and then call finished().
     struct DueJob {
@@ -200,7 +201,7 @@ class FairQueue {
     void scheduleClient(const ClientFlowPtr& client, JobLength length);
     void updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
-    void forgetInactive(Clock::time_point now);
+    void pruneRecentShortLanes(Clock::time_point now);
 
     const std::size_t maxLongRunning_;  // number of threads that are not reserved
     const Limits limits_;
@@ -208,11 +209,11 @@ class FairQueue {
     PerClass<Class> classes_;
     FairScheduler<JobLength> scheduler_;  // decides which class is served next
     Correction correction_;               // from the jobs of all clients
-    RecentLanes recentShortLanes_;  // active lanes with short jobs, and when each last queued a job; the earliest first
+    RecentLanes recentShortLanes_;        // active lanes, each with the time of its last short job; earliest first
 };
 
-/// A client that shares the threads with other clients, such as all connections from one address. All of its jobs must
-/// be in the same queue.
+/// A client, for example all connections from one address, which shares the threads with other clients. All of its jobs
+/// must be in the same queue.
 class FairQueue::ClientFlow {
     friend FairQueue;
     PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;  // the client as a flow of Class::clients

@@ -9,7 +9,7 @@
 namespace oval4d::parallel {
 
 /// Checks that an object is used only by the thread that constructed it. Use as a member or base of that object.
-class ThreadOwned {
+class ThreadOwnerAssertion {
   public:
 #ifdef NDEBUG
     /// Asserts that the calling thread constructed this object.
@@ -26,16 +26,16 @@ class ThreadOwned {
 
 /// Checks that an object is used by at most one thread at a time, which may be any thread. A copy of it starts as not
 /// in use.
-class ExclusiveUse {
+class ExclusiveUseAssertion {
   public:
     /// Marks the object as in use as long as this Use exists. The constructor asserts that no other Use of the same
     /// object exists.
     class Use {
       public:
 #ifdef NDEBUG
-        explicit Use(ExclusiveUse& /*used*/) {}
+        explicit Use(ExclusiveUseAssertion& /*used*/) {}
 #else
-        explicit Use(ExclusiveUse& used) : used_(used) {
+        explicit Use(ExclusiveUseAssertion& used) : used_(used) {
             const bool alone = !used_.inUse_.exchange(true);
             assert(alone && "used by two threads at once");
             (void)alone;
@@ -45,14 +45,14 @@ class ExclusiveUse {
         Use& operator=(const Use&) = delete;
 
       private:
-        ExclusiveUse& used_;
+        ExclusiveUseAssertion& used_;
 #endif
     };
 
 #ifndef NDEBUG
-    ExclusiveUse() = default;
-    ExclusiveUse(const ExclusiveUse& /*other*/) {}
-    ExclusiveUse& operator=(const ExclusiveUse& /*other*/) { return *this; }
+    ExclusiveUseAssertion() = default;
+    ExclusiveUseAssertion(const ExclusiveUseAssertion& /*other*/) {}
+    ExclusiveUseAssertion& operator=(const ExclusiveUseAssertion& /*other*/) { return *this; }
 
   private:
     std::atomic<bool> inUse_ = false;

@@ -41,7 +41,7 @@ class WorkerPool {
         Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
         /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
-        ForkJoin* forkJoin = nullptr;  ///< during each job, marks one of its processors as busy; may be null
+        ForkJoin* forkJoin = nullptr;  ///< if not null, counts one processor as busy during each job
         /// Returns the current time, by which jobs are scheduled and measured. Tests pass one that returns a virtual
         /// time.
         std::function<FairQueue::Clock::time_point()> now = FairQueue::Clock::now;

@@ -42,7 +42,7 @@ double fog(const session::State& state, double slices, double cubes, double pixe
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || state.look.field.fog.empty()) return 0;
     // The lattice in a slice is assumed to fill a third of the cube around the circumscribed sphere of the field.
-    const double points = std::min(slices * std::pow(cubes, 3) / 3, static_cast<double>(maxFogPoints(quality)));
+    const double points = std::min(slices * std::pow(cubes, 3) / 3, static_cast<double>(maxFogSamples(quality)));
     const double sampling = std::min(points * (field->function->cost().value + 3), surfaceLimits(quality).time);
     return 1e-9 * sampling + 5e-9 * points + 5e-9 * pixels * std::min(cubes, std::cbrt(points / slices));
 }
@@ -76,7 +76,7 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
 
 EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request) {
     constexpr slicing::Quality kQuality = slicing::Quality::file;
-    const int chosen = request.fit.value_or(static_cast<int>(request.at.size()));
+    const int chosen = request.fittedSlices.value_or(static_cast<int>(request.chosenW.size()));
     const int slices = request.choosesSlices() ? chosen : state.slices.count;
     const double field = surfaces(state, slices, slicing::cubesAcross(kQuality), kQuality);
     return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elements(state.object)) + field);

@@ -78,15 +78,15 @@ Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::opti
     return std::monostate{};
 }
 
-// Returns the hyperplanes at the values of w in ExportRequest::at. These are values in the coordinates of the object's
-// file, as in the labels of slices.
+// Returns the hyperplanes at the values of w in ExportRequest::chosenW. These are values in the coordinates of the
+// object's file, as in the labels of slices.
 Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
     const double origin = slicing::infoOf(state.object).originInFile.w;
     const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
     for (const double w : at) {
         if (std::abs(w - origin) <= reach) continue;
         return Error{ErrorCode::out_of_range,
-                     "at must be " + text::outsideBounds(origin - reach, origin + reach, "", w)};
+                     "at must be " + text::outsideBoundsText(origin - reach, origin + reach, "", w)};
     }
     std::vector<double> sorted = at;
     std::ranges::sort(sorted);
@@ -99,8 +99,9 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
 }
 
-// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w. For a point cloud,
-// these parts are slightly larger, because a slice does not contain the points at its upper end.
+// Divides the object's extent along w into `count` equal parts, and returns the hyperplanes in the middles of the
+// parts. For a point cloud, the parts are slightly larger, because a slice does not contain the points at the upper end
+// of its part.
 geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
     const double larger = std::holds_alternative<slicing::CloudPtr>(state.object) ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
@@ -120,22 +121,23 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
         if (!all) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
         return planes;
     }
-    if (!request.at.empty() && request.fit) return Error{ErrorCode::bad_message, "give either at or fit, not both"};
+    if (!request.chosenW.empty() && request.fittedSlices)
+        return Error{ErrorCode::bad_message, "give either at or fit, not both"};
     if (!all) {
         return Error{ErrorCode::bad_message, "at and fit choose slices, so the file must be of oval, not of " +
                                                  std::string(text::nameOf(exports::kExportContents, request.contents))};
     }
-    if (request.fit) {
-        if (*request.fit < 1 || *request.fit > maxSlices)
-            return wrongFit(maxSlices, text::roundedDecimal(*request.fit));
-        return fittingHyperplanes(*request.fit, state);
+    if (request.fittedSlices) {
+        if (*request.fittedSlices < 1 || *request.fittedSlices > maxSlices)
+            return wrongFit(maxSlices, text::roundedDecimal(*request.fittedSlices));
+        return fittingHyperplanes(*request.fittedSlices, state);
     }
-    if (request.at.size() > static_cast<std::size_t>(maxSlices)) {
+    if (request.chosenW.size() > static_cast<std::size_t>(maxSlices)) {
         return Error{ErrorCode::out_of_range, "the number of values of at must be at most " +
                                                   std::to_string(maxSlices) + ", not " +
-                                                  std::to_string(request.at.size())};
+                                                  std::to_string(request.chosenW.size())};
     }
-    return hyperplanesAt(request.at, state);
+    return hyperplanesAt(request.chosenW, state);
 }
 
 // Returns the projection of the whole object in the form of a slice, which replaces the focus slice. Uses the
@@ -155,12 +157,12 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
     return projected;
 }
 
-// Returns whether the file contains the surfaces of a field.
-bool needsSurfaces(const exports::ExportRequest& request) {
+// Returns whether the file of a field contains surfaces.
+bool readsFieldSurfaces(const exports::ExportRequest& request) {
     using enum exports::ExportContents;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
     return request.format->writeBodies != nullptr ? request.body == exports::Body::solid
-                                                  : request.format->takesSurfaces;
+                                                  : request.format->readsSurfaces;
 }
 
 }  // namespace
@@ -174,7 +176,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (const auto [least, most] = sizeRangeOf(*request.format); !(request.size >= least && request.size <= most)) {
         return Error{ErrorCode::out_of_range, std::string("the size of a ") + (drawing ? "drawing" : "body") +
                                                   " must be " +
-                                                  text::outsideBounds(least, most, " millimeters", request.size)};
+                                                  text::outsideBoundsText(least, most, " millimeters", request.size)};
     }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     std::optional<slicing::Element> element;  // the highlighted element, if only this is exported
@@ -190,12 +192,12 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                                          request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
-    if (isField && needsSurfaces(request)) {
+    if (isField && readsFieldSurfaces(request)) {
         slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
     }
     if (element) {
-        slicing::shapeOf(state.object, *element, state.orientation, slices);
+        slicing::writeElementAsSlice(state.object, *element, state.orientation, slices);
     } else {
         slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
     }
@@ -253,9 +255,9 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
             hasContents = true;
             done = choose(name, value, exports::kExportContents, request.contents);
         } else if (name == "at") {
-            done = takeAt(value, request.at);
+            done = takeAt(value, request.chosenW);
         } else if (name == "fit") {
-            done = takeFit(value, maxSlices, request.fit);
+            done = takeFit(value, maxSlices, request.fittedSlices);
         } else if (name == "body") {
             done = choose(name, value, exports::kBodies, request.body);
         } else if (name == "label") {

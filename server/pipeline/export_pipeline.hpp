@@ -10,20 +10,24 @@
 namespace oval4d::pipeline {
 
 /// Exports what `request.contents` selects from a session's state (state → slices → scene → file). Used by the server
-/// and the command line. Errors: `no_body` if there is nothing to export; `too_large` if the file exceeds a limit or
-/// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
-/// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
-/// `out_of_range` for values of w in `at` that are equal to each other, or farther from the w of the object's origin
-/// than session::kMaxOffset circumradii, for more slices than ExportLimits::slices, and for the size of a body or a
-/// drawing outside its bounds.
+/// and the command line. Throws the exceptions of exports::exportScene(). Errors:
+/// - `no_body` if there is nothing to export, if no body has room for its label, or if the format cannot contain what
+///   is asked,
+/// - `too_large` if the file exceeds a limit or takes too long, or if `stop` is requested,
+/// - `too_many` if ExportLimits::grantTotalBytes refuses memory for the file,
+/// - `bad_message` if the request gives both `at` and `fit`, or gives one of them for contents other than
+///   ExportContents::oval,
+/// - `out_of_range` if two values of w in `at` are equal, if one of them is farther than session::kMaxOffset
+///   circumradii from the w of ObjectInfo::originInFile, if `at` or `fit` asks for no slice or for more than
+///   ExportLimits::slices, or if the size of a body or a drawing is outside its bounds.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});
 
 /// Removes the parameters "of", "body", "size", "label", "at" and "fit" from `query`, and returns the export request
 /// that they describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval".
-/// Errors: `bad_message` for an unknown value; `out_of_range` for a size that is not allowed, or if "fit" is not a
-/// whole number from 1 to `maxSlices`; for "at" and "fit", also the errors of session::evaluate(). The messages of all
-/// errors but these list the allowed values.
+/// Errors whose messages list the allowed values: `bad_message` for an unknown value of "of", "body" or "label";
+/// `out_of_range` for a size that is not allowed, or if "fit" is not a whole number from 1 to `maxSlices`. For "at" and
+/// "fit", also the errors of session::evaluate().
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices);
 

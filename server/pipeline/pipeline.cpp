@@ -13,12 +13,12 @@ Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::For
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), workspace_(forkJoin) {}
 
 slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     return workspace_.sectionNamer.names(state);
 }
 
 void Pipeline::slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out) {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     times_ = {};
     times_.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
@@ -33,7 +33,7 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
 void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                            std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
                            std::string& out, slicing::Quality quality) {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     workspace_.composer.limitFill(fillSteps_);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
@@ -46,7 +46,7 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
 std::string Pipeline::describePoint(const session::State& state, const slicing::SliceSet& slices,
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     workspace_.composer.limitFill(0);  // the triangles that fill faces are not needed
     workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                 workspace_.scene);
@@ -56,7 +56,7 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
                        slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     times_ = {};
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
                                  state.look.background == scene::Background::transparent};
@@ -65,7 +65,7 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
 }
 
 void Pipeline::freeMemory() {
-    const parallel::ExclusiveUse::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::Use use(inUse_);
     workspace_ = Workspace(forkJoin_);
     rasterizer_->freeMemory();
 }

@@ -94,7 +94,7 @@ class Pipeline {
     const std::size_t fillSteps_;
     Workspace workspace_;
     PictureTimes times_;
-    parallel::ExclusiveUse inUse_;
+    parallel::ExclusiveUseAssertion inUse_;
 };
 
 }  // namespace oval4d::pipeline

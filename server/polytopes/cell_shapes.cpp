@@ -20,12 +20,12 @@ constexpr double kShapeTolerance = 0.01;  // relative
 bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * std::max(a, b); }
 
 // The numbers of a cell's elements.
-struct Shape {
+struct ElementTally {
     std::map<std::size_t, std::uint32_t> faces;               // by number of sides: the number of faces
     std::map<std::uint32_t, std::uint32_t> degrees;           // by vertex: the number of its edges
     std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // by degree: the number of vertices
 
-    Shape(const Polytope& p, std::uint32_t cell) {
+    ElementTally(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {
             ++faces[p.faces[f].size()];
             for (const std::uint32_t v : p.faces[f]) ++degrees[v];
@@ -71,9 +71,9 @@ std::string adjectiveOfBase(const Polytope& p, std::span<const std::uint32_t> lo
     return base.isRectangle() ? "rectangular" : "quadrilateral";
 }
 
-std::string pyramidName(const Polytope& p, std::uint32_t cell, const Shape& shape) {
+std::string pyramidName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
     const std::size_t n = p.cells[cell].size() - 1;
-    if (n < 4 || shape.degrees.size() != n + 1 || shape.facesWith(3) != n || shape.facesWith(n) != 1) return {};
+    if (n < 4 || tally.degrees.size() != n + 1 || tally.facesWith(3) != n || tally.facesWith(n) != 1) return {};
     for (const std::uint32_t f : p.cells[cell]) {
         if (p.faces[f].size() == n) return adjectiveOfBase(p, p.faces[f]) + " pyramid";
     }
@@ -100,15 +100,15 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
 
 // Returns the name of a bipyramid or a trapezohedron, or an empty string. These cells have two apexes; the other
 // vertices lie around the axis through the apexes.
-std::string twoApexName(std::uint32_t faces, const Shape& shape) {
+std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::uint32_t n = faces / 2;
-    const auto vertices = static_cast<std::uint32_t>(shape.degrees.size());
+    const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());
     const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
     // An octahedron that is not regular (n = 4) and a deformed cube (n = 3) have no such name: any two opposite
     // vertices of them could be the apexes.
-    if (n != 4 && vertices == n + 2 && shape.facesWith(3) == 2 * n && shape.has(2, n, n, 4))
+    if (n != 4 && vertices == n + 2 && tally.facesWith(3) == 2 * n && tally.has(2, n, n, 4))
         return adjective + " bipyramid";
-    if (n > 3 && vertices == 2 * n + 2 && shape.facesWith(4) == 2 * n && shape.has(2, n, 2 * n, 3))
+    if (n > 3 && vertices == 2 * n + 2 && tally.facesWith(4) == 2 * n && tally.has(2, n, 2 * n, 3))
         return adjective + " trapezohedron";
     return {};
 }
@@ -116,13 +116,13 @@ std::string twoApexName(std::uint32_t faces, const Shape& shape) {
 // Returns whether the distances of the cell's vertices from their mean have the same ratios as the distances of the
 // solid's vertices from its center. Equal numbers of elements are not sufficient to recognize a Catalan solid, because
 // other polyhedra, among them other Catalan solids, may have the same numbers.
-bool hasRadiiOf(const Solid& solid, const Polytope& p, const Shape& shape) {
+bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own;
     for (const glm::dvec3& v : mesh.vertices) known.push_back(glm::length(v));
     glm::dvec4 middle(0);
-    for (const auto& [v, degree] : shape.degrees) middle += p.vertices[v] / static_cast<double>(shape.degrees.size());
-    for (const auto& [v, degree] : shape.degrees) own.push_back(glm::distance(p.vertices[v], middle));
+    for (const auto& [v, degree] : tally.degrees) middle += p.vertices[v] / static_cast<double>(tally.degrees.size());
+    for (const auto& [v, degree] : tally.degrees) own.push_back(glm::distance(p.vertices[v], middle));
     std::ranges::sort(known);
     std::ranges::sort(own);
     const double scale = own.back() / known.back();
@@ -151,10 +151,10 @@ const std::vector<CatalanSolid>& catalanSolids() {
     return kSolids;
 }
 
-std::string catalanName(const Polytope& p, const Shape& shape, std::uint32_t faces) {
-    if (shape.faces.size() != 1) return {};
+std::string catalanName(const Polytope& p, const ElementTally& tally, std::uint32_t faces) {
+    if (tally.faces.size() != 1) return {};
     for (const auto& [solid, counts] : catalanSolids()) {
-        if (counts.faces == faces && counts.vertices == shape.degrees.size() && hasRadiiOf(solid, p, shape))
+        if (counts.faces == faces && counts.vertices == tally.degrees.size() && hasRadiiOf(solid, p, tally))
             return nameOf(solid);
     }
     return {};
@@ -165,11 +165,11 @@ std::string catalanName(const Polytope& p, const Shape& shape, std::uint32_t fac
 std::string nameOfIrregularCell(const Polytope& p, std::uint32_t cell) {
     const auto faces = static_cast<std::uint32_t>(p.cells[cell].size());
     if (!p.convexFaces || faces < 5) return {};
-    const Shape shape(p, cell);
-    std::string name = pyramidName(p, cell, shape);
+    const ElementTally tally(p, cell);
+    std::string name = pyramidName(p, cell, tally);
     if (name.empty()) name = prismName(p, cell);
-    if (name.empty()) name = catalanName(p, shape, faces);
-    return name.empty() ? twoApexName(faces, shape) : name;
+    if (name.empty()) name = catalanName(p, tally, faces);
+    return name.empty() ? twoApexName(faces, tally) : name;
 }
 
 }  // namespace oval4d::polytopes

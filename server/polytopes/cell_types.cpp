@@ -44,9 +44,9 @@ struct Measures {
     }
 };
 
-// Measures cells; measuring all cells takes linear time. measure() marks the vertices of the cell with a number that no
-// other cell has. The mark of a vertex shows, without a search, whether the vertex has already been visited in this
-// cell.
+// Measures cells; all of them in time linear in the size of the polytope. measure() marks the vertices of the cell with
+// a number that no other cell has. The mark of a vertex shows, without a search, whether the vertex has already been
+// visited in this cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
@@ -108,9 +108,9 @@ class Numbering {
 }  // namespace
 
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
-    // `polygons` numbers the combinations of a vertex count and a list of polygons (their numbers of sides). For each
-    // of these numbers, `seen` lists the types found so far, with their metric invariants. `sizes` numbers the
-    // combinations of a vertex count and a 2-face count.
+    // `polygons` assigns a number to each combination of a cell's vertex count and the side counts of its 2-faces. By
+    // this number, `seen` lists the types found so far, with their metric invariants. `sizes` assigns a number to each
+    // combination of a vertex count and a 2-face count.
     Numbering<std::vector<std::uint32_t>> polygons;
     Numbering<std::array<std::uint32_t, 2>> sizes;
     struct Seen {

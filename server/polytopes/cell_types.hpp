@@ -20,9 +20,9 @@ inline constexpr std::size_t kMaxCellTypes = 64;
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& polytope);
 
 /// Refines a classification of the cells by color refinement, and returns the new type number of each cell. `types`
-/// holds the initial type numbers. Splits a type if the neighbors of its cells (cells that share a 2-face with them)
-/// differ in their types, and repeats this until nothing changes. If a symmetry of the polytope preserves `types`, it
-/// also preserves the result.
+/// holds the initial type numbers. Two cells of a type get different types if the types of their neighbors (the cells
+/// that share a 2-face with them) differ; this is repeated until nothing changes. If a symmetry of the polytope
+/// preserves `types`, it also preserves the result.
 std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& polytope, std::vector<std::uint32_t> types);
 
 /// Sets polytope.typeOfCell and polytope.cellTypes. `labels` holds an arbitrary number for each cell; cells of the same

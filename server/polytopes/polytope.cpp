@@ -108,7 +108,7 @@ class Orienter {
             const std::uint32_t cell = cellOfIncidence_[incidence];
             if (!orientCell(cell)) continue;
             cells.push_back(cell);
-            hypervolume += coneOver(cell);
+            hypervolume += scaledConeVolume(cell);
             for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
                 const auto& pair = incidencesOfFace_[p_.cells.items[s]];
                 const std::uint32_t other = pair[0] == s ? pair[1] : pair[0];
@@ -189,11 +189,11 @@ class Orienter {
         }
     }
 
-    // Returns 24 times the signed hypervolume of the cone over the cell. The fromTipToCell of the cone, `tip`, is a
-    // vertex of the polytope: if it were the origin, rounding errors would exceed the sum for a polytope that is far
-    // from the origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`; `fromTipToCell`, a
-    // vertex of the cell; and the corners of a triangle from a fan into which a 2-face is divided.
-    double coneOver(std::uint32_t cell) const {
+    // Returns 24 times the signed hypervolume of the cone over the cell. The apex of the cone, `tip`, is a vertex of
+    // the polytope: if it were the origin, rounding errors would exceed the sum for a polytope that is far from the
+    // origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`, a fixed vertex of the cell
+    // (`tip` + `fromTipToCell`), and the corners of one of the triangles into which a 2-face is divided as a fan.
+    double scaledConeVolume(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
         const auto from = [&](std::uint32_t vertex) { return p_.vertices[vertex] - tip; };
@@ -261,7 +261,7 @@ void findFacesAtEdges(Polytope& p) {
         }
     }
     std::vector<std::uint32_t> sideAfterCell(
-        p.cells.size());  // per cell: the index in `sides` of the 2-face after the cell
+        p.cells.size());  // per cell: the index in `sides` of the 2-face that follows the cell in the cyclic order
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };
@@ -316,7 +316,7 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
     return p;
 }
 
-Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
+Polytope transformedTo(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
     Polytope image = polytope;
     image.serial = serial;
     image.rebuildableFromName = false;

@@ -79,7 +79,7 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
 /// Returns the polytope in the frame of reference `frame`, with the serial number `serial`. The linear map of `frame`
 /// changes neither the incidences nor convexity, and preserves the orientation because its determinant is positive. The
 /// transformed polytope has the name and the cell types of `polytope`.
-Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+Polytope transformedTo(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 /// Returns the memory that the polytope occupies, in bytes, without its names.
 std::size_t memoryOf(const Polytope& polytope);

@@ -28,22 +28,22 @@ struct alignas(cmsghdr) AncillaryData {
 // The interval at which a wait checks for a stop request.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
-/// Waits for a poll(2) event; returns false if the deadline passes or a stop is requested first.
-bool waitFor(int socket, short event, const Deadline& deadline) {
+/// Waits for a poll(2) event; returns false if the time limit passes or a stop is requested first.
+bool waitFor(int socket, short event, const WaitLimit& limit) {
     using std::chrono::milliseconds;
     const milliseconds longest =
-        deadline.stop.stop_possible() ? kStopCheckInterval : milliseconds(std::numeric_limits<int>::max());
+        limit.stop.stop_possible() ? kStopCheckInterval : milliseconds(std::numeric_limits<int>::max());
     for (pollfd what{socket, event, 0};;) {
-        const auto left = std::chrono::ceil<milliseconds>(deadline.until - Deadline::Clock::now());
+        const auto left = std::chrono::ceil<milliseconds>(limit.until - WaitLimit::Clock::now());
         if (poll(&what, 1, static_cast<int>(std::clamp(left, milliseconds(0), longest).count())) > 0) return true;
-        if (left.count() <= 0 || deadline.stop.stop_requested()) return false;
+        if (left.count() <= 0 || limit.stop.stop_requested()) return false;
     }
 }
 
 /// Repeats `call`, a nonblocking system call that sends or receives, until it succeeds, and sets `moved` to the number
 /// of bytes. Waits for `event` while the call would block.
 template <typename Call>
-TransferResult moveSome(int socket, short event, const Deadline& deadline, std::size_t& moved, Call call) {
+TransferResult moveSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {
         const ssize_t result = call();
         if (result > 0) {
@@ -52,7 +52,7 @@ TransferResult moveSome(int socket, short event, const Deadline& deadline, std::
         }
         if (result < 0 && errno == EINTR) continue;
         if (result == 0 || errno != EAGAIN) return TransferResult::closed;
-        if (!waitFor(socket, event, deadline)) return TransferResult::timed_out;
+        if (!waitFor(socket, event, limit)) return TransferResult::timed_out;
     }
 }
 
@@ -60,7 +60,7 @@ TransferResult moveSome(int socket, short event, const Deadline& deadline, std::
 
 Channel::~Channel() { close(socket_); }
 
-TransferResult Channel::send(MessageType type, std::string_view body, int file, const Deadline& deadline) const {
+TransferResult Channel::send(MessageType type, std::string_view body, int file, const WaitLimit& limit) const {
     Header header{type, body.size()};
     std::array parts{iovec{&header, sizeof header}, iovec{const_cast<char*>(body.data()), body.size()}};
     msghdr message{};
@@ -79,7 +79,7 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
     const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
     for (std::size_t left = sizeof header + body.size(); left > 0;) {
         std::size_t sent = 0;
-        const TransferResult transfer = moveSome(socket_, POLLOUT, deadline, sent, call);
+        const TransferResult transfer = moveSome(socket_, POLLOUT, limit, sent, call);
         if (transfer != TransferResult::complete) return transfer;
         left -= sent;
         message.msg_control = nullptr;
@@ -93,10 +93,10 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
     return TransferResult::complete;
 }
 
-TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const Deadline& deadline,
+TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const WaitLimit& limit,
                                 std::size_t maxBytes) const {
-    // moveSome() checks the deadline only when it must wait, which never happens if the sender is fast enough.
-    if (Deadline::Clock::now() > deadline.until) return TransferResult::timed_out;
+    // moveSome() checks the limit only when it must wait, which never happens if the sender is fast enough.
+    if (WaitLimit::Clock::now() > limit.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {
         for (auto* at = static_cast<char*>(to); size > 0;) {
@@ -111,7 +111,7 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
             }
             const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
             std::size_t got = 0;
-            const TransferResult transfer = moveSome(socket_, POLLIN, deadline, got, call);
+            const TransferResult transfer = moveSome(socket_, POLLIN, limit, got, call);
             if (transfer != TransferResult::complete) return transfer;
             if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
                 std::memcpy(file, CMSG_DATA(tag), sizeof *file);
@@ -129,6 +129,6 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
     return read(body.data(), body.size());
 }
 
-bool Channel::wait(const Deadline& deadline) const { return waitFor(socket_, POLLIN, deadline); }
+bool Channel::wait(const WaitLimit& limit) const { return waitFor(socket_, POLLIN, limit); }
 
 }  // namespace oval4d::process

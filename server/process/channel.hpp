@@ -12,28 +12,28 @@
 namespace oval4d::process {
 
 /// The types of messages; the comment on each describes the body. A child process first sends `ready` or `failed`. A
-/// rasterizer process replies to `draw` with `drawn` or `failed`; if it does not have the object, it first sends
-/// `object_missing`, and the server sends `object`, after a `file_part` for each mapped file to which the object
-/// refers. A file reader process replies to `file` with `outcome`. Before that, it may send `new_file` and `open_file`;
-/// the server replies to each with `file_part`, which carries no file descriptor if there is no such file.
+/// rasterizer process replies to `draw` with `drawn` or `failed`. If it does not have the object to draw, it first
+/// sends `object_missing`; the server then sends a `file_descriptor` for each mapped file to which the object refers,
+/// and then `object`. After `file`, the server sends a `file_descriptor` for each file of a series. A file reader
+/// process replies to `file` with `outcome`. Before that, it may send `new_file` and `open_file`; the server replies to
+/// each with `file_descriptor`, which carries no file descriptor if there is no such file.
 enum class MessageType : std::uint32_t {
-    ready,           ///< empty
-    draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
-    object,          ///< written by slicing::encodeObject()
-    object_missing,  ///< empty
-    drawn,           ///< raster::DrawTimes
-    failed,          ///< the reason, as text
-    file,            ///< file_reading::ReadRequest; may carry the file descriptor of the file
-    file_part,       ///< empty; carries a file descriptor: of a file of a series or folder, of a mapped file, or of a
-                     ///< new file
-    new_file,        ///< the size in bytes of a file that is needed, as std::size_t
-    open_file,       ///< the path of a file in the folder that is read
-    outcome,         ///< the object that was read, or an error
+    ready,            ///< empty
+    draw,             ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
+    object,           ///< written by slicing::encodeObject()
+    object_missing,   ///< empty
+    drawn,            ///< raster::DrawTimes
+    failed,           ///< the reason, as text
+    file,             ///< file_reading::ReadRequest; may carry the file descriptor of the file
+    file_descriptor,  ///< empty; carries the descriptor of a mapped file, a new file, or a file of a series or folder
+    new_file,         ///< the size in bytes of the new file that the process needs, as std::size_t
+    open_file,        ///< the path of a file in the folder that is read
+    outcome,          ///< the object that was read, or an error
 };
 
 /// Limits how long an operation of a Channel waits for the other end: until a point in time, or until a stop is
 /// requested. By default, it waits without a limit.
-struct Deadline {
+struct WaitLimit {
     using Clock = std::chrono::steady_clock;
     Clock::time_point until = Clock::time_point::max();
     std::stop_token stop;  ///< a stop request takes effect within 0.1 s
@@ -43,7 +43,7 @@ struct Deadline {
 enum class TransferResult {
     complete,
     closed,     ///< the other end of the channel is closed
-    timed_out,  ///< the deadline has passed, or a stop was requested
+    timed_out,  ///< the time limit has passed, or a stop was requested
 };
 
 /// One end of a socket pair, which sends and receives messages. Owns the socket: the destructor closes it.
@@ -59,16 +59,16 @@ class Channel {
 
     /// Sends a message. Unless `file` is kNoFile, the receiver gets a duplicate of that file descriptor.
     TransferResult send(MessageType type, std::string_view body = {}, int file = kNoFile,
-                        const Deadline& deadline = {}) const;
+                        const WaitLimit& limit = {}) const;
     /// Receives a message. If `file` is not null, sets `*file` to the file descriptor that was sent with the message,
     /// which the caller must close, or to kNoFile if there was none. Throws std::runtime_error if the body has more
     /// than `maxBytes` bytes.
-    TransferResult receive(MessageType& type, std::string& body, int* file = nullptr, const Deadline& deadline = {},
+    TransferResult receive(MessageType& type, std::string& body, int* file = nullptr, const WaitLimit& limit = {},
                            std::size_t maxBytes = kNoLimit) const;
 
-    /// Waits until a message can be received or the other end is closed. Returns false if neither happens before the
-    /// deadline.
-    bool wait(const Deadline& deadline) const;
+    /// Waits until a message can be received or the other end is closed. Returns false if neither happens within the
+    /// limit.
+    bool wait(const WaitLimit& limit) const;
 
   private:
     int socket_;

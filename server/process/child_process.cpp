@@ -23,7 +23,7 @@ namespace oval4d::process {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = Deadline::Clock;
+using Clock = WaitLimit::Clock;
 
 // The maximum size in bytes of the reason that a child process sends with MessageType::failed.
 constexpr std::size_t kMaxReason = 64U << 10U;
@@ -126,14 +126,14 @@ std::string ChildProcess::end(bool atOnce) {
                                : "status " + std::to_string(WEXITSTATUS(status));
 }
 
-Deadline ChildProcess::deadline(const std::stop_token& stop) const {
+WaitLimit ChildProcess::waitLimit(const std::stop_token& stop) const {
     return {Clock::now() + std::chrono::duration_cast<Clock::duration>(options_.timeout), stop};
 }
 
-void ChildProcess::awaitReady(TransferResult& transfer, const Deadline& deadline) {
+void ChildProcess::awaitReady(TransferResult& transfer, const WaitLimit& limit) {
     MessageType type{};
     std::string reason;
-    transfer = channel_->receive(type, reason, nullptr, deadline, kMaxReason);
+    transfer = channel_->receive(type, reason, nullptr, limit, kMaxReason);
     if (transfer != TransferResult::complete) return;
     if (type != MessageType::ready) throw std::runtime_error(reason);
     ready_ = true;
@@ -147,9 +147,9 @@ void ChildProcess::converse(const Conversation& conversation, const std::stop_to
         bool talked = false;
         try {
             // If the process hangs while it starts, this conversation is not the cause: `talked` stays false.
-            if (!ready_) awaitReady(transfer, deadline(stop));
+            if (!ready_) awaitReady(transfer, waitLimit(stop));
             talked = ready_;
-            if (talked) transfer = conversation(*channel_, deadline(stop));
+            if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
             end(true);  // otherwise the next conversation could receive a late answer to this one
             throw;

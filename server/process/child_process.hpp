@@ -42,7 +42,7 @@ struct ChildOptions {
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Returns whether the conversation was not repeated because the process hung.
+    /// Returns whether the process hung and the conversation was therefore not repeated.
     bool hung() const { return hung_; }
 
   private:
@@ -55,9 +55,9 @@ class ProcessLost : public std::runtime_error {
 /// OVAL4D_…, because the others may hold secrets. Not thread-safe: one thread at a time may use an object.
 class ChildProcess {
   public:
-    /// A conversation: sends messages to the process and receives its replies before the deadline. Returns the result
-    /// of its last transfer.
-    using Conversation = std::function<TransferResult(const Channel&, const Deadline&)>;
+    /// A conversation: sends messages to the process and receives its replies within the limit. Returns the result of
+    /// its last transfer.
+    using Conversation = std::function<TransferResult(const Channel&, const WaitLimit&)>;
 
     explicit ChildProcess(ChildOptions options);
     ~ChildProcess();
@@ -82,8 +82,8 @@ class ChildProcess {
 
   private:
     std::string end(bool atOnce);
-    Deadline deadline(const std::stop_token& stop) const;
-    void awaitReady(TransferResult& transfer, const Deadline& deadline);
+    WaitLimit waitLimit(const std::stop_token& stop) const;
+    void awaitReady(TransferResult& transfer, const WaitLimit& limit);
 
     const ChildOptions options_;
     std::unique_ptr<Channel> channel_;  // null while no process is running

@@ -78,7 +78,7 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// Calls with which the threads of Mesa, the graphics library, set their processor affinity and priority.
+// Calls that Mesa, the graphics library, makes in its threads, mainly to set their processor affinity and priority.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
@@ -205,7 +205,8 @@ void filterSystemCalls(Role role) {
     // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
     // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
-    // Shared memory without a file would not count as memory of the process, so mmap may not get both flags together.
+    // Shared memory without a file would not count as memory of the process, so mmap must not get these two flags
+    // together.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == Role::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});

@@ -25,17 +25,17 @@ bool shouldSandbox(SandboxMode wanted, std::string& why);
 
 /// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
 /// memory, read the clock, wait, write to standard error (the log), use its channel (kChildSocket), and exit. No child
-/// may open, create, find or change files, use the network, start programs, or access other processes.
+/// may open, create, list or change files, use the network, start programs, or access other processes.
 enum class Role : std::uint8_t {
-    draw,  ///< draws pictures; may also start threads, and execute code that it compiles at run time
-    read,  ///< parses files that it receives over its channel; may do nothing more
+    draw,        ///< draws pictures; may also start threads, and execute code that it compiles at run time
+    parse_file,  ///< parses files that it receives over its channel; may do nothing more
 };
 
 /// The restrictions that a child process applies to itself.
 struct Confinement {
     bool filtered = false;  ///< whether to allow only the system calls that the role needs
-    /// The maximum number of bytes of private memory beyond that already in use, whether it is written or not; 0 means
-    /// no limit. Mapped files do not count. Ignored in builds with a sanitizer.
+    /// The maximum number of bytes of private memory, written or not, beyond the memory already in use; 0 means no
+    /// limit. Mapped files do not count. Ignored in builds with a sanitizer.
     std::size_t memory = 0;
     /// The maximum number of open file descriptors, including those already open; 0 means no limit. Ignored in builds
     /// with a sanitizer.

@@ -52,8 +52,8 @@ class LocalRasterizer : public Rasterizer {
     void warmUp() override;
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                                        DrawTimes& times) override;
-    /// Frees the memory that is kept for the next picture, except the GL context, the shader programs, and the font
-    /// with its glyphs.
+    /// Frees the memory that is kept for the next picture, except what Renderer::freeMemory() keeps, such as the GL
+    /// context.
     void freeMemory() override;
 
     /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see

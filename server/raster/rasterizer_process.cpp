@@ -10,9 +10,9 @@
 namespace oval4d::raster {
 
 using process::Channel;
-using process::Deadline;
 using process::MessageType;
 using process::TransferResult;
+using process::WaitLimit;
 
 namespace {
 
@@ -36,9 +36,9 @@ RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& optio
 
 /// Receives messages until `answer_` is `drawn` or `failed`. Sends the object if the process lacks it.
 TransferResult RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
-                                                const Deadline& deadline) {
+                                                const WaitLimit& limit) {
     for (bool sent = false;; sent = true) {
-        TransferResult transfer = channel.receive(answer_, body_, nullptr, deadline, kMaxAnswer);
+        TransferResult transfer = channel.receive(answer_, body_, nullptr, limit, kMaxAnswer);
         if (transfer != TransferResult::complete || answer_ == MessageType::drawn || answer_ == MessageType::failed)
             return transfer;
         if (answer_ != MessageType::object_missing || sent)
@@ -47,16 +47,16 @@ TransferResult RasterizerProcess::receiveAnswer(const session::State& state, con
         slicing::MappedFiles files;
         slicing::encodeObject(state.source, object, files);
         for (const auto& file : files) {
-            transfer = channel.send(MessageType::file_part, {}, file->descriptor(), deadline);
+            transfer = channel.send(MessageType::file_descriptor, {}, file->descriptor(), limit);
             if (transfer != TransferResult::complete) return transfer;
         }
-        transfer = channel.send(MessageType::object, object, Channel::kNoFile, deadline);
+        transfer = channel.send(MessageType::object, object, Channel::kNoFile, limit);
         if (transfer != TransferResult::complete) return transfer;
     }
 }
 
 void RasterizerProcess::warmUp(const std::stop_token& stop) {
-    process_.converse([](const Channel&, const Deadline&) { return TransferResult::complete; }, stop);
+    process_.converse([](const Channel&, const WaitLimit&) { return TransferResult::complete; }, stop);
 }
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
@@ -65,9 +65,9 @@ std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& stat
     encodeRequest(state, viewport, quality, limits_, request_);
     const auto drawn = pixels.resize(image::byteCount(viewport));
     process_.converse(
-        [&](const Channel& channel, const Deadline& deadline) {
-            const TransferResult sent = channel.send(MessageType::draw, request_, pixels.file(), deadline);
-            return sent == TransferResult::complete ? receiveAnswer(state, channel, deadline) : sent;
+        [&](const Channel& channel, const WaitLimit& limit) {
+            const TransferResult sent = channel.send(MessageType::draw, request_, pixels.file(), limit);
+            return sent == TransferResult::complete ? receiveAnswer(state, channel, limit) : sent;
         },
         stop);
     if (answer_ == MessageType::failed) throw std::runtime_error(body_);

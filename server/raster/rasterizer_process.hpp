@@ -54,7 +54,7 @@ class RasterizerProcess {
   private:
     // Receives the answer to a request. Sends the object first if the process asks for it.
     process::TransferResult receiveAnswer(const session::State& state, const process::Channel& channel,
-                                          const process::Deadline& deadline);
+                                          const process::WaitLimit& limit);
 
     const RasterizerLimits limits_;
     process::ChildProcess process_;

@@ -18,14 +18,14 @@
 namespace oval4d::raster {
 
 using process::Channel;
-using process::Deadline;
 using process::MessageType;
 using process::TransferResult;
+using process::WaitLimit;
 
 namespace {
 
 /// A cache of the most recently drawn objects, the latest first. It keeps two forms of each object: as it was loaded
-/// (`source`), and in the frame of reference in which it was drawn last (`image`).
+/// (`source`), and in the frame of reference in which it was drawn last (`inFrame`).
 class RecentObjects {
   public:
     /// Returns the object of a request, in the request's frame of reference; null if its source object is not in the
@@ -35,29 +35,30 @@ class RecentObjects {
                                              [](const Kept& kept) { return slicing::infoOf(kept.source).serial; });
         if (found == kept_.end()) return nullptr;
         kept_.splice(kept_.begin(), kept_, found);
-        if (slicing::infoOf(found->image).serial != request.object) {
-            found->image = slicing::imageOf(found->source, request.state.referenceFrame, request.object);
-            const std::size_t bytes = found->image == found->source ? 0 : slicing::memoryOf(found->image);
-            bytes_ += bytes - std::exchange(found->imageBytes, bytes);
+        if (slicing::infoOf(found->inFrame).serial != request.object) {
+            found->inFrame = slicing::transformedTo(found->source, request.state.referenceFrame, request.object);
+            const std::size_t bytes = found->inFrame == found->source ? 0 : slicing::memoryOf(found->inFrame);
+            bytes_ += bytes - std::exchange(found->inFrameBytes, bytes);
             shrink(request.limits.objectBytes);
         }
-        return &found->image;
+        return &found->inFrame;
     }
     /// Adds an object as it was loaded, which takes this much memory. It becomes the latest object.
     void add(const slicing::Object& source, std::size_t bytes) {
         kept_.push_front({source, source, bytes});
         bytes_ += bytes;
     }
-    /// Removes the oldest objects until the cache takes at most this much memory, but keeps the latest object.
+    /// Removes the least recently drawn objects until the cache takes at most this much memory, but keeps the latest
+    /// object.
     void shrink(std::size_t bytes) {
         for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back())
-            bytes_ -= kept_.back().bytes + kept_.back().imageBytes;
+            bytes_ -= kept_.back().bytes + kept_.back().inFrameBytes;
     }
 
   private:
     struct Kept {
-        slicing::Object source, image;
-        std::size_t bytes, imageBytes = 0;
+        slicing::Object source, inFrame;
+        std::size_t bytes, inFrameBytes = 0;
     };
     std::list<Kept> kept_;
     std::size_t bytes_ = 0;
@@ -77,7 +78,7 @@ class Service {
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::file_part) continue;  // the object that refers to it follows
+            if (type == MessageType::file_descriptor) continue;  // the object that refers to it follows
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.state.object = *object;
@@ -92,13 +93,13 @@ class Service {
     /// Receives the next message, and frees memory if none comes for a while. Returns false when the connection is
     /// closed.
     bool next(MessageType& type) {
-        if (!channel_.wait({Deadline::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
+        if (!channel_.wait({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
             heap_.returnFreeMemory();
         }
         int file = Channel::kNoFile;
         if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
-        if (type == MessageType::file_part) takeFile(file);
+        if (type == MessageType::file_descriptor) takeFile(file);
         if (type != MessageType::draw) return true;
         // The descriptor is missing if this process has too many files open, because the kernel then drops it.
         if (file == Channel::kNoFile)

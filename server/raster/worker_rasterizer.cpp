@@ -38,7 +38,7 @@ void WorkerRasterizer::warmUp() {
 
 std::span<const std::uint8_t> WorkerRasterizer::draw(const session::State& state, scene::Viewport viewport,
                                                      slicing::Quality quality, DrawTimes& times) {
-    const auto drawn = drawBest(state, viewport, quality, times);
+    const auto drawn = drawInFasterProcess(state, viewport, quality, times);
     shared_.lastDrawSeconds_ = times.draw;
     return drawn;
 }
@@ -47,8 +47,9 @@ void WorkerRasterizer::freeMemory() {
     if (pixels_) pixels_->resize(0);
 }
 
-std::span<const std::uint8_t> WorkerRasterizer::drawBest(const session::State& state, scene::Viewport viewport,
-                                                         slicing::Quality quality, DrawTimes& times) {
+std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const session::State& state,
+                                                                    scene::Viewport viewport, slicing::Quality quality,
+                                                                    DrawTimes& times) {
     struct Counted {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;

@@ -13,11 +13,12 @@
 
 namespace oval4d::raster {
 
-/// Holds the rasterizer process that all workers of the server share. It draws with one thread per core, at most 8, and
-/// therefore draws a single large picture fastest. A worker uses it only if the previous picture was large, that is,
-/// took more than 4 ms to draw, and if no other picture is being drawn or queued, now or in the last 100 ms. Otherwise
-/// the worker uses its own single-threaded process: concurrent pictures are drawn with a higher throughput if they do
-/// not compete for threads, and for a small picture, waking threads would take longer than drawing. Thread-safe.
+/// Holds the rasterizer process that all workers of the server share. This process draws with one thread per core, at
+/// most 8, and therefore draws a single large picture fastest. A worker uses it only if the previous picture of any
+/// worker was large, that is, took more than 4 ms to draw; if no other picture is being drawn or queued; and if no two
+/// pictures were drawn or queued at the same time in the last 100 ms. Otherwise the worker uses its own single-threaded
+/// process: concurrent pictures are drawn with a higher throughput if they do not compete for threads, and for a small
+/// picture, waking threads would take longer than drawing. Thread-safe.
 class SharedRasterizerProcess {
   public:
     /// `cores` is the number of processor cores; if it is 1, there is no shared process. `morePicturesQueued` returns
@@ -30,7 +31,7 @@ class SharedRasterizerProcess {
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
     std::atomic<int> drawing_ = 0;                                   // the number of workers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when several pictures were last drawn or queued
+    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when pictures were last drawn or queued at once
     std::atomic<double> lastDrawSeconds_ = 0;                        // the drawing time of the last picture
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; empty on a single core
@@ -50,8 +51,8 @@ class WorkerRasterizer : public Rasterizer {
     void freeMemory() override;
 
   private:
-    std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport,
-                                           slicing::Quality quality, DrawTimes& times);
+    std::span<const std::uint8_t> drawInFasterProcess(const session::State& state, scene::Viewport viewport,
+                                                      slicing::Quality quality, DrawTimes& times);
 
     SharedRasterizerProcess& shared_;
     const std::stop_token stop_;

@@ -77,7 +77,7 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     glViewport(0, 0, width, height);
 }
 
-void Context::load(const std::uint8_t* pixels) {
+void Context::replacePicture(const std::uint8_t* pixels) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, native_->color);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels);

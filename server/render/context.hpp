@@ -6,8 +6,8 @@
 
 namespace oval4d::render {
 
-/// An OpenGL 3.3 core context that draws into memory. Only the thread that created it may use it. Only this class uses
-/// OSMesa; the rest of the renderer uses plain OpenGL.
+/// An OpenGL 3.3 core context that draws into memory. Only the thread that created it may use it. Only this class calls
+/// functions of OSMesa; the rest of the renderer calls only OpenGL.
 class Context {
   public:
     /// Creates the context and makes it current. Throws std::runtime_error if this is not possible.
@@ -21,8 +21,8 @@ class Context {
     /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Replaces the current picture by `pixels`, which have the same size and layout as the pixels given to begin().
-    void load(const std::uint8_t* pixels);
+    /// Replaces the current picture with `pixels`, which have the same size and layout as the pixels given to begin().
+    void replacePicture(const std::uint8_t* pixels);
 
     /// Lets the threads of the driver begin to rasterize everything drawn so far. Does not wait for them.
     void flush();

@@ -16,7 +16,7 @@
 #include "parallel/ownership.hpp"
 #include "render/context.hpp"
 #include "render/overlay/annotations.hpp"
-#include "render/overlay/density_strip.hpp"
+#include "render/overlay/coordinates_plot.hpp"
 #include "render/overlay/matrix_panels.hpp"
 #include "render/overlay/overlay.hpp"
 #include "render/projection.hpp"
@@ -38,8 +38,9 @@ std::string fontFile() {
 
 namespace {
 
-// Patches are drawn with OpenGL in batches of at least this many; the last batch may be smaller. While the threads of
-// the driver rasterize one batch, this thread prepares the next one.
+// With OpenGL, the patches of convex slices are drawn in batches of at least this many. Only the last batch, and the
+// last one before the projection of the whole object, may be smaller. While the threads of the driver rasterize one
+// batch, this thread prepares the next one.
 constexpr std::size_t kBatchPatches = 2'000;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
@@ -128,14 +129,14 @@ struct Renderer::Impl {
         SurfaceRasterizer rasterizer;
     };
 
-    parallel::ThreadOwned owner;
+    parallel::ThreadOwnerAssertion owner;
     Context context;                     // declared before the members that need a current context
     const bool shapesInMemory;           // whether shapes are drawn without OpenGL where possible
     parallel::ForkJoin* const forkJoin;  // null if pictures are drawn with one thread
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
     SurfaceProgram surfaceProgram;
-    DensityStrip densityStrip;
+    CoordinatesPlot coordinatesPlot;
     Overlay overlay;
     ShapeBatch shapes;
     ConvexShapeCollector convexCollector;
@@ -171,11 +172,12 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
     convexCollector.collect(scene, shapes, painted, paintProjection);
 }
 
-// Prepares convex slices and the projection of the whole object for drawing without OpenGL: adds the projection, and
-// the slices that are farther than it, to the rasterizer. The caller must add the rest of `shapes` later, from the
-// returned index on. If the projection is not shown, adds nothing and returns 0.
+// Prepares convex slices and the projection of the whole object for drawing without OpenGL: collects the slices in
+// `shapes`, and adds the slices that are farther than the projection, and then the projection, to the rasterizer.
+// Returns the index of the first patch of `shapes` that is not added; the caller must add the patches from there on. If
+// the projection is not shown, adds nothing to the rasterizer and returns 0.
 std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
-    using Depth = ShapeRasterizer::Depth;
+    using DepthUse = ShapeRasterizer::DepthUse;
     std::size_t nearer = 0;
     const auto paintSlices = [&] {
         convexCollector.collect(scene, shapes, [] {}, [&] { nearer = shapes.patches().size(); });
@@ -187,17 +189,17 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     const auto paintProjection = [&] { projectionCollector.collect(scene, projectionLayers); };
     parallel::invoke(forkJoin, std::ref(paintSlices), std::ref(paintProjection));
     shapeRasterizer.setDepthArea(areaOfProjection(scene));
-    shapeRasterizer.add(shapes, 0, nearer, Depth::unused);
+    shapeRasterizer.add(shapes, 0, nearer, DepthUse::unused);
     const auto& [solid, translucent, depths] = projectionLayers;
-    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written);
-    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested);
+    shapeRasterizer.add(solid, 0, solid.patches().size(), DepthUse::written);
+    shapeRasterizer.add(translucent, 0, translucent.patches().size(), DepthUse::tested);
     return nearer;
 }
 
-// Prepares slices that need not be convex, surfaces and the projection of the whole object for drawing without OpenGL,
-// in the same order as drawLayers().
+// Prepares slices that may be nonconvex, surfaces and, if shown, the projection of the whole object for drawing without
+// OpenGL: adds them to the rasterizer in the order in which drawLayers() draws them.
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
-    using Depth = ShapeRasterizer::Depth;
+    using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfacePasses;
     const auto prepare = [&](SurfacePass& pass, SurfaceBatch::DepthHalf half) {
@@ -216,23 +218,23 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
-    const auto opaque = [](const SurfacePass& pass) { return std::span(pass.batch.opaque()); };
-    const auto add = [this](const ShapeBatch& batch, Depth depth) {
+    const auto opaque = [](const SurfacePass& pass) { return std::span(pass.batch.opaqueIndices()); };
+    const auto add = [this](const ShapeBatch& batch, DepthUse depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
-    add(layers.faces, Depth::written);
+    add(layers.faces, DepthUse::written);
     for (const SurfacePass* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).first(pass->batch.fringesBegin()), Blending::none);
     for (const SurfacePass* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).subspan(pass->batch.fringesBegin()), Blending::alpha);
-    add(layers.skeleton, Depth::written);
+    add(layers.skeleton, DepthUse::written);
     if (scene.projectionPlacement.shown) {
-        add(projectionLayers.solid, Depth::written);
-        add(projectionLayers.translucent, Depth::tested);
+        add(projectionLayers.solid, DepthUse::written);
+        add(projectionLayers.translucent, DepthUse::tested);
     }
     for (const SurfacePass* pass : {&far, &near})
-        shapeRasterizer.add(pass->rasterizer, pass->batch.translucent(), Blending::alpha);
-    add(layers.faded, Depth::tested);
+        shapeRasterizer.add(pass->rasterizer, pass->batch.translucentIndices(), Blending::alpha);
+    add(layers.faded, DepthUse::tested);
 }
 
 // Uses OpenGL to draw slices that may be nonconvex, surfaces, fog and, if shown, the projection of the whole object.
@@ -250,12 +252,12 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     if (hasFog) prepareFog(scene, depths);
     glDisable(GL_BLEND);
     patchDepthProgram.drawWithDepth(depths, layers.faces);
-    surfaceProgram.load(depths, surfaces, surfaces.opaque());
+    surfaceProgram.load(depths, surfaces, surfaces.opaqueIndices());
     surfaceProgram.drawPart(0, surfaces.fringesBegin());
     context.flush();
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
-    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaque().size());
+    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaqueIndices().size());
     glDepthMask(GL_TRUE);
     if (hasFog) drawFogBehindFrame(scene);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
@@ -264,7 +266,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     if (hasFog) {
         drawFog(scene, depths);
     } else {
-        surfaceProgram.draw(depths, surfaces, surfaces.translucent());
+        surfaceProgram.draw(depths, surfaces, surfaces.translucentIndices());
     }
     surfaceDepthProgram.drawWithDepth(depths, layers.faded);
     glDepthMask(GL_TRUE);
@@ -291,17 +293,17 @@ void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
 
 // Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
 void Renderer::Impl::drawFog(const scene::Scene& scene, DepthRange depths) {
-    surfaceProgram.load(depths, surfaces, surfaces.translucent());
+    surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
     for (std::size_t i = 0; i < surfaces.order().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
         surfaceProgram.drawPart(begin, end);
-        fogPainter->draw(scene, surfaces.order()[i], FogPainter::Part::before);
+        fogPainter->draw(scene, surfaces.order()[i], FogPainter::Part::in_front);
         begin = end;
     }
 }
 
-// Draws the prepared projection of the whole object. The depth test must be enabled.
+// Draws the projection of the whole object from projectionLayers. The depth test must be enabled.
 void Renderer::Impl::drawProjection(DepthRange depths) {
     surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
     context.flush();
@@ -364,7 +366,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     std::size_t notAdded = 0;  // the first patch of `shapes` that is not yet added to the rasterizer
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
-        if (scene.isNonconvex) {
+        if (scene.facesMayCross) {
             impl_->addLayers(scene);
         } else {
             notAdded = impl_->addConvexSlices(scene);
@@ -375,26 +377,26 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     }
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colors are premultiplied by alpha, because blending is then cheaper
-    if (scene.isNonconvex && !inMemory) {
+    if (scene.facesMayCross && !inMemory) {
         impl_->nonconvexCollector.collect(scene, impl_->layers);
         impl_->drawLayers(scene);
     } else if (!inMemory) {
         impl_->drawConvexSlices(scene);
     }
-    paintAxes(scene, shapes, overlay);
-    paintCoordinates(scene, overlay);
-    paintLabels(scene, overlay);
-    paintMatrix(scene, overlay);
+    addAxes(scene, shapes, overlay);
+    addCoordinates(scene, overlay);
+    addLabels(scene, overlay);
+    addMatrix(scene, overlay);
 
     if (inMemory) {
-        impl_->shapeRasterizer.add(shapes, notAdded, shapes.patches().size(), ShapeRasterizer::Depth::unused);
+        impl_->shapeRasterizer.add(shapes, notAdded, shapes.patches().size(), ShapeRasterizer::DepthUse::unused);
         impl_->shapeRasterizer.finish(impl_->forkJoin);
-        impl_->context.load(pixels.data());
+        impl_->context.replacePicture(pixels.data());
     } else {
         impl_->patchDepthProgram.draw(shapes);
     }
     clearCoordinates(scene);
-    impl_->densityStrip.draw(scene);
+    impl_->coordinatesPlot.draw(scene);
     overlay.draw();
     impl_->context.finish();
 }

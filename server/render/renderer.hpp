@@ -1,6 +1,6 @@
 #pragma once
-// Draws scenes. Slices without fog, and the projection of the whole object, are drawn without OpenGL if the processor
-// supports it; everything else is drawn with OSMesa.
+// Draws scenes. In pictures without fog, the slices, the projection of the whole object and the axes symbol are drawn
+// without OpenGL if the processor has AVX2 and FMA; everything else is drawn with OSMesa.
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +17,8 @@ namespace oval4d::render {
 /// empty, the path set at build time.
 std::string fontFile();
 
-/// How slices without fog, and the projection of the whole object that is shown with them, are drawn.
+/// How the slices, the projection of the whole object and the axes symbol are drawn. In pictures with fog, or narrower
+/// than ShapeRasterizer::kMinWidth, they are always drawn with OpenGL.
 enum class ShapeBackend : std::uint8_t {
     fastest,  ///< by a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
     open_gl,  ///< always with OpenGL
@@ -28,10 +29,10 @@ enum class ShapeBackend : std::uint8_t {
 class Renderer {
   public:
     /// Creates the context and compiles all shaders. `font` is the path of a font file in any format that FreeType
-    /// reads. If `forkJoin` is not null, shapes that are drawn without OpenGL are drawn with two threads, unless the
-    /// environment variable LP_NUM_THREADS (the number of threads of llvmpipe, the rasterizer of Mesa) is 0 or 1.
-    /// `forkJoin` must outlive this object. Throws std::runtime_error if no context can be created, a shader does not
-    /// compile, or the font cannot be read.
+    /// reads. If `forkJoin` is not null, two threads draw the shapes that are drawn without OpenGL. The values 0 and 1
+    /// of the environment variable LP_NUM_THREADS (the number of threads of llvmpipe, the rasterizer of Mesa) forbid
+    /// the second thread. `forkJoin` must outlive this object. Throws std::runtime_error if no context can be created,
+    /// a shader does not compile, or the font cannot be read.
     explicit Renderer(const std::string& font = fontFile(), ShapeBackend drawing = ShapeBackend::fastest,
                       parallel::ForkJoin* forkJoin = nullptr);
     ~Renderer();

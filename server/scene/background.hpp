@@ -17,8 +17,8 @@ inline constexpr auto kSchemes =
 enum class Background : std::uint8_t {
     automatic = 0,    ///< dark or light, as the viewer prefers; dark if this is not known; "auto" in messages
     dark = 1,         ///< nearly black
-    light = 2,        ///< nearly white, as the page in its light scheme
-    white = 3,        ///< as paper
+    light = 2,        ///< nearly white, like the page in its light scheme
+    white = 3,        ///< like paper
     transparent = 4,  ///< none in PNG files, white elsewhere; the other colors are those for `white`
 };
 inline constexpr auto kBackgrounds =

@@ -13,7 +13,8 @@ struct Viewport {
 };
 
 /// A perspective camera in a right-handed coordinate system. `shiftX` and `shiftY` move the image of the slices right
-/// and up by these fractions of the viewport's width and height, to leave room for the parallel coordinates.
+/// and up by these fractions of the viewport's width and height, to leave room for other parts of the picture, such as
+/// the parallel coordinates.
 struct Camera {
     glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};  ///< the camera looks from `eye` to `target`
     double fieldOfView = 0.7;                         ///< vertical, radians

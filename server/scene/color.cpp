@@ -62,10 +62,10 @@ Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
     return colorFor(scheme, i % 2 == 0 ? Lightness{0.76, 0.61} : Lightness{0.69, 0.5}, 0.18, hue);
 }
 
-// Colors up to kFew cells with well-separated hues. For more cells, the Hopf map takes the direction of each cell's
-// center to a point on the 2-sphere; the longitude of this point determines the hue, and its latitude the lightness.
-// The cells of a ring along a Hopf fiber therefore have the same color.
-void paintByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
+// Gives up to kFew cells well-separated hues. For more cells, the Hopf map takes the direction of each cell's center to
+// a point on the 2-sphere; the longitude of this point determines the hue, and its latitude the lightness. The cells of
+// a ring along a Hopf fiber therefore have the same color.
+void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
         for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinct(c, out.size(), scheme);
@@ -83,7 +83,7 @@ void paintByCell(const slicing::Object& object, Scheme scheme, std::vector<Color
     }
 }
 
-void paintByType(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
+void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     const std::size_t types = slicing::infoOf(object).cellTypes.size();
     const auto typeOfCell = slicing::typeOfCells(object);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
@@ -187,27 +187,27 @@ Color noValueColor() {
     return kGray;
 }
 
-void CellPainter::paint(const slicing::Object& object, Coloring coloring, Scheme scheme,
-                        const geometry::Rotation& orientation, std::vector<Color>& out) {
+void CellPainter::assignColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                               const geometry::Rotation& orientation, std::vector<Color>& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const std::size_t cells = slicing::elementCounts(object)[3];
     const bool changed =
-        paintedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != cells;
-    paintedFor_ = info.serial;
+        assignedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != cells;
+    assignedFor_ = info.serial;
     coloring_ = coloring;
     scheme_ = scheme;
     out.resize(cells);
-    if (changed && coloring == Coloring::cell) paintByCell(object, scheme, out);
-    if (changed && coloring == Coloring::cell_type) paintByType(object, scheme, out);
+    if (changed && coloring == Coloring::cell) assignByCell(object, scheme, out);
+    if (changed && coloring == Coloring::cell_type) assignByType(object, scheme, out);
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
         if (changed) findCenters(object);
-        paintBy(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+        assignBy(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
         if (changed) findNormals(object);
         static const ScalePerScheme kScales = scalesFor(lightScale);
-        paintBy(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
+        assignBy(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }
 
@@ -232,7 +232,7 @@ void CellPainter::findNormals(const slicing::Object& object) {
 }
 
 // Colors each cell by the dot product of its direction and `axis`, a unit vector in coordinates before the rotation.
-void CellPainter::paintBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
+void CellPainter::assignBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));
 }
 

@@ -20,8 +20,9 @@ using Color = std::uint32_t;
 /// Returns the contrast of two colors by WCAG 2.2: 1 if they have the same luminance, 21 for black and white.
 double contrast(Color a, Color b);
 
-// The colors below have the same hues for both schemes. Those for a light ground have a contrast to white of at least
-// 3.6. Where a light brightens them, the contrast is at least 3, to white and to a nearly white ground.
+// The colors below have the same hues for both schemes. Those for a light background have a contrast to white of at
+// least 3.6. Where the shading of the drawing brightens them, the contrast to white and to a nearly white background is
+// still at least 3.
 
 /// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
 /// of the object's cell types.
@@ -38,7 +39,7 @@ Color plainColor(Scheme scheme = Scheme::dark);
 Color divergingColor(double value, Scheme scheme = Scheme::dark);
 
 /// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; on a
-/// light ground, the yellow is as dark as an olive. Values outside this range have the color of the nearer end.
+/// light ground, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
 Color sequentialColor(double value, Scheme scheme = Scheme::dark);
 
 /// Returns the color of points without a value: a gray.
@@ -58,15 +59,15 @@ class CellPainter {
     /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
     ///   rotation and the direction toward a light in four dimensions.
     /// - Other values: plainColor().
-    void paint(const slicing::Object& object, Coloring coloring, Scheme scheme, const geometry::Rotation& orientation,
-               std::vector<Color>& out);
+    void assignColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                      const geometry::Rotation& orientation, std::vector<Color>& out);
 
   private:
     void findCenters(const slicing::Object& object);
     void findNormals(const slicing::Object& object);
-    void paintBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
+    void assignBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
 
-    std::uint64_t paintedFor_ = 0;  // the serial number of the object whose cells were last colored
+    std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells were last colored
     Coloring coloring_ = Coloring::cell;
     Scheme scheme_ = Scheme::dark;
     std::vector<glm::dvec4> directions_;  // per cell, before the rotation: with Coloring::w, its center divided by the

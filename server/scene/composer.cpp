@@ -28,12 +28,12 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
 
 }  // namespace
 
-// Sets the members of `out` that depend on neither the orientation nor the slices.
+// Sets the title, the circumradius, the look and the viewport of `out`, and finds whether the object has changed.
 void Composer::setObject(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;
     object_ = info.serial;
-    if (objectChanged_) ballRadius_ = slicing::ballRadius(object);
+    if (objectChanged_) ballRadius_ = slicing::relativeBallRadius(object);
     out.title = info.name;
     out.circumradius = info.circumradius;
     out.look = look;
@@ -78,15 +78,15 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.slices = &slices;
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
-    out.isNonconvex = isField || !info.convex;
-    out.faceOpacity = out.isNonconvex ? 1 : out.style().faceOpacity;
+    out.facesMayCross = isField || !info.convex;
+    out.faceOpacity = out.facesMayCross ? 1 : out.style().faceOpacity;
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
     if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeOn(look.background));
     out.visibilities = visibilities_;
     removeHighlightColor(out);
-    cellPainter_.paint(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
+    cellPainter_.assignColors(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
@@ -99,7 +99,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    if (out.isNonconvex && !isField && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
+    if (out.facesMayCross && !isField && look.parts.faces)
+        filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
     out.patchCells.clear();
     for (const slicing::FilledFaces::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
@@ -167,16 +168,18 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
-    // The projection has many more bars in less room than a slice, so its balls and bars are thinner.
+    // The projection has many more bars in less room than a slice, so its balls and bars are thinner, by the factor
+    // kThickness. kSection and kThinSection: the radius of the bars of the focus slice's section, and of other
+    // sections, relative to the bars of the object.
     constexpr double kThickness = 0.55, kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
     const bool perspective = look.projection.kind == ProjectionKind::perspective;
     const double eye = look.projection.eye;
     const int focusSlice = focus - slices.planes.first;
-    const bool all = look.parts.sections;
+    const bool all = look.parts.allSections;
     const slicing::Projector::Options options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
-                                              .cells = look.parts.cells,
+                                              .cells = look.parts.projectionFaces,
                                               .culled = !look.parts.back,
                                               .firstSlice = all ? 0 : focusSlice,
                                               .endSlice = all ? slices.planes.count : focusSlice + 1};
@@ -198,7 +201,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const bool isFocus = i == focusSlice;
         const double thickness = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
-        const bool filled = isFocus && look.parts.faces && !out.isNonconvex;
+        const bool filled = isFocus && look.parts.faces && !out.facesMayCross;
         const bool points = !slices.ballScale.empty();
         projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});
     }
@@ -243,26 +246,26 @@ void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {
 }
 
 void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out) {
-    if (densityObject_ != object_ || densityTurn_ != orientation || out.density.empty()) {
+    if (densityObject_ != object_ || densityTurn_ != orientation || out.plotTones.empty()) {
         density_.measure(out.slices->rotatedVertices, glm::dmat4(1), out.circumradius);
         densityObject_ = object_;
         densityTurn_ = orientation;
     }
     const auto tones = density_.tones();
-    out.density.assign(tones.begin(), tones.end());
+    out.plotTones.assign(tones.begin(), tones.end());
 }
 
 void Composer::measureValues(const Object& object, const geometry::Rotation& orientation, Scene& out) {
     const slicing::FieldSettings& settings = out.look.field;
     if (densityObject_ != object_ || densityTurn_ != orientation || histogramLevels_ != settings.levels ||
-        out.density.empty()) {
+        out.plotTones.empty()) {
         histogram_.measure(*slicing::fieldIn(object), orientation, settings.levels);
         densityObject_ = object_;
         densityTurn_ = orientation;
         histogramLevels_ = settings.levels;
     }
     const auto tones = histogram_.tones();
-    out.density.assign(tones.begin(), tones.end());
+    out.plotTones.assign(tones.begin(), tones.end());
     const auto& [least, greatest] = histogram_.range();
     out.histogram.reach = histogram_.reach();
     out.histogram.least = least;

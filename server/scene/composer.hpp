@@ -72,7 +72,7 @@ class Composer {
     slicing::FaceFiller filler_;
     std::uint64_t object_ = 0;    // the serial number of the object of the last call
     bool objectChanged_ = false;  // whether the object has changed since the last call of compose()
-    double ballRadius_ = 0;       // the ball radius of this object, as a fraction of the slice radius
+    double ballRadius_ = 0;       // the ball radius of the object of the last call, as a fraction of the slice radius
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;

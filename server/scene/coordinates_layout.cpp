@@ -14,24 +14,24 @@ namespace {
 // Returns the width between the margins, in viewport heights; at least half the viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep = 0.42;                            // between neighboring axes of a strip or histogram
-constexpr double kStripAmplitude = 0.056, kStripNameRoom = 1.1;  // the latter in heights of text
+constexpr double kMaxAxisStep = 0.42;                           // between neighboring axes of a strip or histogram
+constexpr double kPlotAmplitude = 0.056, kStripNameRoom = 1.1;  // the latter in heights of text
 
-void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
-    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kStripAmplitude};
-    out.density = true;
+void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
+    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};
+    out.isDensityStrip = true;
     out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
     out.left = (aspect - 3 * out.lineStep - out.lineWidth) / 2;
-    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kPlotAmplitude;
 }
 
 void layOutHistogram(double aspect, CoordinatesLayout& out) {
     constexpr double kGap = 0.08;  // between two panels, as a fraction of the distance from one to the next
-    out = {.lineWidth = 0.0022, .amplitude = kStripAmplitude};
+    out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
     out.panel = (1 - kGap) * out.lineStep;
     out.left = (aspect - 3 * out.lineStep - out.panel) / 2;
-    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kPlotAmplitude;
 }
 
 }  // namespace
@@ -45,11 +45,11 @@ void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesL
     constexpr double kMinColumn = 0.0095;
     constexpr double kMaxColumn = 0.15;
     if (vertices > kMaxVerticesAsLines) {
-        layOutStrip(vertices, aspect, out);
+        layOutDensityStrip(vertices, aspect, out);
         return;
     }
     const double width = availableWidth(aspect);
-    out.density = false;
+    out.isDensityStrip = false;
     out.panel = 0;
     const auto count = static_cast<double>(std::max<std::size_t>(vertices, 1));
     out.rows = std::clamp(static_cast<int>(std::ceil(count * kMinColumn / width)), 1, 6);

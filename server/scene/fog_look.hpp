@@ -21,18 +21,18 @@ using FogTable = std::vector<std::uint32_t>;
 /// The number of entries of a FogTable that is not empty.
 inline constexpr std::size_t kFogEntries = 256;
 
-/// Makes the table of the transfer function with these control points: none, or at least two, in ascending order of
-/// different values. Entry 1 is for the value of the first point, entry 255 for that of the last. A point without a
-/// color gets a color of divergingColor(), from blue at the first point to amber at the last. Between two points, sRGB
-/// colors and opacities are interpolated linearly. Overwrites `out`.
+/// Makes the table of the transfer function with these control points. `points` is empty, or contains at least two
+/// points with strictly ascending values. Entry 1 is for the value of the first point, entry 255 for the value of the
+/// last. A point without a color gets a color of divergingColor(), from blue at the first point to amber at the last.
+/// Between two points, sRGB colors and opacities are interpolated linearly. Overwrites `out`.
 void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
-/// The number of cubes of a lattice along each side of a block.
+/// findFogBlocks() divides a lattice into blocks. This is the number of lattice cubes along each side of a block.
 inline constexpr int kFogBlock = 4;
 
-/// Finds the blocks of a lattice in which there is fog. For each block, x fastest, writes 255 to `out` if any value
-/// between the least and the greatest value of the block's points is not transparent, else 0; ignores points without a
-/// value. Returns the number of blocks along each axis. Overwrites `out`.
+/// Finds the blocks of a lattice that contain fog. Overwrites `out` with one byte per block; x varies fastest. The byte
+/// is 255 if `table` gives an opacity above 0 to any value between the least and the greatest value of the block's
+/// points, else 0. Points without a value are ignored. Returns the number of blocks along each axis.
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::scene

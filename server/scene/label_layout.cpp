@@ -101,8 +101,8 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
         if (isMoved &&
             (box.center.y < bottom + box.half.y || overlap(box, axes) || isOverSlice(i, box, camera, toView, aspect)))
             return false;
-        // At this point, it is decided which labels are kept between the focus slice and this one, and among as many
-        // slices on the other side.
+        // The labels of slices nearer to the focus slice are decided before this one, and so is the label at the same
+        // distance if its index is less. This label must not overlap those of them that are kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

@@ -40,10 +40,11 @@ class LabelLayout {
     /// Appends the name of the section to the focus slice's label, if there is room for it in the picture.
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
-    /// Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, at most every
-    /// k-th. Also removes labels that are behind the eye, extend beyond the picture, or overlap labels that are kept
-    /// nearer to the focus slice's. If the viewer has moved the camera (`isMoved`), also removes labels that overlap
-    /// another slice or the box of the axes, or extend below `bottom`, the upper edge of the coordinates.
+    /// Removes labels so that no two overlap: keeps the focus slice's label and, of the others, at most every k-th (see
+    /// smallestStep()). Also removes a label if it is behind the eye, if it extends beyond the picture, or if it
+    /// overlaps the kept label of a slice nearer to the focus slice. If the viewer has moved the camera (`isMoved`),
+    /// also removes a label if it overlaps another slice or the axes symbol (whose box is `axes`), or if it extends
+    /// below `bottom`, the upper edge of the coordinates.
     void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
 
   private:
@@ -59,38 +60,38 @@ class LabelLayout {
     // The center of the slice with the parameter u, on the plane at distance 1 from the eye.
     glm::dvec2 onPlane(double u) const;
 
-    // Returns how far the slice with the parameter u, regarded as a sphere, extends on the screen from its center in a
-    // direction, a unit vector. The result is in viewport heights; at the depth of the center, a world unit appears as
-    // `scale` viewport heights. Away from the optical axis, perspective stretches the image of the sphere. A plane
-    // through the eye that appears as a line perpendicular to the direction n has the equation n · p = e d for points p
-    // at the depth d. It touches the sphere with the center c at the depth d and the radius r if (n · c − e d)² = r² (1
-    // + e²).
+    // Returns how far the slice with the parameter u, regarded as a sphere, extends on the screen from its center in
+    // `direction`, a unit vector. The result is in viewport heights; at the depth of the center, a world unit appears
+    // as `scale` viewport heights. Away from the optical axis, perspective stretches the image of the sphere. Let p be
+    // the coordinates of a point parallel to the screen, and d its depth. A plane through the eye that appears as a
+    // line perpendicular to the direction n has the equation n · p = e d for some number e. The plane touches a sphere
+    // with the radius r whose center has the coordinates c and the depth d if (n · c − e d)² = r² (1 + e²).
     double extentOf(double u, const glm::dvec2& direction, double scale) const;
 
     // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights; at
     // the depth of the slice, a world unit appears as `scale` viewport heights.
     glm::dvec2 offsetOf(std::size_t i, double scale) const;
 
-    // Returns the box of label i before the viewer moves the camera, measured from the center of the focus slice, if
-    // one unit on the plane at distance 1 from the eye appears as `scale` viewport heights.
+    // Returns the box of label i before the viewer moves the camera, in viewport heights from the center of the focus
+    // slice. `scale`: as in overhang().
     Box boxAt(std::size_t i, double scale) const;
 
     // Returns the place on the screen of a point in view coordinates, in viewport heights from the lower left corner.
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
 
-    // Returns whether the box of label i overlaps another slice than its own.
+    // Returns whether the box of label i overlaps a slice other than slice i.
     bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
                      double aspect) const;
 
     // Returns the box of a label, with the name of its section, as the camera sees it.
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
-    // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
-    // viewer moves the camera.
+    // Returns the smallest k such that, before the viewer moves the camera, no two labels overlap if only every k-th
+    // one, counted from the focus slice, is kept. `scale`: as in overhang().
     std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
 
     const Oval& oval_;
-    ViewSpace space_;
+    InitialViewSpace space_;
     double radius_, width_ = 0;  // width_: of the longest number, as a multiple of the font size
     double nameWidth_ = 0;       // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;

@@ -26,7 +26,7 @@ namespace {
 // Returns the bounds of the slices, projected onto the plane at distance 1 from the eye. Each slice is treated as a
 // sphere whose projection is a circle, as if the sphere were on the optical axis.
 Rect boundsOf(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius) {
-    const ViewSpace space(oval);
+    const InitialViewSpace space(oval);
     constexpr double kInf = std::numeric_limits<double>::infinity();
     Rect bounds{kInf, -kInf, kInf, -kInf};
     for (std::size_t i = 0; i < placements.size(); ++i) {
@@ -40,8 +40,9 @@ Rect boundsOf(const std::vector<SlicePlacement>& placements, const Oval& oval, d
     return bounds;
 }
 
-// Extends `bounds` so that it contains the projection of the whole object, on the plane at distance 1 from the eye.
-void include(const ProjectionPlacement& placement, const ViewSpace& space, Rect& bounds) {
+// Extends `bounds`, a rectangle in the plane at distance 1 from the eye, so that it also contains the 4-D projection,
+// which stands at `placement`.
+void include(const ProjectionPlacement& placement, const InitialViewSpace& space, Rect& bounds) {
     const double depth = space.depth(placement.position);
     const double x = placement.position.x / depth, y = space.up(placement.position) / depth;
     const double r = placement.radius / depth;
@@ -49,15 +50,17 @@ void include(const ProjectionPlacement& placement, const ViewSpace& space, Rect&
               std::max(bounds.top, y + r)};
 }
 
-// Places the projection beside the focus slice, whose radius is `reach`, or above it in a tall window.
+// Places the projection to the right of the focus slice or, in a tall room, above it. `reach`: the radius of the slice
+// with its balls.
 ProjectionPlacement besideFocusSlice(double aspect, double reach) {
     constexpr double kGap = 0.2;
     const double radius = 1.1 * reach, distance = reach + radius + kGap;
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
 }
 
-// Places the projection above the row of the strip view, whose half width is `halfWidth`. If the row leaves enough
-// height in a room with this aspect ratio, both together fill the room.
+// Places the projection above the row of the strip view. `halfWidth`: half the width of the row. `reach`: the radius of
+// a slice with its balls. The projection fills most of the height that the row leaves in a room with this aspect ratio,
+// but it is at least as large as a slice and at most as wide as the row.
 ProjectionPlacement aboveRow(double halfWidth, double aspect, double reach) {
     constexpr double kGap = 0.3, kShare = 0.9;
     const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves, in world units
@@ -65,12 +68,13 @@ ProjectionPlacement aboveRow(double halfWidth, double aspect, double reach) {
     return {true, {0, reach + kGap + radius, 0}, radius};
 }
 
-// Places the projection in the middle of the oval, on the parabola's axis: at the point where the largest circle on the
-// screen fits between the slices and below `top`, a height on the plane at distance 1 from the eye.
+// Places the projection in the middle of the oval, on the axis of this parabola: at the point where the largest circle
+// on the screen fits between the slices and below `top`, a height on the plane at distance 1 from the eye. `radius`:
+// the radius of the slices with their balls.
 ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius,
                                double top) {
     constexpr double kGap = 0.94;
-    const ViewSpace space(oval);
+    const InitialViewSpace space(oval);
     const auto radiusAt = [&](double depthOfOval) {
         const glm::dvec3 p{0, 0, -depthOfOval};
         const double y = space.up(p) / space.depth(p);
@@ -126,7 +130,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
                  const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
-    const ViewSpace space(oval);
+    const InitialViewSpace space(oval);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -156,14 +160,14 @@ void aim(const CameraOrbit& orbit, const Oval& oval, Camera& camera) {
     camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
 }
 
-// Returns the box of the axes symbol and the names of the axes. The axes may point in any direction.
+// Returns a box that contains the axes symbol and the names of the axes, in whatever direction the axes point.
 Box boxOf(const AxesLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
 }
 
-// Returns the part of `room` for the slices that leaves room for their labels, too. It has at least half the width and
-// height of `room`.
+// Returns the part of `room` in which the slices must be placed so that their labels fit into `room`, too. This part
+// has at least half the width and half the height of `room`.
 Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
@@ -183,13 +187,14 @@ struct Circle {
     double radius;
 };
 
-Circle circleOf(const ProjectionPlacement& placement, const ViewSpace& space) {
+Circle circleOf(const ProjectionPlacement& placement, const InitialViewSpace& space) {
     const double depth = space.depth(placement.position);
     return {glm::dvec2(placement.position.x, space.up(placement.position)) / depth, placement.radius / depth};
 }
 
-// Returns the part of `room` for the slices, like roomInside(). If a circle would cover the axes symbol, uses only the
-// part of the room to the right of the symbol or the part below it, whichever lets the slices be larger.
+// Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
+// slice and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
+// the symbol or the part below it, whichever lets the slice be larger.
 Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, std::span<const Circle> circles,
                  const Box& axes) {
     const Rect inside = roomInside(room, bounds, labels);
@@ -218,7 +223,7 @@ MatrixLayout placeMatrix(Rect& room, double ballRadius) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // Sections of objects with many elements have many points, so these shrink with the balls.
+    // Objects with many elements have small balls and sections with many points. So these points are small, too.
     matrix.pointRadius = std::min(ballRadius * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {
@@ -269,18 +274,18 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     out.projectionPlacement = {};
     if (projected && alone) {
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
-        include(out.projectionPlacement, ViewSpace(oval), bounds);
+        include(out.projectionPlacement, InitialViewSpace(oval), bounds);
     } else if (projected && strip) {
         out.projectionPlacement =
             aboveRow(oval.halfWidth + reach, (room.right - room.left) / (room.top - room.bottom), reach);
-        include(out.projectionPlacement, ViewSpace(oval), bounds);
+        include(out.projectionPlacement, InitialViewSpace(oval), bounds);
     }
     LabelLayout labels(oval, reach, decimals, content.originW, out.placements);
     if (strip) labels.shrink((room.right - room.left) / planes.count);
     Rect inside{};
     if (alone) {
         const Circle slice{glm::dvec2(0), reach / oval.distance};
-        const std::array circles{slice, projected ? circleOf(out.projectionPlacement, ViewSpace(oval)) : slice};
+        const std::array circles{slice, projected ? circleOf(out.projectionPlacement, InitialViewSpace(oval)) : slice};
         inside = clearOfAxes(room, bounds, labels, circles, boxOf(out.axes));
     } else {
         inside = roomInside(room, bounds, labels);

@@ -50,13 +50,14 @@ struct CoordinatesLayout {
     double lineWidth = 0;
     double amplitude = 0;  ///< the length of a line whose value is the circumradius
     bool named = true;     ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
-    bool density = false;  ///< whether a density strip is drawn
-    double panel = 0;      ///< the width of the panels of a field's histogram; 0 if none is drawn
+    /// Whether a density strip is drawn.
+    bool isDensityStrip = false;
+    double panel = 0;  ///< the width of the panels of a field's histogram; 0 if none is drawn
 
     /// Returns the height of the part of the picture that belongs to the coordinates.
     double top() const { return zero + amplitude + 0.01; }
     /// Returns whether each vertex has lines of its own.
-    bool hasLines() const { return !density && panel == 0; }
+    bool hasLines() const { return !isDensityStrip && panel == 0; }
     bool operator==(const CoordinatesLayout&) const = default;
 };
 
@@ -89,7 +90,8 @@ struct MatrixLayout {
     double panel = 0;                       ///< the side of a panel
     double step = 0;                        ///< the distance from a panel to the next
     double lineWidth = 0, pointRadius = 0;  ///< the width of the edges and the radius of the points of sections
-    /// The distance, in circumradii, from the center of a panel, which shows the object's origin, to its sides.
+    /// The distance, in circumradii, from the center of a panel to the sides of the panel. The center shows the
+    /// object's origin.
     static constexpr double kReach = 1.08;
 
     /// Returns the center of the panel in this row and column (0 … 3).

@@ -60,9 +60,9 @@ inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
-/// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval,
-/// above the row of the strip view or, if only the focus slice is drawn, beside this slice. Stored sessions contain the
-/// numbers of the enumerators.
+/// The kinds of projection of the whole object to three dimensions. In the oval, the projection is shown in the middle;
+/// in the strip view, above the row. If only the focus slice is drawn, the projection is beside it or, in a tall
+/// picture, above it. Stored sessions contain the numbers of the enumerators.
 enum class ProjectionKind : std::uint8_t {
     off = 0,
     perspective = 1,  ///< from an eye on the positive w axis

@@ -1,5 +1,5 @@
 #pragma once
-// The oval, as the camera sees it before the viewer moves it.
+// The oval, and how the camera sees it before the viewer moves the camera.
 
 #include <cmath>
 #include <cstddef>
@@ -8,15 +8,16 @@
 
 namespace oval4d::scene {
 
-/// The curve on which the slices stand, for a circumradius of 1. The slice with the parameter u (from −1 for the first
-/// slice to 1 for the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the
-/// distance `distance`, downward by the angle `pitch` (radians). If the depth is 0, the slices are in a straight row.
+/// The curve on which the slices stand, in world units. The slice with the parameter u (from −1 for the first slice to
+/// 1 for the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the distance
+/// `distance`, downward by the angle `pitch` (radians). If the depth is 0, the slices are in a straight row.
 struct Oval {
     double halfWidth, depth, pitch, distance;
 
-    /// Returns the radius of the circle within which a slice is assumed to lie, relative to the circumradius: 1 in a
-    /// row. On the curve, it is the radius of the slice of the circumscribed sphere if the first and the last slice
-    /// only touch this sphere; there is just enough room for such slices.
+    /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
+    /// assumed to lie. In a row, it is 1. On the curve, it is the radius of the slice of the circumscribed sphere, on
+    /// the assumption that the hyperplanes of the first and the last slice only touch this sphere; the curve has just
+    /// enough room for such slices.
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
     /// Returns whether there are several slices in a straight row.
     bool isRow() const { return depth == 0 && halfWidth > 0; }
@@ -42,9 +43,9 @@ inline double parameterOf(std::size_t i, std::size_t count) {
 
 /// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch
 /// about the x axis.
-struct ViewSpace {
+struct InitialViewSpace {
     double cos, sin, distance;
-    explicit ViewSpace(const Oval& oval)
+    explicit InitialViewSpace(const Oval& oval)
         : cos(std::cos(oval.pitch)), sin(std::sin(oval.pitch)), distance(oval.distance) {}
     /// Returns the depth of a point: its distance from the eye along the view axis.
     double depth(const glm::dvec3& p) const { return distance - p.y * sin - p.z * cos; }

@@ -9,9 +9,10 @@ namespace oval4d::scene {
 /// Whether each part of a picture is shown.
 struct Parts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
-    bool cells = false;     ///< in the projection of the whole object: the 2-faces, which bound the projected cells
-    bool back = true;       ///< in the projection: the elements that cells hide from the 4-D eye
-    bool sections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
+    /// In the projection of the whole object: the 2-faces, which bound the projected cells.
+    bool projectionFaces = false;
+    bool back = true;          ///< in the projection: the elements that cells hide from the 4-D eye
+    bool allSections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
     bool operator==(const Parts&) const = default;
 };
 
@@ -28,9 +29,9 @@ inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &Parts::faces
                                                          {"balls", &Parts::balls},
                                                          {"coordinates", &Parts::coordinates},
                                                          {"labels", &Parts::labels},
-                                                         {"cells", &Parts::cells},
+                                                         {"cells", &Parts::projectionFaces},
                                                          {"back", &Parts::back},
-                                                         {"sections", &Parts::sections}});
+                                                         {"sections", &Parts::allSections}});
 static_assert(sizeof(Parts) == kParts.size(), "every part has a row");
 
 }  // namespace oval4d::scene

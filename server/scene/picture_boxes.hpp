@@ -8,7 +8,7 @@
 
 namespace oval4d::scene {
 
-/// The distance of what is drawn from the edges of the picture.
+/// The width of the margin along the edges of the picture.
 inline constexpr double kMargin = 0.02;
 
 /// A rectangle, by its sides.

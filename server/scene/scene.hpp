@@ -55,8 +55,8 @@ struct SectionMatrix {
 
 /// The axes of the histogram of a field's values: their ranges, and the levels that are drawn as lines.
 struct HistogramAxes {
-    /// For the panel of each axis: the distance from the middle of the panel, which shows the object's origin, to its
-    /// left and right edges, in the object's units.
+    /// For each axis: the distance from the middle of the panel to the left and right edges of the panel, in the
+    /// object's units. The middle shows the object's origin.
     std::array<double, 4> reach{1, 1, 1, 1};
     double least = 0, greatest = 1;  ///< the values at the lower and the upper edge
     /// A level of the field that is drawn as a line.
@@ -85,21 +85,21 @@ struct Scene : Layout {
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
     slicing::ElementSources highlight;         ///< the vertices and edges of slices that show the highlighted element
-    slicing::SectionNames sectionNames;        ///< of the focus slice
+    slicing::SectionNames sectionNames;        ///< the names of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
     /// instead of their loops. Also true for fields, of which no faces are drawn.
-    bool isNonconvex = false;
+    bool facesMayCross = false;
     slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
-                                            ///< `isNonconvex` is false
-    SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty for objects other than fields
+                                            ///< `facesMayCross` is false
+    SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty if none are drawn
     FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
-    /// DensityPlot::tones() for the density strip, or slicing::CoordinateHistograms::tones() for the histogram of a
-    /// field; valid if showsDensity() or showsHistogram().
-    std::vector<std::uint8_t> density;
+    /// If showsDensity(), the tones of the density plot (DensityPlot::tones()); if showsHistogram(), those of the
+    /// histograms of a field (slicing::CoordinateHistograms::tones()); otherwise without meaning.
+    std::vector<std::uint8_t> plotTones;
     HistogramAxes histogram;  ///< valid if showsHistogram()
 
     /// Returns the style of the picture, which depends on its background.
@@ -112,7 +112,7 @@ struct Scene : Layout {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];
     }
     /// Returns whether the parallel coordinates are drawn as densities, because the vertices are too many for lines.
-    bool showsDensity() const { return look.parts.coordinates && coordinates.density; }
+    bool showsDensity() const { return look.parts.coordinates && coordinates.isDensityStrip; }
     /// Returns whether the histogram of a field's values is shown.
     bool showsHistogram() const { return look.parts.coordinates && coordinates.panel > 0; }
 };

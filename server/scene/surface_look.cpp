@@ -17,7 +17,9 @@ Color ValueScale::color(double value) const {
 }
 
 ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme) {
-    constexpr double kLeastSide = 1.0 / 9;  // the shorter side of 0 is at least this part of the longer side
+    // 0 divides the range into two parts. On a diverging scale, the shorter part is at least this fraction of the
+    // longer one.
+    constexpr double kLeastSide = 1.0 / 9;
     const auto& [least, greatest] = range;
     const double reach = std::max(-least, greatest);
     if (least < 0 && greatest > 0 && std::min(-least, greatest) >= kLeastSide * reach)

@@ -42,7 +42,7 @@ struct SurfaceLook {
 
     /// The surface of one level.
     struct Level {
-        std::size_t index = 0;  ///< the index in FieldSettings::levels; SliceSurface::level() returns the same index
+        std::size_t index = 0;  ///< the index in FieldSettings::levels, which SliceSurface::levelIndex() also returns
         Color color = 0;
         double opacity = 1;  ///< 0 … 1
         bool caps = false;   ///< whether its caps are drawn
@@ -78,7 +78,7 @@ struct SurfaceLook {
 Color growthColor(float growth, Scheme scheme = Scheme::dark);
 
 /// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell, else
-/// plainColor(), also if the colors depend on the slice or the point.
+/// plainColor(). Ignores colors that depend on the slice or the point.
 Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
 /// Chooses how the surfaces are drawn. The innermost level is opaque; the other levels are translucent, so that inner

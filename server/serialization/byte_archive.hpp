@@ -20,7 +20,7 @@ namespace oval4d::serialization {
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Other aggregates (structs without constructors). Their members are written one by one.
+/// Other aggregates (structs without constructors). Their members are written and read one by one.
 template <typename T>
 concept Memberwise = std::is_aggregate_v<T> && !BytewiseCopyable<T>;
 
@@ -58,7 +58,8 @@ class ByteWriter {
 };
 
 /// Reads values. They must be read in the order and with the types in which a ByteWriter wrote them. Throws
-/// std::runtime_error if bytes are missing, or if a Boolean is neither 0 nor 1.
+/// std::runtime_error if bytes are missing, or if a Boolean is neither 0 nor 1. Does not check the Booleans that are
+/// members of a BytewiseCopyable class.
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -83,7 +84,8 @@ class ByteReader {
     }
     template <Memberwise T>
     void operator()(T& value) {
-        boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });  // pfr would copy *this itself
+        // A lambda, because for_each_field() would copy *this and advance only the copy.
+        boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });
     }
 
   private:

@@ -16,9 +16,9 @@ using CellTypeList = std::vector<std::uint32_t>;
 /// duplicates; for an empty string and for "none", returns an empty list. Error: `bad_expression`.
 Result<CellTypeList> parseCellTypes(std::string_view text);
 
-/// Returns the cell types of `object` that `text` selects: numbers, or one name, such as "hexagonal prism", which
-/// selects all cell types with this name. Returns at least one cell type. Errors: `bad_expression`; `out_of_range` if
-/// the object has no cell type with one of the numbers.
+/// Returns the cell types of `object` that `text` selects, at least one. `text` has the form that parseCellTypes()
+/// accepts, or it is one name, such as "hexagonal prism", which selects all cell types with this name. Errors:
+/// `bad_expression` if `text` is neither; `out_of_range` if the object has no cell type with one of the numbers.
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
 /// hide(), fade() and reveal() return `filter`, changed so that the cell types in `changed` are hidden, faded or fully

@@ -1,12 +1,15 @@
 #pragma once
 // The commands that change a session. They come from messages, from keys and from the page's command line, which is
-// typed after ':'.
+// typed after ':'. Each command is a struct; its constant kMessageType is the type of the messages that contain it. If
+// the members of the struct are described with Boost.Describe, the message has members with the same names.
 
 #include <array>
+#include <boost/describe/class.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -23,58 +26,64 @@ namespace oval4d::session {
 
 /// A key press.
 struct Key {
+    static constexpr std::string_view kMessageType = "key";
     std::string key;  ///< the value of KeyboardEvent.key in a browser: "y", "K", "2", " ", "["
     bool shift = false, ctrl = false;
 };
+BOOST_DESCRIBE_STRUCT(Key, (), (key, shift, ctrl))
+
 /// Rotates the object.
 struct Rotate {
+    static constexpr std::string_view kMessageType = "rotate";
     geometry::Turn turn;
-    bool continues = false;  ///< whether it belongs to the undo step of the previous command, as in a gesture
+    bool continues = false;  ///< whether it belongs to the undo step of the command before it, as within a gesture
 };
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
+    static constexpr std::string_view kMessageType = "toward";
     slicing::ElementKind kind = slicing::ElementKind::cell;
-    /// The index of the element. If it is absent, the element closest to +w is turned, or the next one if the closest
-    /// is already there.
+    /// The index of the element. If it is absent, turnToward() (settings.hpp) chooses an element.
     std::optional<std::size_t> index;
-    bool immediately = false;  ///< whether to jump there instead of moving
+    bool immediately = false;  ///< whether to turn the object at once, without a continuous motion
 };
-/// Loads an object from the text of a file, or makes a field from a formula, and shows it.
+/// Loads an object from a file, or makes a field from a formula, and shows it.
 struct LoadObject {
+    static constexpr std::string_view kMessageType = "load";
     std::string name;        ///< the name to give to the object
     std::string format;      ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
-    std::string data;        ///< the text of the file, or the formula
-    bool continues = false;  ///< as in Rotate. If true and a field replaces a field, keeps FieldSettings
-                             ///< and, if the circumradius is the same, slices and focus point
+    std::string data;        ///< the text of the file (of an array: its bytes in Base64), or the formula
+    bool continues = false;  ///< as in Rotate. If true and a field replaces a field, FieldSettings stay the same; if
+                             ///< both fields have the same circumradius, so do the slices and the focus point
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
-    /// is the box that the file states.
+    /// is the box that the file states or, without one, fields::defaultBox().
     std::optional<fields::Box> box = {};
     std::string axes = {};            ///< for an array: see fields::ReadOptions
     std::string variable = {};        ///< for an array: see fields::ReadOptions
-    std::string values = {};          ///< the formula of the second function; empty for none
-    std::string valuesVariable = {};  ///< for an array: the variable of the same file that is the second function
-    /// Whether to add the time steps in the file to the loaded array with this name, at the end of w, instead of
+    std::string secondFormula = {};   ///< the formula of the second function; empty for none
+    std::string secondVariable = {};  ///< for an array: the variable of the same file that is the second function
+    /// Whether to add the time steps in the file to the loaded array called `name`, at the end of w, instead of
     /// replacing the array. Makes no undo step: the states of the history show the longer array, too.
     bool append = false;
     /// The file of an array, instead of `data`. If the format is empty, it is recognized from the first bytes of the
     /// file.
     std::shared_ptr<const fields::FileHandle> file = {};
-    /// The files of an array with one time step each, instead of `data`.
+    /// The files of an array, instead of `data`. Each file contains one time step.
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
     /// A Zarr folder, instead of `data`.
     std::shared_ptr<const fields::FileHandle> folder = {};
-    std::string path = {};            ///< the name of an array in the server's data folder, instead of `data`
+    std::string dataName = {};        ///< the name of an array in the server's data folder, instead of `data`
     geometry::Centering center = {};  ///< for a polytope or a point cloud: the point about which it turns
 
-    /// Returns whether the array is in a file, not in `data`; the format may then be empty.
-    bool isFile() const { return file || folder || !series.empty() || !path.empty(); }
+    /// Returns whether the object is an array in files or in a folder, not in `data`; the format may then be empty.
+    bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
 };
 /// Changes the settings that are present; the others keep their values.
 struct Set {
+    static constexpr std::string_view kMessageType = "set";
     bool continues = false;                   ///< as in Rotate
-    std::optional<std::string> object;        ///< a name or alias in the catalogue, or the name of a loaded object
-    std::optional<LoadObject> formula;        ///< the formula of the field called `object`: if the session has no such
-                                              ///< field, it is loaded first
+    std::optional<std::string> object;        ///< the name of the object to show; see findObject()
+    std::optional<LoadObject> formula;        ///< how to make the field called `object` from a formula; it is loaded
+                                              ///< first, unless the session already has the same field
     std::optional<double> pace;               ///< ReferenceFrame::pace
     std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
     std::optional<glm::dmat4> orientation;
@@ -90,7 +99,7 @@ struct Set {
     std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
                                            ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
-    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
+    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< whether each part in scene::kParts is shown
     std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit
     std::optional<scene::Coloring> coloring;
     std::optional<scene::CapStyle> caps;
@@ -106,19 +115,37 @@ struct Set {
     std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 };
-struct Undo {};
-struct Redo {};
+struct Undo {
+    static constexpr std::string_view kMessageType = "undo";
+};
+BOOST_DESCRIBE_STRUCT(Undo, (), ())
+
+struct Redo {
+    static constexpr std::string_view kMessageType = "redo";
+};
+BOOST_DESCRIBE_STRUCT(Redo, (), ())
+
 /// Restores the initial orientation and focus, and ends all motion.
-struct Reset {};
+struct Reset {
+    static constexpr std::string_view kMessageType = "reset";
+};
+BOOST_DESCRIBE_STRUCT(Reset, (), ())
+
 /// Applies a line of the page's command line; see parseCommandLine().
 struct CommandLine {
+    static constexpr std::string_view kMessageType = "command";
     std::string line;  ///< with or without the ':'
 };
+BOOST_DESCRIBE_STRUCT(CommandLine, (), (line))
+
 /// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are.
 /// However, if the query contains an object or rotations, the orientation is first set back to the initial one.
 struct OpenAddress {
+    static constexpr std::string_view kMessageType = "address";
     std::string query;  ///< see parseQuery()
 };
+BOOST_DESCRIBE_STRUCT(OpenAddress, (), (query))
+
 using Command = std::variant<Key, Rotate, TurnToward, Set, LoadObject, Undo, Redo, Reset, CommandLine, OpenAddress>;
 
 }  // namespace oval4d::session

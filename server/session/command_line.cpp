@@ -36,8 +36,9 @@ Words split(std::string_view line) {
 
 bool isUnit(std::string_view word) { return word == "°" || word == "deg" || word == "rad"; }
 
-// Joins words that are separated by blanks, but belong together: words before and after a separator, and numbers and
-// units, as in "highlight=cell: 3" and "30 °". The words must be parts of one line.
+// Joins words that are separated by blanks, but belong together: words before and after one of the characters in
+// `separators`, and numbers and units. Examples are "highlight=cell: 3" and "30 °". All words must be views into the
+// same string.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {
@@ -68,17 +69,19 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
 Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty())
         return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
-    // This separator is unambiguous, because in a formula only a unit (deg, rad) can follow a word.
+    // A formula cannot contain this separator: in a formula, no word directly follows a word, except the units deg and
+    // rad.
     constexpr std::string_view kColoredBy = " colored by ";
     const std::size_t end = rest.find(kColoredBy);
     LoadObject load{std::string(kFormula), std::string(kFormula), std::string(rest.substr(0, end))};
-    if (end != std::string_view::npos) load.values = rest.substr(end + kColoredBy.size());
+    if (end != std::string_view::npos) load.secondFormula = rest.substr(end + kColoredBy.size());
     return Command{std::move(load)};
 }
 
 Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
-    // A polytope's name may contain blanks. If it is the only setting on the line, the rest of the line is the name.
+    // A polytope's name may contain blanks. If `polytope` is the only setting on the line, the rest of the line is the
+    // name.
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
         return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
     Set set;
@@ -107,7 +110,7 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& given, const 
         angles.emplace_back(alpha);
         if (words[0].find(',') != std::string_view::npos) angles.emplace_back(beta);
     }
-    const auto turn = makeTurn(words[0], angles, "xw pi/8 or xw,yz pi/8 pi/5");
+    const auto turn = parsePlanesAndAngles(words[0], angles, "xw pi/8 or xw,yz pi/8 pi/5");
     if (!turn) return turn.error();
     return Command{Rotate{*turn}};
 }
@@ -164,7 +167,8 @@ Result<Command> boostLine(std::string_view rest, const Words& words, const State
 }
 
 // Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type. Without
-// arguments, returns the type of the highlighted cell.
+// arguments, returns the type of the highlighted cell. Errors: those of findCellTypes(), also if there are no arguments
+// and no cell is highlighted.
 Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state) {
     const auto& lit = state.look.highlight;
     if (rest.empty() && lit && lit->kind == slicing::ElementKind::cell)
@@ -172,7 +176,8 @@ Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state
     return findCellTypes(rest, slicing::infoOf(state.object));
 }
 
-// Parses the arguments of hide, fade and show. `show` without arguments shows all cells.
+// Parses the arguments of hide, fade and show; `change` is hide(), fade() or reveal(). `show` without arguments shows
+// all cells.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
 Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
     Set set;

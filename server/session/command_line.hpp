@@ -10,9 +10,9 @@
 namespace oval4d::session {
 
 /// Parses a line of the page's command line, with or without the ':', such as "polytope 24-cell", "set slices=31",
-/// "rotate xw,yz pi/8 pi/5" or "reset". `state` is the current state: its angles are used if "rotate" gives none, and
-/// "hide", "fade" and "show" change its lists of cell types. Errors: `unknown_command`, `bad_expression`,
-/// `out_of_range`, `unknown_polytope`, `unknown_key`.
+/// "rotate xw,yz pi/8 pi/5" or "reset". `state` is the current state, on which some results depend: "rotate" without
+/// angles gives a Rotate by the angles of `state`; "hide", "fade" and "show" give a Set with the changed lists of cell
+/// types of `state`. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`, `unknown_key`.
 Result<Command> parseCommandLine(std::string_view written, const State& state);
 
 }  // namespace oval4d::session

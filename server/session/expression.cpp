@@ -41,10 +41,10 @@ constexpr int kMaxDepth = 64;
 using text::isDigit;
 using text::isLetter;
 
-// The value of a part of an expression, and what it says about units.
+// The value of a part of an expression, and the units in this part.
 struct ValueWithUnit {
     double value = 0;               // in degrees if isInDegrees is true
-    double plain = 0;               // the part of the value that consists of numbers without a unit
+    double plain = 0;               // the sum of those terms that are numbers without a unit
     bool isPlain = false;           // whether `plain` is the whole value
     bool hasUnit = false;           // whether this part contains a unit
     bool isInDegrees = false;       // whether the unit is degrees, and the value is not converted to radians yet
@@ -53,10 +53,10 @@ struct ValueWithUnit {
     std::size_t unitAt = 0;         // the position of the unit in the text
 };
 
-// A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
+// A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluated()
 // catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
-//   angle = atom [unit]
+//   angle = atom [unit]   atom = number | constant | function ( sum ) | ( sum )
 // The unit of a factor or of an exponent applies to the whole product: people read 45/2° as 22.5°, not as 45 divided by
 // an angle. So a product has at most one unit. If `units` is false, a unit is an error except in the argument of a
 // function.
@@ -76,7 +76,7 @@ class Parser {
     }
 
   private:
-    // Returns a sum, in radians if it has a unit.
+    // Parses a sum. Returns its value in radians if it has a unit.
     ValueWithUnit sum() {
         const Depth deeper(*this);
         ValueWithUnit total = inRadians(product());
@@ -118,7 +118,8 @@ class Parser {
         const ValueWithUnit exponent = signedPower();
         return joined(base, exponent, std::pow(base.value, exponent.value));
     }
-    // Returns the product or power of two terms, of which at most one has a unit.
+    // Returns the product, quotient or power of two terms, whose value is `value`. Only one of the terms may have a
+    // unit.
     ValueWithUnit joined(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
@@ -130,7 +131,7 @@ class Parser {
         result.isGroup = false;
         return result;
     }
-    // Converts the value of a product to radians if its unit is degrees.
+    // Returns `term`, a product. If its unit is degrees, converts its value to radians.
     ValueWithUnit inRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
         if (term.hasUnitlessAngle) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
@@ -203,7 +204,7 @@ class Parser {
         at_ += token.size();
         return true;
     }
-    // Like take(), but not if further letters follow.
+    // Like take(), but takes only a whole word, after which no letter follows.
     bool takeWord(std::string_view word) {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);
@@ -284,8 +285,8 @@ Result<double> evaluateAngle(std::string_view text) {
     return term->value;
 }
 
-Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
-                                std::string_view examples) {
+Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
+                                            std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
     if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // the empty name is no plane
     std::vector<geometry::Plane> named;
@@ -326,7 +327,7 @@ Result<geometry::Turn> parseTurn(std::string_view text) {
         if (comma == std::string_view::npos) break;
         rest.remove_prefix(comma + 1);
     }
-    return makeTurn(text.substr(0, colon), angles, kExamples);
+    return parsePlanesAndAngles(text.substr(0, colon), angles, kExamples);
 }
 
 }  // namespace oval4d::session

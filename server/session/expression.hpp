@@ -11,28 +11,29 @@ namespace oval4d::session {
 
 /// Evaluates an expression that is not an angle. It may contain + − * / ^, parentheses, decimal numbers with or without
 /// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). The
-/// arguments of these functions may be angles with units. Error: `bad_expression` if the value is not finite, or, with
-/// the position, for a syntax error and for a unit outside the argument of a function.
+/// arguments of these functions may be angles with units. Error: `bad_expression` if the value is not finite, or if
+/// there is a syntax error or a unit outside the argument of a function; for these two, the message states the
+/// position.
 Result<double> evaluate(std::string_view text);
 
 /// Evaluates one or more expressions that are not angles, with commas between them. Errors: those of evaluate().
 Result<std::vector<double>> evaluateList(std::string_view text);
 
 /// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may
-/// follow a number, name or parenthesis. A unit applies to the whole product in which it stands: 45/2° is 22.5°.
-/// Errors: those of evaluate(); `bad_expression` for a product with two units, and for degrees of an angle in radians,
-/// such as pi/8°; `out_of_range` if the terms of the expression that are numbers without a unit add up to more than a
-/// full turn, because degrees are probably meant.
+/// follow a number, a name or a parenthesis. A unit applies to the whole product in which it stands: 45/2° is 22.5°.
+/// Error `bad_expression`: for a syntax error or a value that is not finite; for a product with two units; and for an
+/// angle that is in radians already, but has a unit of degrees, such as pi/8°. Error `out_of_range`: if the sum of
+/// those terms that are numbers without a unit is more than a full turn, because degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
-/// Returns a rotation. `planes` names different planes, such as "xw" or "xw,yz" (see geometry::Turn). `angles` must
-/// have one expression for each plane; see evaluateAngle(). `examples` shows how rotations are
-/// written; error messages quote it. Errors: `bad_expression`; those of evaluateAngle().
-Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
-                                std::string_view examples);
+/// Returns the rotation in these planes by these angles. `planes` names different planes, such as "xw" or "xw,yz" (see
+/// geometry::Turn). `angles` must have one expression for each plane; see evaluateAngle(). `examples` shows how
+/// rotations are written; error messages quote it. Errors: `bad_expression`; those of evaluateAngle().
+Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
+                                            std::string_view examples);
 
 /// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Errors: those of
-/// makeTurn().
+/// parsePlanesAndAngles().
 Result<geometry::Turn> parseTurn(std::string_view text);
 
 }  // namespace oval4d::session

@@ -15,8 +15,8 @@ State withOrbit(State state, const scene::CameraOrbit& orbit) {
     return state;
 }
 
-// Returns whether the states differ at most in the camera. Ignores whether the same object has been transformed to the
-// same frame of reference more than once.
+// Returns whether the states differ at most in the camera. Two transformations of the same object to the same frame of
+// reference count as equal.
 bool isSameStep(const State& a, const State& b) {
     State compared = withOrbit(a, b.look.orbit);
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;
@@ -30,16 +30,16 @@ bool isNewStep(State before, const State& next) {
     return !isSameStep(before, next);
 }
 
-// Appends `state` to `steps`. Replaces the last step if it is the same.
+// Appends `state` to `steps`. If it differs from the last step at most in the camera, it replaces this step.
 template <typename Steps>
 void addStep(Steps& steps, const State& state) {
     if (!steps.empty() && isSameStep(steps.back(), state)) steps.pop_back();
     steps.push_back(state);
 }
 
-// Finds the last step of `from` that differs from the current state. Makes this step the current state, and appends the
-// former current state to `to`. Removes the step and those after it from `from`. Returns false and changes nothing if
-// no step differs.
+// Finds the last step of `from` that differs from the current state. Makes this step the current state, but keeps the
+// camera, and appends the former current state to `to`. Removes from `from` the step and those after it. Returns false
+// and changes nothing if no step differs.
 template <typename From, typename To>
 bool moveToLastStep(Session& session, From& from, To& to) {
     const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
@@ -69,7 +69,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     for (const State& step : session.undoSteps) {
         bytes += bytesOfFilter(step);
         for (const slicing::Object* object : step.objects()) {
-            if (!isHeld(*object) && ++steps[slicing::identityOf(*object)] == 1) bytes += ownMemory(*object);
+            if (!isHeld(*object) && ++steps[slicing::identityOf(*object)] == 1) bytes += unsharedMemory(*object);
         }
     }
     while (bytes > maxBytes && !session.undoSteps.empty()) {
@@ -77,7 +77,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
         bytes -= bytesOfFilter(oldest);
         for (const slicing::Object* object : oldest.objects()) {
             const auto held = steps.find(slicing::identityOf(*object));
-            if (held != steps.end() && --held->second == 0) bytes -= ownMemory(*object);
+            if (held != steps.end() && --held->second == 0) bytes -= unsharedMemory(*object);
         }
         session.undoSteps.pop_front();
     }

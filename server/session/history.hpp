@@ -8,11 +8,11 @@ namespace oval4d::session {
 // The undo steps are earlier states of the session, and the redo steps are states that undo has left. A step can equal
 // the current state, apart from the camera: when an object starts to turn and is stopped at once, when a gesture or a
 // motion ends where it began, and in stored sessions. Undo and redo skip such steps, and a new step replaces them.
-// Therefore:
+// The functions of this file keep these rules:
 //   - A function that changes the current state increases the revision by one. A function that does not change it, or
 //     returns an error, leaves the whole session as it was.
 //   - Undo, repeated until it fails, leads to the oldest state in the history. This is the first state of the session,
-//     unless the limits have removed it. As many redos lead back. Neither moves the camera.
+//     unless the limits have removed it. As many redos lead back. Undo and redo do not move the camera.
 //   - Undo followed by redo restores the current state, and so does redo followed by undo.
 
 /// Makes `next` the current state and increases the revision. Adds an undo step and removes all redo steps, unless
@@ -21,10 +21,10 @@ namespace oval4d::session {
 void commit(Session& session, State next, const Limits& limits);
 
 /// Like commit(), but `next` becomes a part of the last undo step: undo returns to the state before that step. If there
-/// is no undo step, or if the last command was an undo, adds a new undo step instead.
+/// is no undo step, or if there are redo steps, works like commit().
 void amend(Session& session, State next, const Limits& limits);
 
-/// Returns the state before the undo step to which amend() adds; null if amend() adds a new step.
+/// Returns the state before the undo step that amend() extends; null if amend() works like commit().
 const State* stateBeforeStep(const Session& session);
 
 /// Removes the older half of the undo steps, to free memory.

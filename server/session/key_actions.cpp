@@ -29,10 +29,10 @@ void stepAngle(double& angle, double step) {
 
 void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
 
-// Returns the indices n of the first and the last hyperplane that intersect the object.
+// Returns the indices n (see SliceSettings) of the first and the last hyperplane that intersect the object.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
-    const double slack = slicing::kOnPlane * slicing::infoOf(state.object).circumradius;
+    const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
     const auto [count, spacing, focus, offset] = state.slices;
     return {static_cast<int>(std::ceil((least - slack - offset) / spacing)),
             static_cast<int>(std::floor((most + slack - offset) / spacing))};
@@ -64,16 +64,16 @@ Done always(ActionContext& c) {
     return std::monostate{};
 }
 
-// Returns the value after this one in the table of choices, or the first one after the last.
+// Returns the value that follows `value` in its table of choices; for the last value, returns the first.
 template <text::HasChoices Value>
 Value nextChoice(Value value) {
     const auto& choices = choicesOf(value);
     auto at = std::ranges::find(choices, value, &std::ranges::range_value_t<decltype(choices)>::value);
-    while (at != choices.end() && at->value == value) ++at;  // names after the first one are aliases
+    while (at != choices.end() && at->value == value) ++at;  // further rows of a value are its aliases
     return at == choices.end() ? choices.begin()->value : at->value;
 }
 
-// Returns the actions that have code of their own.
+// Returns the actions that are written out one by one; allActions() makes the others from tables.
 std::vector<Action> ownActions() {
     return {
         {"rotate", always<[](ActionContext& c) {
@@ -136,7 +136,8 @@ std::vector<Action> allActions() {
             {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
     }
     for (const auto& [name, view] : scene::kViews) {
-        if (view == scene::View::oval || view == scene::View::single) continue;  // the action "view" toggles single
+        // The action "view" of ownActions() toggles View::single.
+        if (view == scene::View::oval || view == scene::View::single) continue;
         actions.push_back({std::string(name), [to = view](ActionContext& c) -> Done {
                                toggleView(c.state, to);
                                return std::monostate{};

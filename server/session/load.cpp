@@ -41,6 +41,16 @@ std::size_t characters(std::string_view text) {
         std::ranges::count_if(text, [](char c) { return (static_cast<unsigned>(c) & kMask) != kContinuation; }));
 }
 
+// Returns at most the first `count` characters of a UTF-8 text.
+std::string firstCharacters(std::string_view text, std::size_t count) {
+    std::size_t end = 0;
+    for (std::size_t length = 0; end < text.size(); ++end) {
+        length += characters(text.substr(end, 1));
+        if (length > count) break;
+    }
+    return std::string(text.substr(0, end));
+}
+
 bool isCloudKeyword(std::string_view word) { return text::normalizedName(word) == "cloud"; }
 
 Error errorOf(const FileError& error) {
@@ -57,17 +67,17 @@ void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFil
 }
 
 template <polytopes::FileFormat format>
-Result<LoadedObject> readPolytope(const LoadObject& load, const Limits& limits) {
+Result<ObjectWithWarnings> readPolytope(const LoadObject& load, const Limits& limits) {
     auto imported =
         polytopes::importPolytope(format, load.data, load.name, {limits.maxVertices, limits.maxHullCells}, load.center);
     if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
     auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
     warnOfMove(load.center, polytope.originInFile, warnings);
-    return LoadedObject{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
+    return ObjectWithWarnings{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
-Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
+Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limits) {
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
     const auto add = [&](const text_files::PointRow& row) {
@@ -76,16 +86,16 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
     };
     try {
         std::string text = text_files::plainText(load.data);
-        // Replaces only the keyword by blanks, because the comments above it belong to the table, too.
+        // Replace only the keyword by blanks, because the comments above it belong to the table, too.
         if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
             text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
         auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
-        const glm::dvec4 center = geometry::centerFor(load.center, points);
+        const glm::dvec4 center = geometry::newOriginFor(load.center, points);
         for (glm::dvec4& point : points) point -= center;
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
         cloud.originInFile = center;
         warnOfMove(load.center, center, warnings);
-        return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
+        return ObjectWithWarnings{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
     } catch (const FileError& error) {
         return errorOf(error);
     } catch (const std::invalid_argument& invalid) {
@@ -93,7 +103,9 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
     }
 }
 
-Result<LoadedObject> readFormulaText(const LoadObject& load, const Limits& /*limits*/) { return readFormula(load); }
+Result<ObjectWithWarnings> readFormulaText(const LoadObject& load, const Limits& /*limits*/) {
+    return readFormula(load);
+}
 
 // Returns the bytes of the file that `load` specifies: those of `load.file` or, without it, `load.data` decoded from
 // Base64.
@@ -112,10 +124,10 @@ Result<fields::FileContents> contentsOf(const LoadObject& load) {
     return fields::FileContents::of(std::move(bytes));
 }
 
-Result<LoadedObject> readArrayFile(const LoadObject& load, const Limits& limits) {
+Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& limits) {
     const auto file = contentsOf(load);
     if (!file) return file.error();
-    return readArray(*file, load.name, optionsForReading(load, limits), {load.values, load.valuesVariable});
+    return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
 }
 
 // Returns an error if the box has no extent along an axis with several samples.
@@ -130,8 +142,8 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 
 // Makes an object from the array that `read` returns for these options, and sets its second function.
 template <typename Read>
-Result<LoadedObject> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
-                                const SecondSource& second) {
+Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
+                                      const SecondSource& second) {
     const Result<fields::ReadField> array = read(options);
     if (!array) return array.error();
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
@@ -152,7 +164,7 @@ Result<LoadedObject> objectFrom(const Read& read, const std::string& name, field
     std::vector<std::string> warnings = array->warnings;
     if (!field->array->rangeIsExact())
         warnings.emplace_back("the array is not read as a whole: its range is that of a selection of the samples");
-    return LoadedObject{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
+    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
 
 // Returns the box of an array after its number of time steps has grown from `before` to `after`. `box` is the box
@@ -166,7 +178,7 @@ fields::Box boxWithTimeSteps(fields::Box box, std::size_t before, std::size_t af
 /// A file format that `load` messages can name, and its reader.
 struct FormatRow {
     std::string_view name, title;  ///< the name in messages, and the name in the texts of errors
-    Result<LoadedObject> (*read)(const LoadObject& load, const Limits& limits);
+    Result<ObjectWithWarnings> (*read)(const LoadObject& load, const Limits& limits);
     bool buildsHull;
 };
 constexpr auto kFormats = std::to_array<FormatRow>({
@@ -197,7 +209,7 @@ Error unsupported(std::string_view format) {
 
 }  // namespace
 
-Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits) {
+Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits) {
     if (load.file && load.format.empty()) return readArrayFile(load, limits);
     if (!load.series.empty()) {
         std::vector<fields::FileContents> files;
@@ -209,23 +221,24 @@ Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits) {
         return readSeries(files, load, optionsForReading(load, limits));
     }
     const FormatRow* row = formatNamed(load.format);
-    return row == nullptr ? Result<LoadedObject>(unsupported(load.format)) : row->read(load, limits);
+    return row == nullptr ? Result<ObjectWithWarnings>(unsupported(load.format)) : row->read(load, limits);
 }
 
-Result<LoadedObject> readFormula(const LoadObject& load) {
-    auto field = fields::fieldFromFormula(load.name, load.data, load.box.value_or(fields::kFormulaBox), load.values);
+Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
+    auto field =
+        fields::fieldFromFormula(load.name, load.data, load.box.value_or(fields::kFormulaBox), load.secondFormula);
     if (!field) return field.error();
-    return LoadedObject{std::make_shared<const fields::Field>(std::move(*field)), {}};
+    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), {}};
 }
 
-Result<LoadedObject> readArray(const fields::FileContents& file, const std::string& name,
-                               const fields::ReadOptions& options, const SecondSource& second) {
+Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
+                                     const fields::ReadOptions& options, const SecondSource& second) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readField(file, of); }, name, options,
                       second);
 }
 
-Result<LoadedObject> readZarr(const fields::FolderReader& folder, const std::string& name,
-                              const fields::ReadOptions& options, const SecondSource& second) {
+Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
+                                    const fields::ReadOptions& options, const SecondSource& second) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readZarr(folder, of); }, name, options,
                       second);
 }
@@ -238,10 +251,10 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
     return options;
 }
 
-Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
-                                const fields::ReadOptions& options) {
+Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
+                                      const fields::ReadOptions& options) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readSeries(files, of); }, load.name, options,
-                      {load.values, load.valuesVariable});
+                      {load.secondFormula, load.secondVariable});
 }
 
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
@@ -293,25 +306,17 @@ std::string_view detectFormat(std::string_view text) {
         if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";
         return isCloudKeyword(text_files::Tokenizer(plain).next()) ? "cloud" : "points";
     } catch (const FileError&) {
-        return "points";  // its reader says what the file is
+        return "points";  // the reader of points then reports the error
     }
 }
 
 std::string objectNameFor(std::string_view fileName, const Limits& limits) {
-    const std::string printable = text::printable(fileName, fileName.size());
-    std::string name;
-    std::size_t length = 0;
-    for (const char c : printable) {
-        // A longer name ends after a whole character.
-        if (characters({&c, 1}) == 1 && ++length > kMaxName) break;
-        name += c;
-    }
+    constexpr std::string_view kSuffix = " (file)";
+    std::string name = firstCharacters(text::printable(fileName, fileName.size()), kMaxName);
     if (name.empty()) name = "object";
-    const auto isTaken = [&] {
-        return exampleNamed(name) != nullptr ||
-               std::holds_alternative<polytopes::Design>(polytopes::designNamed(name, limits.maxVertices));
-    };
-    while (isTaken()) name += " (file)";
+    const bool taken = exampleNamed(name) != nullptr ||
+                       std::holds_alternative<polytopes::Design>(polytopes::designNamed(name, limits.maxVertices));
+    if (taken) name = firstCharacters(name, kMaxName - kSuffix.size()).append(kSuffix);
     return name;
 }
 
@@ -324,23 +329,23 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
-    const bool detected = load.isFile() && load.format.empty();
+    const bool detected = load.isArrayInFiles() && load.format.empty();
     if (!detected && formatNamed(load.format) == nullptr) return unsupported(load.format);
     const bool array = detected || isArrayFormat(load.format);
     const auto refused = [&](const std::string& what) {
         return Error{ErrorCode::bad_message, what + ", not the format " + text::inQuotes(load.format)};
     };
-    if (load.isFile() && !array) return Error{ErrorCode::unsupported_format, "this file must be an array"};
+    if (load.isArrayInFiles() && !array) return Error{ErrorCode::unsupported_format, "this file must be an array"};
     if (load.box && !array && load.format != kFormula) return refused("only formulas and arrays take a box");
     if ((!load.axes.empty() || !load.variable.empty()) && !array) return refused("only arrays take axes or a variable");
-    if (!load.values.empty() && !array && load.format != kFormula)
+    if (!load.secondFormula.empty() && !array && load.format != kFormula)
         return refused("only formulas and arrays take the formula of values");
-    if (!load.valuesVariable.empty() && !array) return refused("only arrays take a variable of values");
-    if (!load.values.empty() && !load.valuesVariable.empty())
+    if (!load.secondVariable.empty() && !array) return refused("only arrays take a variable of values");
+    if (!load.secondFormula.empty() && !load.secondVariable.empty())
         return Error{ErrorCode::bad_message, "give either the formula of the values or their variable, not both"};
     if (load.center != geometry::Centering{} && (array || load.format == kFormula))
         return refused("only polytopes and points take a center");
-    if (load.append && !load.values.empty())
+    if (load.append && !load.secondFormula.empty())
         return Error{ErrorCode::bad_message, "moments have no formula of values: that of the field remains"};
     if (load.append && !array) return refused("only arrays can be added to a field");
     return {};

@@ -1,5 +1,5 @@
 #pragma once
-// Reads objects from the text of files.
+// Reads objects from files, and makes fields from formulas.
 
 #include <span>
 #include <string>
@@ -15,25 +15,26 @@
 
 namespace oval4d::session {
 
-/// The format whose text is a formula rather than a file.
+/// The value of LoadObject::format if LoadObject::data is a formula.
 inline constexpr std::string_view kFormula = "formula";
 
-/// An object that was read from a file, and one warning for each fault that was corrected in the file.
-struct LoadedObject {
+/// An object that was read, and warnings for the user: one for each fault that was corrected in the file, and others,
+/// such as that the object was moved to its center.
+struct ObjectWithWarnings {
     slicing::Object object;
     std::vector<std::string> warnings;
 };
 
 /// Reads the object that `load` specifies, in the calling process (a FileReader of object_loader.hpp may do so in
 /// another process). The format is "off", "points", "cloud", "formula", or one of fields::fieldFormats(), the formats
-/// of arrays; files of arrays are given in Base64 or as open files. Ignores `append`. Errors: `unsupported_format`,
-/// `bad_polytope` (with the line number, if the fault is in a line), `too_large`, and those of readFormula() and
-/// readArray(). Arrays may have at most Limits::maxFieldBytes.
-Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits);
+/// of arrays. Files of arrays are given in Base64 or as open files; they may have at most Limits::maxFieldBytes of
+/// samples. Ignores `append`, `folder` and `dataName`. Errors: `unsupported_format`, `bad_polytope` (with the line
+/// number, if the fault is in a line), `too_large`, and those of readFormula() and readArray().
+Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits);
 
-/// Makes the field that `load`, whose format is "formula", specifies. Takes less than a millisecond. Errors: those of
+/// Makes a field from the formula in `load`. Takes less than a millisecond. Errors: those of
 /// fields::fieldFromFormula().
-Result<LoadedObject> readFormula(const LoadObject& load);
+Result<ObjectWithWarnings> readFormula(const LoadObject& load);
 
 /// The source of the second function of an array: a formula, or another variable of its file. Both are empty if there
 /// is no second function.
@@ -44,28 +45,28 @@ struct SecondSource {
 /// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
 /// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
 /// options has no extent along an axis with several samples.
-Result<LoadedObject> readArray(const fields::FileContents& file, const std::string& name,
-                               const fields::ReadOptions& options = {}, const SecondSource& second = {});
+Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
+                                     const fields::ReadOptions& options = {}, const SecondSource& second = {});
 
-/// Returns the options for reading the array that `load` specifies. If `newFile` is given, arrays of more than
-/// Limits::maxFieldBytes are allowed: their samples remain in the file or are written to a new file. The limit applies
-/// to an array and its second array together.
+/// Returns the options for reading the array that `load` specifies. The array and its second array together may have at
+/// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed, too: their samples remain in the file
+/// or are written to a new file.
 fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile = {});
 
 /// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
-Result<LoadedObject> readZarr(const fields::FolderReader& folder, const std::string& name,
-                              const fields::ReadOptions& options = {}, const SecondSource& second = {});
+Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
+                                    const fields::ReadOptions& options = {}, const SecondSource& second = {});
 
 /// Reads the files of a series as one array, with the name and the second function of `load`. Errors: those of
 /// fields::readSeries(), and of readArray().
-Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
-                                const fields::ReadOptions& options);
+Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
+                                      const fields::ReadOptions& options);
 
-/// Returns the field of an array, extended at the end of w by the time steps of another array, `added`. The present
-/// time steps keep their values of w; the added ones are as far apart as these, or 1 apart if there is only one.
-/// Computes anew the initial level, and which side of it is inside. Errors: `bad_field` if one of the objects is not an
-/// array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that the field has;
-/// `too_large` if the samples exceed `limits.maxFieldBytes`.
+/// Returns `field`, which is an array, extended at the end of w by the time steps of another array, `added`. The time
+/// steps of `field` keep their values of w; the added ones are as far apart as these, or 1 apart if `field` has only
+/// one. Computes anew the initial level, and which side of it is inside. Errors: `bad_field` if one of the objects is
+/// not an array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that `field`
+/// has; `too_large` if the samples exceed `limits.maxFieldBytes`.
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
                                         const Limits& limits);
 
@@ -78,9 +79,9 @@ std::string_view detectFormat(std::string_view text);
 /// polytope, or `unsupported_format`.
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
 
-/// Returns a name that checkLoad() accepts, for the object in a file of this name. Replaces characters that names must
-/// not contain. Adds " (file)" to a name of the catalogue or of an example field, because otherwise a stored state
-/// would be restored with the catalogue's object or with the example field.
+/// Returns a name for the object in the file called `fileName`, which checkLoad() accepts. Shortens long names, and
+/// replaces characters that are not allowed. Adds " (file)" to a name of the catalogue or of an example field, because
+/// otherwise a stored state would be restored with the catalogue's object or with the example field.
 std::string objectNameFor(std::string_view fileName, const Limits& limits);
 
 /// Returns whether the files of this format are arrays.

@@ -11,7 +11,7 @@ namespace oval4d::session {
 
 namespace {
 
-// The maximum number of elements of a small object. To transform it takes less than 0.2 ms and 128 KiB.
+// The maximum number of elements of a small object. Transforming it takes less than 0.2 ms and 128 KiB.
 constexpr std::size_t kSmall = 1000;
 
 const Error kLater{ErrorCode::internal, "the object is not available yet"};
@@ -57,7 +57,7 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
     return kLater;
 }
 
-Result<LoadedObject> ObjectLoader::objectFrom(const LoadObject& load) {
+Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
     if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // reading it is faster than deferring it
@@ -75,13 +75,14 @@ Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& 
     return kLater;
 }
 
-Result<slicing::Object> ObjectLoader::imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& source,
+                                                    const geometry::ReferenceFrame& frame) {
     if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{} || elementsOf(source) <= kSmall)
-        return slicing::imageOf(source, frame);
+        return slicing::transformedTo(source, frame);
     const auto made = std::ranges::find_if(
-        images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
-    if (made != images_.end()) return made->object;
-    pending_ = Image{source, frame};
+        transformed_, [&](const TransformedObject& each) { return each.source == source && each.frame == frame; });
+    if (made != transformed_.end()) return made->object;
+    pending_ = TransformedObject{source, frame};
     return kLater;
 }
 
@@ -110,7 +111,7 @@ Result<slicing::CriticalPtr> ObjectLoader::criticalSections(const State& state) 
     return kLater;
 }
 
-void ObjectLoader::loadPendingObject(std::stop_token stop) {
+void ObjectLoader::completePending(std::stop_token stop) {
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         built_ = build(*design);
         builtName_ = design->name;
@@ -119,8 +120,8 @@ void ObjectLoader::loadPendingObject(std::stop_token stop) {
     } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
         extended_ = appendTimeSteps(extension->field, extension->added, limits_);
         extendedFrom_ = extension->field;
-    } else if (const auto* image = std::get_if<Image>(&pending_)) {
-        images_.push_back({image->source, image->frame, slicing::imageOf(image->source, image->frame)});
+    } else if (const auto* wanted = std::get_if<TransformedObject>(&pending_)) {
+        transformed_.push_back({wanted->source, wanted->frame, slicing::transformedTo(wanted->source, wanted->frame)});
     } else if (const auto* arguments = std::get_if<CriticalArguments>(&pending_)) {
         critical_ = search(*arguments, std::move(stop));
         searched_ = arguments->object;
@@ -141,47 +142,50 @@ std::size_t ObjectLoader::bytesNeeded() const {
     }
     if (const auto* extension = std::get_if<Extension>(&pending_))
         return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
-    // The sections of a field are small; finding them takes as much memory as a picture.
+    // For a field, this is little. It does not contain the memory of the search itself, which takes as much as drawing
+    // a picture.
     if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
-    constexpr std::size_t kPerImageElement = 128;
-    if (const auto* image = std::get_if<Image>(&pending_)) return kPerImageElement * elementsOf(image->source);
+    constexpr std::size_t kPerTransformedElement = 128;
+    if (const auto* wanted = std::get_if<TransformedObject>(&pending_))
+        return kPerTransformedElement * elementsOf(wanted->source);
     const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
     constexpr std::size_t kPerHullPoint = 10240;  // simplices, their neighbors, and the perturbed points
     return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells) +
-           kPerHullPoint * design->recipe->hullPoints();
+           kPerHullPoint * design->recipe->hullPointCount();
 }
 
 std::size_t ObjectLoader::bytesLoaded() const {
     std::size_t bytes = 0;
-    if (fromFile_ && *fromFile_) bytes += ownMemory((*fromFile_)->object);
-    if (extended_ && *extended_) bytes += ownMemory(**extended_);
+    if (fromFile_ && *fromFile_) bytes += unsharedMemory((*fromFile_)->object);
+    if (extended_ && *extended_) bytes += unsharedMemory(**extended_);
     return bytes;
 }
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
-    // Seconds for each element of a polytope that is built, for each byte of a file that lists elements or the points
-    // of a cloud, for each byte of a list of points whose convex hull is computed, for each byte of an array, and for
-    // each element of an object that is transformed; for a search for critical values of w; and for each point of a
-    // convex hull in the construction of a polytope.
-    constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kImageElement = 4e-8,
+    // In seconds. kElement: for each element of a polytope that is built. kByte: for each byte of a file that lists the
+    // elements of a polytope or the points of a cloud. kPointByte: for each byte of a list of points whose convex hull
+    // is computed. kArrayByte: for each byte of an array. kTransformedElement: for each element of an object that is
+    // transformed. kSearch: for a search for critical values of w. kHullPoint: for each point whose convex hull is
+    // computed to build a polytope.
+    constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kTransformedElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         const auto [vertices, edges, faces, cells] = polytopes::elementCounts(*design);
         seconds += kElement * static_cast<double>(vertices + edges + faces + cells) +
-                   kHullPoint * static_cast<double>(design->recipe->hullPoints());
+                   kHullPoint * static_cast<double>(design->recipe->hullPointCount());
     } else if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
         const LoadObject& file = **load;
-        const bool array = file.isFile() || isArrayFormat(file.format);
+        const bool array = file.isArrayInFiles() || isArrayFormat(file.format);
         const double perByte = array ? kArrayByte : buildsHull(file.format) ? kPointByte : kByte;
         seconds += perByte * static_cast<double>(file.data.size() + (file.file ? file.file->size() : 0));
     } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
         seconds += kArrayByte * static_cast<double>(slicing::memoryOf(extension->field));
-    } else if (const auto* image = std::get_if<Image>(&pending_)) {
-        seconds += kImageElement * static_cast<double>(elementsOf(image->source));
+    } else if (const auto* wanted = std::get_if<TransformedObject>(&pending_)) {
+        seconds += kTransformedElement * static_cast<double>(elementsOf(wanted->source));
     } else if (isSearchPending()) {
         seconds += kSearch;
     }

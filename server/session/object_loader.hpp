@@ -24,7 +24,7 @@
 namespace oval4d::session {
 
 /// Reads the object that a command specifies. Parameters, result and errors are those of readObject().
-using FileReader = std::function<Result<LoadedObject>(const LoadObject& load, const Limits& limits)>;
+using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& load, const Limits& limits)>;
 
 /// How a loader searches for critical values of w: those at which the type of the section changes.
 struct CriticalSearch {
@@ -33,7 +33,7 @@ struct CriticalSearch {
     std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
 };
 
-/// What the critical values of w of a state depend on.
+/// What the critical values of w of an object depend on.
 struct CriticalArguments {
     slicing::Object object;
     geometry::Rotation orientation;
@@ -46,7 +46,7 @@ CriticalArguments criticalArguments(const State& state);
 /// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
 /// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
 /// they return an error if the object is not available yet, and the object becomes pending. The caller then calls
-/// loadPendingObject(), on any thread, and applies the command again, until nothing is pending.
+/// completePending(), on any thread, and applies the command again, until nothing is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
@@ -58,47 +58,50 @@ class ObjectLoader {
                  CriticalSearch search = {});
 
     /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
-    /// computation of a convex hull exceeds a limit, which is not known in advance.
+    /// computation of a convex hull exceeds a limit. Whether it does is known only during the computation.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
     /// Returns the object that `load` specifies. `load` must outlive the loader. Errors: those of checkLoad() and
     /// readObject().
-    Result<LoadedObject> objectFrom(const LoadObject& load);
+    Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
-    /// Returns `source` transformed to `frame` (see slicing::imageOf()). Small objects are always transformed at once,
-    /// even with Mode::deferred.
-    Result<slicing::Object> imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
+    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). Small objects are always transformed at
+    /// once, even with Mode::deferred.
+    Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
     /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). If
     /// the search was deferred, the result is for the state at the time of the first call, even if the object has
-    /// turned since. For small polytopes, the search is never deferred. Error: `canceled` if the search was stopped.
+    /// turned since. For small polytopes and point clouds, the search is never deferred. Error: `canceled` if the
+    /// search was stopped.
     Result<slicing::CriticalPtr> criticalSections(const State& state);
 
-    /// Returns whether an object is pending: the command failed only because the object is not available yet.
+    /// Returns whether an object or a search is pending: the command failed only because its result is not available
+    /// yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
-    /// Returns whether the pending object must be read from a file.
+    /// Returns whether the pending object must be read by the FileReader.
     bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
-    /// Returns whether a search for critical values of w is pending, which takes longer than a picture.
+    /// Returns whether a search for critical values of w is pending. A search takes longer than drawing a picture.
     bool isSearchPending() const { return std::holds_alternative<CriticalArguments>(pending_); }
     /// Builds, reads or transforms the pending object, or finds the pending critical values of w. Does nothing if
     /// nothing is pending. `stop` ends a search for critical values of w, which then fails with `canceled`.
-    void loadPendingObject(std::stop_token stop = {});
-    /// Returns the estimated duration of loadPendingObject(). For entries of the catalogue, it is accurate to within a
+    void completePending(std::stop_token stop = {});
+    /// Returns the estimated duration of completePending(). For entries of the catalogue, it is accurate to within a
     /// factor of three.
     std::chrono::duration<double> estimatedDuration() const;
 
-    /// Returns the estimated memory in bytes that loadPendingObject() and its result use; 0 if nothing is pending. The
-    /// result may be larger if it is the array of a compressed file: see bytesLoaded().
+    /// Returns the estimated memory in bytes that completePending() and its result use; 0 if nothing is pending. For
+    /// the array of a compressed file, the estimate may be too low: see bytesLoaded().
     std::size_t bytesNeeded() const;
-    /// Returns the memory of the objects that loadPendingObject() has made so far, in bytes.
+    /// Returns the memory, in bytes, of the object that was read from a file and of the array that was extended. Does
+    /// not count polytopes that were built and objects that were transformed.
     std::size_t bytesLoaded() const;
-    /// Returns one warning for each fault that was corrected in the file; empty if no file has been read.
+    /// Returns ObjectWithWarnings::warnings of the object that was read; an empty list if none was read.
     std::vector<std::string> warnings() const;
 
   private:
-    struct Image {
+    struct TransformedObject {
         slicing::Object source;
         geometry::ReferenceFrame frame;
         slicing::Object object = {};  // `source` in `frame`; null while it is pending
@@ -112,19 +115,20 @@ class ObjectLoader {
     Mode mode_;
     FileReader reader_;
     CriticalSearch search_;
-    // An array to which time steps are added.
+    // `field`: an array. `added`: the array whose time steps are added to it.
     struct Extension {
         slicing::Object field, added;
     };
-    std::variant<std::monostate, polytopes::Design, const LoadObject*, Image, Extension, CriticalArguments> pending_;
+    std::variant<std::monostate, polytopes::Design, const LoadObject*, TransformedObject, Extension, CriticalArguments>
+        pending_;
     std::string builtName_;  // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
-    std::optional<Result<LoadedObject>> fromFile_;
+    std::optional<Result<ObjectWithWarnings>> fromFile_;
     slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    std::vector<Image> images_;  // two if a command changes both the object and the frame
+    std::vector<TransformedObject> transformed_;  // two elements if a command changes object and frame
 };
 
 }  // namespace oval4d::session

@@ -76,8 +76,8 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
     return numbers;
 }
 
-// Returns the error for an unknown name, or for one that is allowed only in queries of pictures or only in those of
-// files. `others`: see stateFromQuery().
+// Returns the error for a name that stateFromQuery() does not accept: an unknown name, one of `others` (see
+// stateFromQuery()), or a name that is allowed only in the queries of pictures or only in those of files.
 Error unknownName(std::string_view name, std::span<const std::string_view> others) {
     const auto isIn = [&](std::span<const std::string_view> names) {
         return std::ranges::find(names, name) != names.end();
@@ -132,7 +132,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
         } else if (name == "formula") {
             field.data = value;
         } else if (name == "values") {
-            field.values = value;
+            field.secondFormula = value;
         } else if (name == "box") {
             const auto box = parseBox(value);
             if (!box) return box.error();
@@ -181,7 +181,8 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
         query->emplace_back("rotate", rotation);
     State fresh = initialState();
     if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
-    // The spacing of a new object depends on the number of slices and on the frame of reference.
+    // stateFromQuery() changes the spacing if the query contains the number of slices or the frame of reference. Such a
+    // query must contain the spacing even if it is the initial one.
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));
     for (auto& setting : settingTexts(settingsOf(state))) {

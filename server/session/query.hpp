@@ -1,6 +1,6 @@
 #pragma once
-// Converts names and values, from the query of an address or the options of `oval4d render` and `oval4d export`, to a
-// state, and back.
+// Converts parameters, which are pairs of names and values, to a state, and back. Parameters come from the query of an
+// address, or from the options of `oval4d render` and `oval4d export`.
 
 #include <array>
 #include <span>
@@ -15,8 +15,8 @@
 
 namespace oval4d::session {
 
-/// The names of parameters that do not describe the state: in the query of a picture, and in the query of a file. The
-/// callers of stateFromQuery() read and remove these parameters before the call.
+/// The names of parameters that do not describe the state: in the query of a picture, and in the query of an exported
+/// file. The callers of stateFromQuery() read and remove these parameters before the call.
 inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"width", "height"});
 inline constexpr auto kFileParameters = std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit"});
 
@@ -39,9 +39,9 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
                              State state = initialState(), std::span<const std::string_view> others = {});
 
 /// Returns a query for the view that a state shows: from this query, stateFromQuery() makes a state that shows the
-/// same, with the same settings. The query omits the settings that still have the values of a new object, the last
-/// rotation, and a motion that is under way. Error: `unknown_polytope` if the object was read from a file or uploaded,
-/// because an address cannot contain it.
+/// same, with the same settings. The query omits the last rotation, a motion that is under way, and the settings that
+/// still have their initial values. Error: `unknown_polytope` if the object was read from a file or uploaded, because
+/// an address cannot contain it.
 Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader);
 
 }  // namespace oval4d::session

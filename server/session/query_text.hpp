@@ -12,13 +12,14 @@ namespace oval4d::session {
 /// The parameters of a query: pairs of names and values, in the order given. A name may occur more than once.
 using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
-/// Parses a query, without the question mark. Decodes percent escapes and, in the values, "+" as a blank unless it adds
-/// two operands of arithmetic. Mailers and forums sometimes write "&" as "&amp;", or escape escapes again; undoes both.
-/// Leaves out the parameters that protocol/address.json ignores. Returns an empty optional if an escape is malformed.
+/// Parses a query, without the question mark. Decodes percent escapes. In the values, also decodes each "+" as a blank,
+/// except a plus sign between two operands of arithmetic. Mailers and forums sometimes write "&" as "&amp;", or escape
+/// an address a second time (%20 becomes %2520); undoes both. Leaves out the parameters that protocol/address.json
+/// lists as ignored. Returns an empty optional if an escape is malformed.
 std::optional<QueryParameters> parseQuery(std::string_view text);
 
 /// Returns the text of a query, without the question mark: the inverse of parseQuery() for names and values without
-/// "%", as those of queryFromState() are.
+/// "%", such as those of queryFromState().
 std::string queryText(const QueryParameters& query);
 
 }  // namespace oval4d::session

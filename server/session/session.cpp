@@ -25,17 +25,17 @@ namespace {
 
 using Done = Result<std::monostate>;
 
-// The images of an extended field (see slicing::imageOf()). The key is the identity of an image of the shorter field;
-// the value is the image of the longer field in the same frame of reference.
+// The images of an extended field (see slicing::transformedTo()). The key is the identity of an image of the shorter
+// field; the value is the image of the longer field in the same frame of reference.
 using ExtendedImages = std::map<const void*, slicing::Object>;
 
-// Shows the field `after`, a longer version of `before`, if the state shows `before`; returns whether it does. Keeps
-// all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent(). States that share an
-// image of `before` also share one of `after`: `images` has the images that have been made so far.
+// If `state` shows the field `before`, replaces it by `after`, a longer version of it, and returns true; otherwise
+// returns false. Keeps all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent().
+// States that share an image of `before` also share one of `after`: `images` has the images that have been made so far.
 bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
-    if (isNew) image->second = slicing::imageOf(after, state.referenceFrame);
+    if (isNew) image->second = slicing::transformedTo(after, state.referenceFrame);
     slicing::Object object = image->second;
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
     state.slices.spacing *= ratio;
@@ -175,7 +175,8 @@ class Applier {
         if (const auto present = loadedOrExample(load.name, loaded)) {
             const fields::Field* const field = slicing::fieldIn(*present);
             const std::string second = field != nullptr && field->second ? field->second->formula : "";
-            if (field != nullptr && field->formula == load.data && second == load.values && field->box == load.box)
+            if (field != nullptr && field->formula == load.data && second == load.secondFormula &&
+                field->box == load.box)
                 return std::monostate{};
         }
         if (Done room = checkRoom(loaded, load.name); !room) return room;
@@ -248,7 +249,7 @@ std::size_t historyMemory(const Session& session) {
     return sizeof(State) * (session.undoSteps.size() + session.redoSteps.size());
 }
 
-std::size_t ownMemory(const slicing::Object& object) {
+std::size_t unsharedMemory(const slicing::Object& object) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const fields::Field* const field = slicing::fieldIn(object);
     const bool shared =
@@ -270,7 +271,7 @@ std::size_t ownObjectMemory(const Session& session) {
     for (const State& state : session.undoSteps) addAll(state);
     for (const State& state : session.redoSteps) addAll(state);
     std::size_t bytes = 0;
-    for (const auto& [identity, object] : objects) bytes += ownMemory(*object);
+    for (const auto& [identity, object] : objects) bytes += unsharedMemory(*object);
     return bytes;
 }
 
@@ -288,7 +289,8 @@ void advance(Session& session, double seconds) {
             state.ongoingTurnToward.reset();
         }
     } else if (state.turning && state.lastTurn) {
-        state.orientation = geometry::Rotation(state.lastTurn->scaled(kTurnsPerSecond * seconds)) * state.orientation;
+        state.orientation =
+            geometry::Rotation(state.lastTurn->scaled(kRotationRepeatsPerSecond * seconds)) * state.orientation;
     }
     if (before != std::pair(state.orientation, state.ongoingTurnToward)) ++session.revision;
 }

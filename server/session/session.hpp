@@ -32,8 +32,8 @@ struct SliceSettings {
     bool operator==(const SliceSettings&) const = default;
 };
 
-/// A turn toward an element that has begun: the object turns to the orientation `goal` along the shortest way, at
-/// constant speed.
+/// A motion in progress that the command TurnToward has started: the object turns to the orientation `goal` along the
+/// shortest way, at constant speed.
 struct OngoingTurnToward {
     geometry::Rotation goal;
     double seconds = 0;  ///< the time that is left; greater than 0
@@ -44,7 +44,7 @@ struct OngoingTurnToward {
 struct State {
     slicing::Object source;  ///< the object as it was built or loaded; never null
     geometry::ReferenceFrame referenceFrame;
-    slicing::Object object;  ///< what is shown: `source` in `referenceFrame` (see slicing::imageOf())
+    slicing::Object object;  ///< what is shown: `source` in `referenceFrame` (see slicing::transformedTo())
     geometry::Rotation orientation;
     double alpha, beta;  ///< the angles of the rotation keys, in radians
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
@@ -52,8 +52,8 @@ struct State {
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-    /// The turn toward an element that is under way; advance() continues it until it ends. Empty if there is none, and
-    /// while `turning` is true.
+    /// The motion that TurnToward has started; advance() continues it until it ends. Empty if there is none, and always
+    /// empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
 
     /// Returns the objects that the state holds; twice the same one in the default frame of reference.
@@ -67,7 +67,7 @@ struct State {
         return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
     }
     /// Returns whether the object moves without further commands: continuously, or toward an element.
-    bool moves() const { return turning || ongoingTurnToward; }
+    bool isMoving() const { return turning || ongoingTurnToward; }
     bool operator==(const State&) const = default;
 };
 
@@ -84,8 +84,8 @@ struct Limits {
     std::size_t maxUndo = 1000;             ///< undo steps
     std::size_t maxUndoBytes = 64U << 20U;  ///< bytes of objects and cell type lists that only undo steps use
     std::size_t maxLoaded = 8;              ///< objects loaded into one session
-    /// The vertices of a loaded polytope, the points of a list, or the vertices of a polytope that is built by its name
-    /// and is not in the catalogue.
+    /// The maximum number of vertices of a loaded polytope, of points in a list or a point cloud, and of vertices of a
+    /// polytope that is built from its name, unless it is in the catalogue.
     std::size_t maxVertices = 100'000;
     std::size_t maxHullCells = 100'000;       ///< cells of the convex hull of a list of points
     std::size_t maxFieldBytes = 256U << 20U;  ///< bytes of the samples of an array, as 32-bit floats
@@ -106,9 +106,9 @@ struct Session {
 
 /// Returns the memory of an object in bytes; 0 if all sessions share it: a polytope of the catalogue, an example field,
 /// or a field of the data folder.
-std::size_t ownMemory(const slicing::Object& object);
+std::size_t unsharedMemory(const slicing::Object& object);
 
-/// Returns the memory of a session's objects in bytes: the sum of ownMemory() over all objects. Each object counts
+/// Returns the memory of a session's objects in bytes: the sum of unsharedMemory() over all objects. Each object counts
 /// once.
 std::size_t ownObjectMemory(const Session& session);
 
@@ -123,7 +123,7 @@ class ObjectLoader;
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
-inline constexpr double kTurnsPerSecond = 6;
+inline constexpr double kRotationRepeatsPerSecond = 6;
 /// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
 /// goal. Adds no undo step, because one undo step covers the whole motion. Changes nothing if the object does not move,
 /// or turns so slowly that its orientation stays the same: a continuous rotation by the angle 0 has no effect.

@@ -18,8 +18,9 @@ namespace oval4d::session {
 /// The names of a setting.
 struct SettingName {
     std::string_view text;    ///< on the page's command line and in queries
-    std::string_view object;  ///< in messages: the JSON object around it, such as "camera"; empty for the message
-    std::string_view member;  ///< in messages: its name in this JSON object
+    std::string_view object;  ///< in messages: the name of the JSON object that contains the setting, such as "camera";
+                              ///< empty if the message itself contains it
+    std::string_view member;  ///< in messages: the name of the setting in this JSON object
 };
 
 /// The rule of a setting for which applySet() accepts every value.
@@ -32,18 +33,20 @@ struct NumberWithBounds {
 /// The rule of a setting that applySet() checks and changes with code of its own.
 struct CheckedByApplySet {};
 
-/// Takes the place of `ofState` in settings that are not read from a state: they change other settings or the motion.
+/// Takes the place of Setting::ofState in settings that are not read from a state: they change other settings or the
+/// motion.
 struct NotInState {};
 
 /// What sets a setting back to its initial value.
 enum class ResetOccasion : std::uint8_t {
-    never,              ///< nothing: it belongs to the view, and stays; the spacing is scaled with the object
-    by_another_object,  ///< the replacement of the object, because the value belongs to the object
-    by_reset,           ///< the replacement of the object, and the command `reset`
+    never,                       ///< nothing; only the spacing changes, in proportion to the size of a new object
+    by_another_object,           ///< the replacement of the object, because the value belongs to the object
+    by_reset_or_another_object,  ///< the replacement of the object, and the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to its member of a Set, a std::optional. `ofState` returns its value in a
-/// State: by reference if the value is one member of the State, otherwise by value; the rule is then CheckedByApplySet.
+/// A setting. `ofSet` returns a reference to the setting's member of a Set, which is a std::optional. `ofState` returns
+/// the setting's value in a State: by reference if the value is one member of the State; otherwise by value, and then
+/// the rule must be CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
@@ -99,9 +102,9 @@ void forEachSetting(const Visitor& visit) {
     setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), CheckedByApplySet{},
             never);
     setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), CheckedByApplySet{},
-            by_reset);
+            by_reset_or_another_object);
     setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), CheckedByApplySet{},
-            by_reset);
+            by_reset_or_another_object);
     setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, CheckedByApplySet{}, never);
     setting(
         {"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); },

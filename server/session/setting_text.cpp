@@ -179,7 +179,7 @@ std::string joined(const Range& range, Function&& textOf) {
     return text;
 }
 
-// Returns the text of a value, as ValueReader reads it.
+// Returns the text of a value, in the form that ValueReader reads.
 struct ValueWriter {
     bool isAngle = false;
 

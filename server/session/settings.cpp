@@ -22,9 +22,9 @@ namespace oval4d::session {
 
 namespace {
 
-// The error for a value that is not within its bounds. Angles are told in radians and in degrees.
+// The error for a value that is not within its bounds. Its message states angles in radians and in degrees.
 Error outOfRange(std::string_view name, const Bounds& bounds, double value) {
-    std::string range = text::outsideBounds(bounds.least, bounds.most, bounds.unit, value);
+    std::string range = text::outsideBoundsText(bounds.least, bounds.most, bounds.unit, value);
     if (bounds.unit == kRadians) {
         const auto degrees = [](double radians) {
             return text::roundedDecimal(radians * 180 / std::numbers::pi) + "°";
@@ -121,7 +121,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
         if (!isTransferFunction(*set.fog)) {
             return Error{ErrorCode::out_of_range,
                          "the fog must be off, or " + std::to_string(slicing::kMinFogPoints) + " to " +
-                             std::to_string(slicing::kMaxFogPoints) +
+                             std::to_string(slicing::kMaxFogControlPoints) +
                              " points in the order of their values, which are different numbers from " +
                              text::roundedDecimal(-kMaxLevel) + " to " + text::roundedDecimal(kMaxLevel) +
                              ", with opacities from 0 to 1 and, if any, colors from 0 to 16777215"};
@@ -154,7 +154,8 @@ Result<std::monostate> checkElement(const slicing::Object& object, const slicing
                                               std::to_string(element.index)};
 }
 
-// For each setting that `occasion` sets back, copies its value from `initial`.
+// For each setting that `occasion` sets back, copies its value from `initial`. Omits settings whose value is not one
+// member of State, such as `point`.
 void setBack(State& state, ResetOccasion occasion, const State& initial) {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kIsInState) {
@@ -170,7 +171,7 @@ void setBack(State& state, ResetOccasion occasion, const State& initial) {
 bool isTransferFunction(std::span<const slicing::FogPoint> points) {
     constexpr std::uint32_t kWhite = 0xffffff;
     if (points.empty()) return true;
-    return points.size() >= slicing::kMinFogPoints && points.size() <= slicing::kMaxFogPoints &&
+    return points.size() >= slicing::kMinFogPoints && points.size() <= slicing::kMaxFogControlPoints &&
            std::ranges::all_of(points,
                                [](const slicing::FogPoint& point) {
                                    return std::abs(point.value) <= kMaxLevel && point.opacity >= 0 &&
@@ -181,7 +182,7 @@ bool isTransferFunction(std::span<const slicing::FogPoint> points) {
 
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader) {
     if (source == state.source) return std::monostate{};
-    auto image = loader.imageOf(source, state.referenceFrame);
+    auto image = loader.transformedTo(source, state.referenceFrame);
     if (!image) return image.error();
     slicing::Object object = std::move(*image);
     const double radius = slicing::infoOf(object).circumradius;
@@ -197,9 +198,9 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     if (hadSecond && !hasSecond && state.look.coloring == scene::Coloring::value)
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
-    if (field != nullptr) initial.look.field = {{field->level}, field->inside};
+    if (field != nullptr) initial.look.field = {{field->initialLevel}, field->initialInside};
     setBack(state, ResetOccasion::by_another_object, initial);
-    state.look.focusPoint = initial.look.focusPoint;  // setBack() omits `point`, which is not one member
+    state.look.focusPoint = initial.look.focusPoint;  // setBack() omits the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
@@ -213,12 +214,12 @@ void returnToInitialOrientation(State& state) {
 
 void reset(State& state) {
     returnToInitialOrientation(state);
-    setBack(state, ResetOccasion::by_reset, initialState());
+    setBack(state, ResetOccasion::by_reset_or_another_object, initialState());
 }
 
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader) {
     if (frame == state.referenceFrame) return std::monostate{};
-    auto image = loader.imageOf(state.source, frame);
+    auto image = loader.transformedTo(state.source, frame);
     if (!image) return image.error();
     constexpr double kSame = 1e-9;
     const double spanning = spanningSpacing(state.object, state.slices.count);
@@ -335,7 +336,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
     const double seconds = way.angle() / kRadiansPerSecond;
-    constexpr double kShortest = 1e-3;  // a turn that takes less time is not seen
+    constexpr double kShortest = 1e-3;  // in seconds; a shorter turn is not seen
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;
     } else {
@@ -358,7 +359,7 @@ Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoad
     } else {
         const auto sections = loader.criticalSections(state);
         if (!sections) return sections.error();
-        const double same = slicing::kOnPlane * slicing::infoOf(state.object).circumradius;
+        const double same = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
         w = slicing::nextCriticalW(**sections, state.focusW(), upward, same);
     }
     if (w) moveFocusTo(state, *w);

@@ -32,22 +32,22 @@ inline constexpr double kMinPace = 1e-3, kMaxPace = 1e3;
 inline constexpr double kMaxFollow = 1000;  ///< absolute value of each component of ReferenceFrame::follow
 inline constexpr double kMaxBoost = 0.999;  ///< length of ReferenceFrame::boost
 
-/// Returns whether these control points are valid as FieldSettings::fog: either none, or kMinFogPoints … kMaxFogPoints
-/// points with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
+/// Returns whether these control points are valid as FieldSettings::fog: either none, or kMinFogPoints …
+/// kMaxFogControlPoints points with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
 bool isTransferFunction(std::span<const slicing::FogPoint> points);
 
 /// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the
-/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets back the settings that are
-/// ResetOccasion::by_another_object or ResetOccasion::by_reset, those of a field to its defaults, and ends a turn
-/// toward an element. If only the new object has a second function, sets Coloring::value; if only the old one has,
-/// replaces Coloring::value by Coloring::cell. Error: that of `loader`, if it defers transforming the object to the
-/// frame of reference; the state is then unchanged.
+/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Ends a turn toward an element. Sets back
+/// the settings that are ResetOccasion::by_another_object or ResetOccasion::by_reset_or_another_object; the levels of a
+/// field, and which side of them is inside, become those of the new field. If only the new object has a second
+/// function, sets Coloring::value; if only the old object has one, replaces Coloring::value by Coloring::cell. Error:
+/// that of `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
 
 /// Sets the orientation back to the initial one, and ends all motion.
 void returnToInitialOrientation(State& state);
 
-/// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset.
+/// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
 void reset(State& state);
 
 /// Shows the object in another frame of reference; does nothing if it is the same. `frame` must be within the bounds.
@@ -67,8 +67,8 @@ void setCount(State& state, int count);
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 
-/// Returns the settings of a state: applySet() with them makes a state with the same object equal to this one, except
-/// for the orientation, the last rotation and the motion, which the settings do not contain.
+/// Returns the settings of a state. If another state shows the same object, applySet() with these settings makes it
+/// equal to `state`, except for the orientation, the last rotation and the motion, which the settings do not contain.
 Set settingsOf(const State& state);
 
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
@@ -78,9 +78,10 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn);
 void rotate(State& state, const geometry::Turn& turn);
 
 /// Starts to turn the object toward the orientation in which the element points to +w; with TurnToward::immediately,
-/// rotates it to this orientation at once. Without TurnToward::index, chooses an element of the given kind: if one is
-/// highlighted, this element, or one that contains it or is contained in it; else the element closest to +w. See
-/// slicing::elementToTurnTo(). Ends continuous turning. Error: `out_of_range` if the object has no such element.
+/// rotates it to this orientation at once. Without TurnToward::index, slicing::elementToTurnTo() chooses an element of
+/// TurnToward::kind: the one closest to +w or, if that already points there, the next one. If an element is
+/// highlighted, only this element and those that contain it or are contained in it can be chosen. Ends continuous
+/// turning. Error: `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
 /// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if

@@ -9,22 +9,21 @@
 
 namespace oval4d::slicing {
 
-/// Lists the edges, the 2-faces or the cells of a polytope that are cut by the current one of several parallel
-/// hyperplanes. The hyperplanes are numbered from 0 by ascending w; an element is cut by the hyperplanes with the
-/// indices in [from, to). Call clear(), then add() for each element, then sort() once, then advance() for the
+/// Steps through parallel hyperplanes, and lists which edges of a polytope (or which 2-faces, or which cells) the
+/// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w; an element is cut by the hyperplanes
+/// with the indices in [from, to). Call clear(), then add() for each element, then sort() once, then advance() for the
 /// hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
 /// take longer than the work that the branch avoids.
 class ActiveList {
   public:
-    struct Element {
+    struct Entry {
         std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
         std::int32_t to;       ///< the index of the first hyperplane above the element
     };
 
-    /// Removes all elements. Makes room for up to `elements` new ones, which are cut by some of the hyperplanes 0 …
-    /// `planes` − 1.
+    /// Removes all elements. Makes room for up to `elements` new ones, and for the hyperplanes 0 … `planes` − 1.
     void clear(std::size_t elements, int planes) {
         added_.resize(elements + 1);
         end_.assign(planes + 1, 0);
@@ -45,20 +44,20 @@ class ActiveList {
 
     /// Makes the hyperplane with the index `step` the current one. Must be called for the steps that were passed to
     /// sort(), in this order. Returns the elements that become active: those whose first hyperplane is `step`.
-    std::span<const Element> advance(int step);
+    std::span<const Entry> advance(int step);
     /// Returns the elements that the current hyperplane cuts.
-    std::span<const Element> active() const { return {active_.data(), activeCount_}; }
+    std::span<const Entry> active() const { return {active_.data(), activeCount_}; }
     /// Returns the number of active elements.
     std::uint32_t size() const { return activeCount_; }
 
   private:
     struct Added {
-        Element element;
+        Entry entry;
         std::int32_t from;
     };
     std::vector<Added> added_;
-    std::vector<Element> sorted_, active_;
-    // Per hyperplane: before sort(), the number of elements for which it is the first one; afterward, the end of the
+    std::vector<Entry> sorted_, active_;
+    // Per hyperplane: before sort(), the number of elements whose first hyperplane it is; afterward, the end of the
     // range of these elements in sorted_.
     std::vector<std::uint32_t> end_;
     // The numbers of elements that were added, that are active, and that have become active since sort().
@@ -71,20 +70,20 @@ inline void ActiveList::sort(std::span<const int> steps) {
     std::uint32_t* end = end_.data();
     std::uint32_t total = 0;
     for (const int step : steps) total += std::exchange(end[step], total);
-    for (const Added& added : std::span(added_.data(), count_)) sorted_[end[added.from]++] = added.element;
+    for (const Added& added : std::span(added_.data(), count_)) sorted_[end[added.from]++] = added.entry;
 }
 
-inline std::span<const ActiveList::Element> ActiveList::advance(int step) {
-    Element* active = active_.data();
-    Element* kept = active;
-    for (const Element *at = active, *end = active + activeCount_; at != end; ++at) {
+inline std::span<const ActiveList::Entry> ActiveList::advance(int step) {
+    Entry* active = active_.data();
+    Entry* kept = active;
+    for (const Entry *at = active, *end = active + activeCount_; at != end; ++at) {
         const std::int32_t to = at->to;
         *kept = *at;
         kept += to > step ? 1 : 0;
     }
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];
-    for (const Element& element : begun) *kept++ = element;
+    for (const Entry& entry : begun) *kept++ = entry;
     activeCount_ = static_cast<std::uint32_t>(kept - active);
     return begun;
 }

@@ -9,7 +9,7 @@
 
 namespace oval4d::slicing {
 
-double ballRadius(const geometry::PointCloud& cloud) {
+double relativeBallRadius(const geometry::PointCloud& cloud) {
     // In four dimensions, the distance between neighboring points is proportional to (the number of points)^(−1/4).
     constexpr double kLargest = 0.06, kSmallest = 0.015;
     return std::clamp(0.14 * std::pow(static_cast<double>(cloud.points.size()), -0.25), kSmallest, kLargest);
@@ -40,11 +40,11 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
     SliceCounts size;
     size.vertices = next_.back();
     out.resize(size);
-    for (int i = 0; i <= planes.count; ++i) out.begin(i, {next_[static_cast<std::size_t>(i)], 0, 0, 0});
+    for (int i = 0; i <= planes.count; ++i) out.setSliceBegin(i, {next_[static_cast<std::size_t>(i)], 0, 0, 0});
     out.cornerBegin.assign(1, 0);
     out.ballScale.resize(size.vertices);
     out.ballOpacity.resize(size.vertices);
-    const double usual = ballRadius(cloud) * cloud.circumradius;
+    const double usual = relativeBallRadius(cloud) * cloud.circumradius;
     for (std::size_t p = 0; p < count; ++p) {
         if (planeOf_[p] < 0) continue;
         const std::uint32_t at = next_[static_cast<std::size_t>(planeOf_[p])]++;

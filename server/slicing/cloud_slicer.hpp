@@ -13,16 +13,17 @@ namespace oval4d::slicing {
 
 /// Returns the default radius of a cloud's balls, as a fraction of the circumradius: from 0.06 for few points to 0.015
 /// for many.
-double ballRadius(const geometry::PointCloud& cloud);
+double relativeBallRadius(const geometry::PointCloud& cloud);
 
 /// Returns the opacity, 1 … 0.2, of a ball whose center has this distance from the hyperplane. The unit of `distance`
 /// is half the spacing of the hyperplanes; a distance greater than 1 counts as 1.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
 /// Slices point clouds. Each point belongs to the nearest hyperplane, unless this is more than half a spacing away; a
-/// point halfway between two hyperplanes belongs to the upper one. The slice shows the point as a ball, whose opacity
-/// decreases linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. Only one thread at a time
-/// may use a slicer.
+/// point halfway between two hyperplanes belongs to the upper one. But if the hyperplanes are listed (see
+/// Hyperplanes::listed), a point belongs to every hyperplane within half a spacing. The slice shows the point as a
+/// ball, whose opacity decreases linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. Only
+/// one thread at a time may use a slicer.
 class CloudSlicer {
   public:
     /// Slices `cloud` rotated by `orientation`. Overwrites `out`, except its surfaces and fogs, and reuses its memory.

@@ -8,9 +8,9 @@
 
 namespace oval4d::slicing {
 
-/// Edges of a slice that coincide. If a face of the slice shrinks until only two of its edges are left, these edges
-/// join the same two vertices. The face is removed, and the two edges become one, so that the surface stays closed.
-/// Reuses its memory.
+/// Records which edges of a slice coincide. When a slice is moved into a hyperplane that contains vertices (see
+/// DegeneracyCollapse), a face may shrink until it has only two edges, which join the same two vertices. The slicer
+/// then removes the face and replaces the two edges by one, so that the surface stays closed. Reuses its memory.
 class CoincidingEdges {
   public:
     /// Begins with edges 0 … edges − 1, all of which are different.
@@ -18,21 +18,21 @@ class CoincidingEdges {
         edges_ = edges;
         any_ = false;
     }
-    /// Makes two edges one edge. They may already be the same edge.
+    /// Records that two edges coincide. They may be the same edge, or already be known to coincide.
     void join(std::uint32_t a, std::uint32_t b) {
-        if (a == b) return;  // in almost all slices, this is true of all calls, and the list is not even made
+        if (a == b) return;  // in almost all slices, every call ends here, and first_ is never filled
         if (!any_) {
             first_.resize(edges_);
             std::iota(first_.begin(), first_.end(), 0U);
             any_ = true;
         }
-        const std::uint32_t one = firstOf(a), other = firstOf(b);
+        const std::uint32_t one = representativeOf(a), other = representativeOf(b);
         first_[std::max(one, other)] = std::min(one, other);
     }
     /// Returns whether any edges coincide.
     bool any() const { return any_; }
-    /// Returns the edge with the least index that coincides with this one. Requires any().
-    std::uint32_t firstOf(std::uint32_t edge) {
+    /// Returns the least index among this edge and those that coincide with it. Requires any().
+    std::uint32_t representativeOf(std::uint32_t edge) {
         while (first_[edge] != edge) edge = first_[edge] = first_[first_[edge]];
         return edge;
     }

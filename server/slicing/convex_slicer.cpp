@@ -11,7 +11,7 @@ namespace {
 // so its time is proportional to the number of elements times (the number of hyperplanes + a constant). If this product
 // is at most kLarge, waking the other core takes longer than the time that it saves.
 bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
-    constexpr std::size_t kSorting = 40;  // the time of sorting, as a number of hyperplanes that take the same time
+    constexpr std::size_t kSorting = 40;  // the time of sorting divided by the time of writing for one hyperplane
     constexpr std::size_t kLarge = 2'500'000;
     const std::size_t elements =
         polytope.vertices.size() + polytope.edges.size() + polytope.faces.size() + polytope.cells.size();
@@ -32,7 +32,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexRanks ranks, s
     out.resize(size);
     SliceCounts end;
     if (!sweep.cut(polytope, touching, 0, end, out)) return false;
-    out.end(end);
+    out.finishSlices(end);
     return true;
 }
 
@@ -59,7 +59,7 @@ bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexRanks ra
     upper_.end = lower_.sweep.maxSize();
     out.resize(lower_.sweep.maxSize() + upper_.sweep.maxSize());
     if (!invoke([&] { cut(lower_, 0); }, [&] { cut(upper_, middle); })) return false;
-    out.end(upper_.end);
+    out.finishSlices(upper_.end);
     return true;
 }
 

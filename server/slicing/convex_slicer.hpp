@@ -35,7 +35,7 @@ class ConvexSlicer {
     struct Half {
         Sweep sweep;
         std::vector<std::int32_t> below;  // like VertexRanks::below, but counts only hyperplanes of this half
-        SliceCounts end;                  // the position in `out` at which the next slice of this half begins
+        SliceCounts end;                  // before sweep.cut(), where this half begins in the output; then its end
         bool sound = false;               // what the last call of sweep.begin() or sweep.cut() returned
     };
     bool cutHalves(const polytopes::Polytope& polytope, VertexRanks ranks, SliceSet& out);

@@ -13,8 +13,8 @@ namespace oval4d::slicing {
 
 namespace {
 
-using fields::UnitPoints;
-using fields::writeUnitPoints;
+using fields::UnitCubePoints;
+using fields::writeQuasirandomPoints;
 
 constexpr std::size_t kHistogramBatch = fields::kUnitPoints;
 static_assert(CoordinateHistograms::kMinPoints % kHistogramBatch == 0);
@@ -48,9 +48,9 @@ void CoordinateHistograms::sample(const fields::Field& field) {
     for (int k = 0; k < 4; ++k) steps[static_cast<std::size_t>(k)][k] = size[k] / kResolution;
     const fields::ScalarFunction& function = field.function->forSteps(steps);
     values_.resize(pointCount(function));
-    UnitPoints points;
+    UnitCubePoints points;
     for (std::size_t first = 0; first < values_.size(); first += kHistogramBatch) {
-        writeUnitPoints(first, points);
+        writeQuasirandomPoints(first, points);
         for (int k = 0; k < 4; ++k)
             for (float& u : points[static_cast<std::size_t>(k)]) u = static_cast<float>(field.box.min[k] + u * size[k]);
         function.evaluate({points[0], points[1], points[2], points[3]},
@@ -84,18 +84,19 @@ void CoordinateHistograms::chooseRange(std::span<const double> levels) {
 void CoordinateHistograms::assignRows() {
     const double scale = (kRows - 1) / (range_.greatest - range_.least);
     rowOf_.resize(values_.size());
-    points_ = 0;
+    countedPoints_ = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const double value = values_[i];
         const bool isInside = value >= range_.least && value <= range_.greatest;  // false for NaN
         rowOf_[i] = isInside ? static_cast<std::uint8_t>(std::lround((range_.greatest - value) * scale)) : kNoRow;
-        points_ += isInside ? 1 : 0;
+        countedPoints_ += isInside ? 1 : 0;
     }
 }
 
 void CoordinateHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
-    // toSteps maps the unit cube, centered at the origin, to the rotated domain, in units of 1 / kPoint of a column.
-    constexpr float kReach = (kPanel - 1) * kPoint / 2.0F;
+    // After the next two loops, toSteps maps the unit cube, centered at the origin, to the rotated domain. The unit
+    // along each axis is then 1 / kPointWeight of a column, so that the domain extends from −kReach to +kReach.
+    constexpr float kReach = (kPanel - 1) * kPointWeight / 2.0F;
     glm::dmat4 toSteps = orientation.matrix() * glm::inverse(field.toFunction);
     for (int j = 0; j < 4; ++j) toSteps[j] *= field.box.max[j] - field.box.min[j];
     for (int k = 0; k < 4; ++k) {
@@ -106,10 +107,10 @@ void CoordinateHistograms::count(const fields::Field& field, const geometry::Rot
     }
     const glm::mat4 m(toSteps);
     weights_.assign(static_cast<std::size_t>(kRows) * kColumns, 0);
-    UnitPoints points;
+    UnitCubePoints points;
     std::array<std::int32_t, kHistogramBatch> steps;
     for (std::size_t first = 0; first < values_.size(); first += kHistogramBatch) {
-        writeUnitPoints(first, points);
+        writeQuasirandomPoints(first, points);
         const std::uint8_t* rows = rowOf_.data() + first;
         for (int k = 0; k < 4; ++k) {
             const float x = m[0][k], y = m[1][k], z = m[2][k], w = m[3][k];
@@ -120,9 +121,9 @@ void CoordinateHistograms::count(const fields::Field& field, const geometry::Rot
             }
             for (std::size_t i = 0; i < kHistogramBatch; ++i) {
                 if (rows[i] == kNoRow) continue;
-                const auto step = static_cast<std::uint32_t>(steps[i]), beyond = step % kPoint;
-                std::uint32_t* weight = &weights_[index(rows[i], k, static_cast<int>(step / kPoint))];
-                weight[0] += kPoint - beyond;
+                const auto step = static_cast<std::uint32_t>(steps[i]), beyond = step % kPointWeight;
+                std::uint32_t* weight = &weights_[index(rows[i], k, static_cast<int>(step / kPointWeight))];
+                weight[0] += kPointWeight - beyond;
                 if (beyond > 0) weight[1] += beyond;
             }
         }

@@ -25,15 +25,15 @@ namespace oval4d::slicing {
 /// kColumns, with a panel of kPanel columns for each axis. The first and the last column of a panel stand for the ends
 /// of the domain; the first row stands for the greatest value of range(), and the last row for the least.
 ///
-/// The domain is sampled at quasirandom points (see fields::writeUnitPoints()). The function is not evaluated again
-/// while only the rotation or the levels change. Reuses its memory between measurements.
+/// The domain is sampled at quasirandom points (see fields::writeQuasirandomPoints()). The function is not evaluated
+/// again while only the rotation or the levels change. Reuses its memory between measurements.
 class CoordinateHistograms {
   public:
     static constexpr int kPanel = 64;  ///< columns for each axis
     static constexpr int kColumns = 4 * kPanel;
     static constexpr int kRows = 65;
     /// The weight that a point adds to each panel, shared by the two columns between which it lies.
-    static constexpr std::uint32_t kPoint = 4;
+    static constexpr std::uint32_t kPointWeight = 4;
     /// Limits on the number of points. Functions that take longer to evaluate are evaluated at fewer points.
     static constexpr std::size_t kMaxPoints = std::size_t{1} << 17, kMinPoints = std::size_t{1} << 14;
 
@@ -52,9 +52,9 @@ class CoordinateHistograms {
     /// extends from −reach, in the first column of the panel, to +reach, in the last column.
     const std::array<double, 4>& reach() const { return reach_; }
 
-    /// Returns the number of points whose values are in range(). The sum of each panel's weights is kPoint times this
-    /// number.
-    std::size_t points() const { return points_; }
+    /// Returns the number of points whose values are in range(). The sum of each panel's weights is kPointWeight times
+    /// this number.
+    std::size_t countedPoints() const { return countedPoints_; }
 
     /// Returns the weights, row by row.
     std::span<const std::uint32_t> weights() const { return weights_; }
@@ -81,7 +81,7 @@ class CoordinateHistograms {
     Range fullRange_, typicalRange_;  // the ranges of all values, and of the values without outliers
     Range range_;
     std::vector<std::uint8_t> rowOf_;  // per point: the row of its value; 255 outside range_
-    std::size_t points_ = 0;
+    std::size_t countedPoints_ = 0;
     std::array<double, 4> reach_{};
     std::vector<std::uint32_t> weights_;
     std::vector<std::uint8_t> tones_;

@@ -120,7 +120,7 @@ void DegeneracyCollapse::removeCoincidingEdges(SliceCounts at, SliceCounts& size
     newEdge_.resize(size.edges);
     std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < size.edges; ++i) {
-        if (const std::uint32_t first = coinciding_.firstOf(i); first != i) {
+        if (const std::uint32_t first = coinciding_.representativeOf(i); first != i) {
             newEdge_[i] = newEdge_[first];
             continue;
         }
@@ -134,7 +134,7 @@ void DegeneracyCollapse::removeCoincidingEdges(SliceCounts at, SliceCounts& size
 }
 
 // Returns the edge that belongs to the 2-face `face`, lies in the hyperplane, and joins the slice vertices `ends`.
-// Returns kNone if there is no single such edge, because several collinear edges lie between the two vertices.
+// Returns kNone if there is no such edge, for example because several collinear edges lie between the two vertices.
 std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
                                                    std::array<std::uint32_t, 2> ends) const {
     for (const std::uint32_t e : polytope.faceEdges[face]) {
@@ -146,7 +146,7 @@ std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& po
 }
 
 // Returns the 2-face that belongs to the cell, lies in the hyperplane, and has this number of corners. Returns kNone if
-// there is none, because the slice face consists of several coplanar 2-faces.
+// there is none, for example because the slice face consists of several coplanar 2-faces.
 std::uint32_t DegeneracyCollapse::faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell,
                                                    std::size_t corners) const {
     const auto lies = [&](std::uint32_t v) { return ranks_.liesIn(v, plane_); };

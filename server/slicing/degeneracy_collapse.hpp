@@ -19,12 +19,12 @@ namespace oval4d::slicing {
 /// - A slice vertex that was cut from an edge with one end in the hyperplane moves to this end.
 /// - A slice edge that was cut from a 2-face with an edge in the hyperplane moves to this edge.
 /// - A slice face that was cut from a cell with a 2-face in the hyperplane moves to this 2-face.
-/// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed. If two edges are
-///   left of a removed face, they become one edge.
+/// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed. If a removed face
+///   still has two edges, these become one edge.
 ///
-/// A vertex counts as lying in the hyperplane if it is close to it. Therefore, if a cell is inclined to the hyperplane
-/// by only a tiny angle, the vertices of the cell in the hyperplane may not be the vertices of one of its elements. The
-/// slice is closed even then.
+/// A vertex counts as lying in the hyperplane if it is close to the hyperplane. Therefore, if a cell is inclined to the
+/// hyperplane by only a tiny angle, the set of its vertices in the hyperplane need not be the vertex set of a single
+/// edge or 2-face. The slice is closed even then.
 ///
 /// The polytope must have vertices on both sides of the hyperplane; otherwise the slice just above the hyperplane would
 /// miss elements that lie in it. Reuses its memory.

@@ -96,8 +96,8 @@ class Incidence {
 class Span {
   public:
     /// Makes the basis of an element of this dimension from vectors between its points, by the Gram–Schmidt process.
-    /// Each step takes the longest of the remaining vectors, so that rounding errors of the points do not count as
-    /// directions. Ignores vectors whose length is at most `tolerance`. Overwrites the vectors.
+    /// Each step takes the vector whose part perpendicular to the basis is longest, so that rounding errors of the
+    /// points do not count as directions. Ignores parts whose length is at most `tolerance`. Overwrites the vectors.
     Span(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
@@ -193,7 +193,8 @@ std::size_t elementCount(const Object& object, ElementKind kind) {
 
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
     std::vector<glm::dvec4> points;
-    return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred, points); }, object);
+    return visitPolytopeOrCloud([&](const auto& shared) { return directionIn(*shared, element, preferred, points); },
+                                object);
 }
 
 geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
@@ -225,7 +226,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
             }
         }
     };
-    visitElements(findNearest, object);
+    visitPolytopeOrCloud(findNearest, object);
     if (candidates.empty()) return std::nullopt;
     constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6 radians
     if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
@@ -238,7 +239,7 @@ void ElementSources::clear() {
 
 void findSourcesShowing(const Object& object, const Element& element, ElementSources& out) {
     out.clear();
-    visitElements([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
+    visitPolytopeOrCloud([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {
         std::ranges::sort(*list);
         list->erase(std::unique(list->begin(), list->end()), list->end());
@@ -265,15 +266,15 @@ std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Ro
         heights.reserve(vertices.size());
         for (const glm::dvec4& v : vertices) heights.push_back(glm::dot(direction, v));
     };
-    visitElements(
+    visitPolytopeOrCloud(
         Visitor{[&](const PolytopePtr& p) { add(p->vertices); }, [&](const CloudPtr& cloud) { add(cloud->points); }},
         object);
-    return groupHeights(std::move(heights), kOnPlane * infoOf(object).circumradius);
+    return groupHeights(std::move(heights), kOnPlaneTolerance * infoOf(object).circumradius);
 }
 
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward) {
-    const double slack = kOnPlane * infoOf(object).circumradius;
+    const double slack = kOnPlaneTolerance * infoOf(object).circumradius;
     const glm::dvec4 direction = ownDirectionOfW(orientation);
     std::optional<double> next;
     const auto consider = [&](const std::vector<glm::dvec4>& vertices) {
@@ -283,9 +284,9 @@ std::optional<double> nextVertexHeight(const Object& object, const geometry::Rot
             if (beyond && (!next || (upward ? height < *next : height > *next))) next = height;
         }
     };
-    visitElements(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
-                          [&](const CloudPtr& cloud) { consider(cloud->points); }},
-                  object);
+    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
+                                 [&](const CloudPtr& cloud) { consider(cloud->points); }},
+                         object);
     return next;
 }
 

@@ -36,16 +36,16 @@ struct Element {
 std::size_t elementCount(const Object& object, ElementKind kind);
 
 /// Returns a vector in the direction of the element: from the origin to the nearest point of the element's affine span.
-/// The vector and `preferred` are in the object's own coordinates, before any rotation. A rotation of this direction to
-/// +w moves the whole element into one hyperplane w = const. If the span contains the origin, returns the vector
-/// perpendicular to the span whose direction is closest to `preferred`, or any perpendicular vector if `preferred` lies
-/// in the span. The length of the result is arbitrary, but not 0. Requires element.index < elementCount(object,
-/// element.kind), and that `preferred` is not 0.
+/// The vector and `preferred` are in the object's own coordinates, before any rotation. A rotation that turns this
+/// direction to +w moves the whole element into one hyperplane w = const. If the span contains the origin, returns a
+/// vector perpendicular to the span: the one closest in direction to `preferred`, or any one if `preferred` lies in the
+/// span. The length of the result is arbitrary, but not 0. Requires element.index < elementCount(object, element.kind),
+/// and that `preferred` is not 0.
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
-/// Returns the shortest rotation that, applied after `orientation`, turns the direction of the element to +w. The
-/// direction is that of directionOf(); its `preferred` is the direction that `orientation` turns to +w. Requires
-/// element.index < elementCount(object, element.kind).
+/// Returns the rotation by the smallest angle that, applied after `orientation`, turns the direction of the element to
+/// +w. This direction is the result of directionOf(), where `preferred` is the direction that `orientation` alone turns
+/// to +w. Requires element.index < elementCount(object, element.kind).
 geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
@@ -83,19 +83,19 @@ void findSourcesShowing(const Object& object, const Element& element, ElementSou
 
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
-/// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlane circumradii
-/// (see slice_set.hpp) count as equal. Returns std::nullopt if there is no such vertex.
+/// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance
+/// circumradii (see slice_set.hpp) count as equal. Returns std::nullopt if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 
 /// A w coordinate at which vertices lie, and the number of vertices there.
 struct VertexHeight {
     double w = 0;
-    std::size_t vertices = 0;
+    std::size_t vertexCount = 0;
 };
 
 /// Returns the w coordinates of the vertices of the rotated object, in ascending order. Successive coordinates that
-/// differ by at most kOnPlane circumradii form one group (see groupHeights()).
+/// differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
 std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Rotation& orientation);
 
 /// Sorts w coordinates, and groups successive ones that differ by at most `same`. The w of a group is the mean of its

@@ -38,8 +38,9 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
-    // The cellSigns of the 2-faces are consistent with each other, so they are all right or all wrong, depending on
-    // which side of the cell faces toward +w. They are right if the signed volume of the cell is positive.
+    // Directed by their cellSigns, the loops of the 2-faces are all counterclockwise or all clockwise in the
+    // hyperplane, as seen from outside the cell, depending on which side of the cell faces toward +w. They are
+    // counterclockwise if the signed volume of the cell is positive.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];
@@ -82,7 +83,8 @@ double addShape(const Polytope& p, const Element& element, const ElementSources&
 
 }  // namespace
 
-void shapeOf(const Object& object, const Element& element, const geometry::Rotation& orientation, SliceSet& out) {
+void writeElementAsSlice(const Object& object, const Element& element, const geometry::Rotation& orientation,
+                         SliceSet& out) {
     const geometry::Rotation turn = wayToW(object, element, orientation) * orientation;
     ElementSources sources;
     findSourcesShowing(object, element, sources);
@@ -90,7 +92,7 @@ void shapeOf(const Object& object, const Element& element, const geometry::Rotat
     out.surfaces.clear();
     out.fogs.clear();
     out.clearSlices();
-    const double w = visitElements(
+    const double w = visitPolytopeOrCloud(
         Visitor{[&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
                 [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},
         object);

@@ -23,14 +23,14 @@ struct FogPoint {
 };
 
 /// The least and the greatest number of control points of a transfer function.
-inline constexpr std::size_t kMinFogPoints = 2, kMaxFogPoints = 8;
+inline constexpr std::size_t kMinFogPoints = 2, kMaxFogControlPoints = 8;
 
 /// The levels at which the surfaces of a field are shown, which side of them is inside, and the fog in the slices.
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
     fields::Inside inside = fields::Inside::below;
-    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogPoints … kMaxFogPoints
-    /// points with strictly ascending values.
+    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogPoints …
+    /// kMaxFogControlPoints points with strictly ascending values.
     std::vector<FogPoint> fog = {};
     bool operator==(const FieldSettings&) const = default;
 };

@@ -82,12 +82,13 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     if (field.isLost()) throw std::runtime_error("the file of the field can no longer be read");
 }
 
-// Returns the factor by which the steps of fog must be enlarged to stay within maxFogPoints() and surfaceLimits().time.
+// Returns the factor by which the steps of fog must be enlarged to stay within maxFogSamples() and
+// surfaceLimits().time.
 double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices) {
     constexpr double kEnlarge = 1.05, kMost = 1e3, kPerPoint = 3;
     const double perPoint = field.function->cost().value + kPerPoint;
     const double most =
-        std::min(static_cast<double>(maxFogPoints(detail.quality)), surfaceLimits(detail.quality).time / perPoint);
+        std::min(static_cast<double>(maxFogSamples(detail.quality)), surfaceLimits(detail.quality).time / perPoint);
     const auto points = [&](double factor) {
         double total = 0;
         for (int i = 0; i < slices.planes.count; ++i) {

@@ -124,7 +124,8 @@ bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint3
     return true;
 }
 
-// Finds the levels. Between two successive levels, no side begins, ends or crosses another.
+// Sets levels_, and the levels of the ends of each side. Between two successive levels, no side begins, ends or crosses
+// another.
 void FaceFiller::findLevels() {
     levels_.clear();
     for (const Side& side : sides_) {
@@ -159,8 +160,8 @@ void FaceFiller::findLevels() {
     }
 }
 
-// Sweeps upward from level to level. In the strip between two levels, the order of the sides from left to right does
-// not change. Returns the greatest absolute winding number.
+// Sweeps upward from level to level, and appends the pieces of the face to `out`. In the strip between two levels, the
+// order of the sides from left to right does not change. Returns the greatest absolute winding number.
 int FaceFiller::sweep(FilledFaces& out) {
     waiting_.resize(sides_.size());
     for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
@@ -240,7 +241,8 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
     open_.push_back(piece);
 }
 
-// Returns whether the piece stays convex if its chains continue along these sides.
+// Returns whether the piece can continue upward along these sides: whether it stays convex, and its chains have room
+// for another corner.
 bool FaceFiller::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
     const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
     const auto follows = [&](const Side& before, const Side& after, double inward) {

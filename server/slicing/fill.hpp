@@ -13,9 +13,9 @@
 
 namespace oval4d::slicing {
 
-/// The filled faces of slices. All loops in which a hyperplane cuts one cell bound one face, which is filled by the
-/// nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of the loops around
-/// it is not 0.
+/// The filled faces of slices. A hyperplane may cut a cell in several loops. Together they bound one face, which is
+/// filled by the nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of
+/// the loops around it is not 0.
 ///
 /// A patch is a filled face. Slice i has the patches patchBegin[i] … patchBegin[i + 1] − 1. A patch consists of pieces:
 /// convex polygons that do not overlap, unless the patch is filled roughly (see FaceFiller::fill()). Patch p has the
@@ -60,7 +60,7 @@ class FaceFiller {
         double slope;               // dx/dy
         int winding;                // the change of the winding number across the side, from left to right
         std::uint32_t from, to;     // the levels of its ends: indices into levels_
-        double middle;              // x at half the height of the current strip
+        double middle;              // x at half the height of the current strip (see active_)
         double at(double y) const;  // returns x at height y
     };
     // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
@@ -71,7 +71,7 @@ class FaceFiller {
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
         // `hasPositiveWinding`: whether the winding number in the piece is positive. `continued`: whether the piece
-        // extends into the current strip.
+        // extends into the current strip (see active_).
         bool hasPositiveWinding, continued;
     };
     // A plane in space, with orthonormal axes.

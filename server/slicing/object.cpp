@@ -20,15 +20,16 @@ namespace {
 using polytopes::Polytope;
 
 const std::vector<glm::dvec4>& verticesOf(const Object& object) {
-    return visitElements(Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
-                                 [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
-                         object);
+    return visitPolytopeOrCloud(
+        Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
+                [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
+        object);
 }
 
 // The radius is small, because the domain's edges only frame the surfaces.
-double ballRadius(const fields::Field& /*field*/) { return 0.016; }
+double relativeBallRadius(const fields::Field& /*field*/) { return 0.016; }
 
-double ballRadius(const Polytope& p) {
+double relativeBallRadius(const Polytope& p) {
     double sum = 0;
     for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
     const double meanEdge = sum / static_cast<double>(p.edges.size());
@@ -59,16 +60,16 @@ glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::
     return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
 }
 
-// A cell's normal is the 4-D counterpart of a polygon's area vector. It is a sum over the triangles of the cell's
-// absoluteVolume, oriented as seen from outside the cell: for each triangle, the result of perpendicularTo() for the
-// vectors from a fixed vertex of the cell to the three corners. As the orientations of all cells agree, all normals
-// point outward.
+// A cell's normal is the 4-D counterpart of a polygon's area vector. It is a sum over the triangles into which the
+// cell's 2-faces are divided, oriented as seen from outside the cell: for each triangle, the result of
+// perpendicularTo() for the vectors from a fixed vertex of the cell to the three corners. As the orientations of all
+// cells agree, all normals point outward.
 void findCellHyperplanes(const Polytope& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
     normals.assign(p.cells.size(), glm::dvec4(0));
     offsets.assign(p.cells.size(), 0);
     for (std::size_t c = 0; c < normals.size(); ++c) {
         const glm::dvec4 origin = p.vertices[p.faces[p.cells[c][0]][0]];
-        double absoluteVolume = 0;  // six times the sum of the absolute volumes of the tetrahedra
+        double absoluteVolume = 0;  // six times the sum of |volume| of the tetrahedra from `origin` to the triangles
         for (std::uint32_t at = p.cells.begin[c]; at < p.cells.begin[c + 1]; ++at) {
             const auto loop = p.faces[p.cells.items[at]];
             const glm::dvec4 first = p.vertices[loop[0]] - origin;
@@ -92,12 +93,12 @@ const geometry::ObjectInfo& infoOf(const Object& object) {
 
 std::array<std::size_t, 4> elementCounts(const Object& object) {
     using Counts = std::array<std::size_t, 4>;
-    return visitElements(Visitor{[](const PolytopePtr& p) {
-                                     return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
-                                                   p->cells.size()};
-                                 },
-                                 [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
-                         object);
+    return visitPolytopeOrCloud(Visitor{[](const PolytopePtr& p) {
+                                            return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
+                                                          p->cells.size()};
+                                        },
+                                        [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
+                                object);
 }
 
 const fields::Field* fieldIn(const Object& object) {
@@ -105,15 +106,15 @@ const fields::Field* fieldIn(const Object& object) {
     return field == nullptr ? nullptr : field->get();
 }
 
-Object imageOf(const Object& object, const geometry::ReferenceFrame& frame) {
-    return frame == geometry::ReferenceFrame{} ? object : imageOf(object, frame, geometry::nextSerial());
+Object transformedTo(const Object& object, const geometry::ReferenceFrame& frame) {
+    return frame == geometry::ReferenceFrame{} ? object : transformedTo(object, frame, geometry::nextSerial());
 }
 
-Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
+Object transformedTo(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
     if (frame == geometry::ReferenceFrame{}) return object;
     return std::visit(
         [&]<typename Kind>(const std::shared_ptr<const Kind>& shared) -> Object {
-            return std::make_shared<const Kind>(imageOf(*shared, frame, serial));
+            return std::make_shared<const Kind>(transformedTo(*shared, frame, serial));
         },
         object);
 }
@@ -134,7 +135,7 @@ std::size_t memoryOf(const Object& object) {
                               },
                               [](const FieldPtr& field) {
                                   std::size_t functions = 0;
-                                  if (!field->isImage) {
+                                  if (!field->isTransformed) {
                                       functions = field->function->memoryBytes();
                                       if (field->second) functions += field->second->function->memoryBytes();
                                   }
@@ -165,42 +166,42 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
     return range;
 }
 
-double ballRadius(const Object& object) {
-    return std::visit([](const auto& shared) { return ballRadius(*shared); }, object);
+double relativeBallRadius(const Object& object) {
+    return std::visit([](const auto& shared) { return relativeBallRadius(*shared); }, object);
 }
 
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
-    visitElements(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
-                          [&](const CloudPtr& /*cloud*/) { out.clear(); }},
-                  object);
+    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
+                                 [&](const CloudPtr& /*cloud*/) { out.clear(); }},
+                         object);
 }
 
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
-    visitElements(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
-                          [&](const CloudPtr& /*cloud*/) {
-                              normals.clear();
-                              offsets.clear();
-                          }},
-                  object);
+    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
+                                 [&](const CloudPtr& /*cloud*/) {
+                                     normals.clear();
+                                     offsets.clear();
+                                 }},
+                         object);
 }
 
 std::span<const std::uint32_t> typeOfCells(const Object& object) {
     using Types = std::span<const std::uint32_t>;
-    return visitElements(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
-                                 [](const CloudPtr& /*cloud*/) { return Types(); }},
-                         object);
+    return visitPolytopeOrCloud(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
+                                        [](const CloudPtr& /*cloud*/) { return Types(); }},
+                                object);
 }
 
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
     std::vector<glm::dvec4> vertices(rotatedVertices.begin(), rotatedVertices.end());
     for (glm::dvec4& v : vertices) v += infoOf(object).originInFile;
-    return visitElements(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
-                                 [&](const CloudPtr& cloud) {
-                                     Polytope points;
-                                     points.name = cloud->name;
-                                     return polytopes::write4Off(points, vertices);
-                                 }},
-                         object);
+    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
+                                        [&](const CloudPtr& cloud) {
+                                            Polytope points;
+                                            points.name = cloud->name;
+                                            return polytopes::write4Off(points, vertices);
+                                        }},
+                                object);
 }
 
 }  // namespace oval4d::slicing

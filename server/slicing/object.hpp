@@ -1,8 +1,8 @@
 #pragma once
 // The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new
-// kind needs its own folder or file (as polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
-// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions;
-// some of it asks whether an object is a field (fieldIn()), which alone has levels and fog, or a point cloud.
+// kind needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
+// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions.
+// Some of it also asks whether an object is a point cloud or a field (fieldIn()); only fields have levels and fog.
 
 #include <array>
 #include <cstddef>
@@ -55,15 +55,15 @@ std::array<std::size_t, 4> elementCounts(const Object& object);
 /// frame, returns the object itself. Otherwise, returns a new object; its serial number is `serial` or, in the overload
 /// without this parameter, a new number. A transformed field shares the functions of the original field. Takes time and
 /// memory linear in the number of elements.
-Object imageOf(const Object& object, const geometry::ReferenceFrame& frame);
-Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+Object transformedTo(const Object& object, const geometry::ReferenceFrame& frame);
+Object transformedTo(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 /// Returns the largest |w| of the slices when an object is first shown, in the object's units: the circumradius. For a
 /// field, returns 95 % of the largest |w| of the unrotated domain, so that no slice of the domain is empty.
 double initialSliceExtent(const Object& object);
 
-/// Returns the memory used by an object, in bytes, without its name. For a field that imageOf() made, does not count
-/// the functions, because they belong to the original field.
+/// Returns the memory used by an object, in bytes, without its name. For a field that transformedTo() made, does not
+/// count the functions, because they belong to the original field.
 std::size_t memoryOf(const Object& object);
 
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.
@@ -80,7 +80,7 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
 /// radius grows with the mean edge length, so that balls neither hide the slices of a 120-cell nor look too small in
 /// slices of a 5-cell. For a point cloud, the radius is smaller if there are more points. For a field, it is constant.
 /// Takes time linear in the number of edges.
-double ballRadius(const Object& object);
+double relativeBallRadius(const Object& object);
 
 /// Sets `out` to the center of each cell: the mean of its vertices, weighted by the number of 2-faces of the cell that
 /// contain the vertex. Clears `out` for a point cloud.

@@ -18,7 +18,8 @@ namespace oval4d::slicing {
 using MappedFiles = std::vector<fields::MappedFilePtr>;
 
 /// Encodes an object, including its name and serial number, in the byte order and number formats of this machine. The
-/// object must not have been made by imageOf(). Overwrites `out`. Sets `files` to the files that the receiver needs.
+/// object must not have been made by transformedTo(), because a field is encoded without its frame of reference.
+/// Overwrites `out`. Sets `files` to the files that the receiver needs.
 void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 
 /// Decodes the bytes that encodeObject() wrote. The sender must be trusted, because not all bytes are validated. Throws
@@ -29,9 +30,9 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 /// vertices, 2-faces, cells and cell types; for a cloud, the points and radii; for both, also ObjectInfo::originInFile.
 /// For a field, these are the functions (formulas or samples) and the domain.
 ///
-/// Samples are written inline if they are not in a file, or as long as the object has at most `maxInMemory` inline
-/// samples in total. Otherwise a reference to their file is written, and the file is added to `files` if it is not
-/// there yet.
+/// The samples of an array are written inline if they are not in a file, or if the object then has at most
+/// `maxInMemory` inline samples in total. Otherwise a reference to their file is written, and the file is added to
+/// `files` if it is not there yet.
 void writeParts(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
                 std::size_t maxInMemory = fields::kMaxSamples);
 

@@ -81,7 +81,7 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
                                        : glm::dvec4(slices.vertices[v], slices.planes.w(slice));
         vertices_.push_back(toObject * own);
         const double distance = vertices_.back()[axis] - point[axis];
-        distance_.push_back(!isCloud && std::abs(distance) <= kOnPlane * radius ? 0 : distance);
+        distance_.push_back(!isCloud && std::abs(distance) <= kOnPlaneTolerance * radius ? 0 : distance);
         anyBelow = anyBelow || distance_.back() < 0;
     }
     if (isCloud) {

@@ -1,5 +1,5 @@
 #pragma once
-// The sections of an object by the six planes through a given point that are each parallel to two coordinate axes: the
+// The sections of an object by six planes through a given point, one parallel to each pair of coordinate axes: the
 // panels of a HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of
 // many variables", 1993). They are computed exactly, by cutting a slice with a second hyperplane.
 
@@ -23,8 +23,8 @@ namespace oval4d::slicing {
 /// The source number of each of its points and edges says from which element of the object it was cut, as in SliceSet.
 /// For a polytope with E edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, or F + e
 /// if polytope edge e was cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the
-/// cell that was cut, or C + f if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of
-/// the point; there are no edges.
+/// cell that was cut, or C + f if the plane cuts 2-face f in a segment. For a point cloud, `pointSource` is the index
+/// of the point; there are no edges.
 struct PlanarSection {
     /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w. axes[0] < axes[1].
     std::array<int, 2> axes{};
@@ -48,13 +48,14 @@ class PlanarSlicer {
   public:
     /// Cuts `object`, rotated by `orientation`, by the six planes through `point`. `slices` must have been cut from the
     /// rotated object, and the hyperplane of slice number `slice` must contain `point`. Each plane is the intersection
-    /// of two hyperplanes; the section of a point cloud contains the points whose distance from both is at most half
-    /// the spacing of `slices`. Overwrites `out` and reuses its memory.
+    /// of two hyperplanes: the first cuts the object, and the second cuts the resulting slice. The section of a point
+    /// cloud contains the points whose distance from each of the two is at most half the spacing of `slices`.
+    /// Overwrites `out` and reuses its memory.
     void slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                const glm::dvec4& point, PlanarSections& out);
 
   private:
-    // A point where the loop of a face crosses the hyperplane.
+    // A point where the loop of a slice face crosses the second hyperplane.
     struct LoopCrossing {
         double along = 0;         // the position along the line in which the plane meets the face
         int winding = 0;          // the change of the winding number at the crossing
@@ -71,11 +72,11 @@ class PlanarSlicer {
     Slicer slicer_;
     SliceSet slice_;                    // the slice by a hyperplane z = const or y = const
     std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is cut
-    std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
+    std::vector<double> distance_;      // per vertex: its signed distance from the second hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
     std::vector<LoopCrossing> crossings_;  // the crossings of the loops of one face
-    bool zeroIsAbove_ = true;              // whether vertices in the hyperplane count as above it
+    bool zeroIsAbove_ = true;              // whether vertices in the second hyperplane count as above it
 };
 
 }  // namespace oval4d::slicing

@@ -1,4 +1,4 @@
-// One class in one file, although it is long: its stages fill the same buffers, which no other code may see half full.
+// One class in one file, although it is long: its stages fill the same buffers, which no other code may see incomplete.
 
 #include "slicing/polytope_slicer.hpp"
 
@@ -79,7 +79,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
                                     SliceSet& out) {
     const auto count = static_cast<double>(out.planes.count);
     const double inverse = 1 / out.planes.spacing;
-    const double tolerance = kOnPlane * polytope.circumradius * inverse;
+    const double tolerance = kOnPlaneTolerance * polytope.circumradius * inverse;
     const glm::dmat4 m = orientation.matrix();
     const std::size_t n = polytope.vertices.size();
     out.rotatedVertices.resize(n);
@@ -375,9 +375,9 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
     }
 }
 
-// A 2-face in the hyperplane is a face of the slice if one of its cells stands on it, above the hyperplane, or if one
-// of its cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the 2-face in
-// this cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
+// A 2-face in the hyperplane is a face of the slice if exactly one of its two cells stands on it, above the hyperplane,
+// or if one of its cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the
+// 2-face in this cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
 void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
@@ -451,7 +451,7 @@ void PolytopeSlicer::removeCoincidingEdges(SliceSet& out) {
         const std::uint32_t begin = out.edgeBegin[k], end = out.edgeBegin[k + 1];
         out.edgeBegin[k] = kept;
         for (std::uint32_t e = begin; e < end; ++e) {
-            if (const std::uint32_t first = coinciding_.firstOf(e); first != e) {
+            if (const std::uint32_t first = coinciding_.representativeOf(e); first != e) {
                 number[e] = number[first];
                 continue;
             }

@@ -113,7 +113,7 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> sliceEdgeOf_;   // per edge that lies in a hyperplane: its slice edge
     std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
     std::vector<std::uint32_t> faceCrossingBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;     // per element: the hyperplanes with its vertices on both sides
+    std::vector<Span> faceSpan_, cellSpan_;     // per element: the hyperplanes that have vertices of it on both sides
     std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
     CoincidingEdges coinciding_;                // per slice edge
@@ -123,7 +123,7 @@ class PolytopeSlicer {
     // The slots that have a next slot in the current cell, each with its hyperplane. The tracing of loops starts at
     // them.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
-    std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be its whole slice
+    std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be the whole slice in it
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<Loop> loops_;
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // per corner: its slice vertex; the edge to the next

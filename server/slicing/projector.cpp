@@ -105,7 +105,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         }
     };
     const auto addCloud = [&](const geometry::PointCloud& cloud) {
-        const double usual = ballRadius(cloud) * cloud.circumradius;
+        const double usual = relativeBallRadius(cloud) * cloud.circumradius;
         for (std::uint32_t p = 0; p < cloud.points.size(); ++p) {
             out.vertices.push_back(projection(slices.rotatedVertices[p]));
             out.vertexSource.push_back(p);
@@ -113,8 +113,8 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         }
         out.ballOpacity.assign(out.ballScale.size(), 1);
     };
-    visitElements(Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }},
-                  object);
+    visitPolytopeOrCloud(
+        Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }}, object);
     endPart(out);
     for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
 }
@@ -162,7 +162,8 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     const glm::dvec4 toW(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
     cellIsFacing_.resize(normals_.size());
     for (std::size_t c = 0; c < normals_.size(); ++c) {
-        const double slack = kOnPlane * glm::length(normals_[c]);  // a cell seen edge-on is not turned toward the eye
+        const double slack =
+            kOnPlaneTolerance * glm::length(normals_[c]);  // a cell seen edge-on is not turned toward the eye
         cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
 }

@@ -130,7 +130,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
 }
 
 bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& orientation, double w) {
-    const double slack = kOnPlane * infoOf(object).circumradius;
+    const double slack = kOnPlaneTolerance * infoOf(object).circumradius;
     const glm::dvec4 direction = orientation.inverse()({0, 0, 0, 1});
     const auto sideOf = [&](const glm::dvec4& vertex) {
         const double height = glm::dot(direction, vertex) - w;
@@ -140,18 +140,18 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
         return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
     };
     if (fieldIn(object) != nullptr) return false;
-    return visitElements(Visitor{[&](const PolytopePtr& p) {
-                                     const std::size_t inPlane = countInPlane(p->vertices);
-                                     if (inPlane > 0 && inPlane <= kMaxVertices) return true;
-                                     std::size_t size = inPlane;
-                                     for (const auto& [a, b] : p->edges) {
-                                         size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
-                                         if (size > kMaxVertices) return false;
-                                     }
-                                     return size > 0;
-                                 },
-                                 [](const CloudPtr& /*cloud*/) { return false; }},
-                         object);
+    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) {
+                                            const std::size_t inPlane = countInPlane(p->vertices);
+                                            if (inPlane > 0 && inPlane <= kMaxVertices) return true;
+                                            std::size_t size = inPlane;
+                                            for (const auto& [a, b] : p->edges) {
+                                                size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
+                                                if (size > kMaxVertices) return false;
+                                            }
+                                            return size > 0;
+                                        },
+                                        [](const CloudPtr& /*cloud*/) { return false; }},
+                                object);
 }
 
 std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {

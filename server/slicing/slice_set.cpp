@@ -16,8 +16,8 @@ void SliceSet::resize(SliceCounts size) {
     cornerEdges.resize(size.corners);
 }
 
-void SliceSet::end(SliceCounts at) {
-    begin(planes.count, at);
+void SliceSet::finishSlices(SliceCounts at) {
+    setSliceBegin(planes.count, at);
     if (vertices.size() != at.vertices || edges.size() != at.edges || faceSource.size() != at.faces ||
         corners.size() != at.corners)
         resize(at);

@@ -16,7 +16,7 @@
 namespace oval4d::slicing {
 
 /// A vertex counts as lying in a hyperplane if their distance is at most this fraction of the circumradius.
-inline constexpr double kOnPlane = 1e-9;
+inline constexpr double kOnPlaneTolerance = 1e-9;
 
 /// Numbers of vertices, edges, faces and face corners. They are either the size of one or more slices, or the position
 /// of a slice in a SliceSet: the total size of the slices before it.
@@ -45,8 +45,8 @@ struct SliceSet {
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 entries each
     std::vector<glm::dvec3> vertices;                              ///< x, y, z, in the units of the object
     std::vector<std::uint32_t> vertexSource;
-    /// Per vertex: the radius of its ball relative to the default (see ballRadius()), and the opacity of the ball. Both
-    /// are empty if all their values are 1.
+    /// For a point cloud, per vertex: the radius of its ball relative to the default (see relativeBallRadius()), and
+    /// the opacity of the ball. Empty for other objects, for which all these values are 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
@@ -68,13 +68,13 @@ struct SliceSet {
     /// Resizes the arrays for planes.count slices with this total size.
     void resize(SliceCounts size);
     /// Records that slice number `slice` begins at `at`.
-    void begin(int slice, SliceCounts at) {
+    void setSliceBegin(int slice, SliceCounts at) {
         vertexBegin[slice] = at.vertices;
         edgeBegin[slice] = at.edges;
         faceBegin[slice] = at.faces;
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
-    void end(SliceCounts at);
+    void finishSlices(SliceCounts at);
     /// Removes all slices with their vertices, edges and faces, so that append() can add slices. Keeps the planes,
     /// surfaces and fogs.
     void clearSlices();

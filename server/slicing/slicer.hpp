@@ -36,7 +36,7 @@ class Slicer {
     PolytopeSlicer polytopes_;
     CloudSlicer clouds_;
     FieldSlicer fields_;
-    parallel::ExclusiveUse inUse_;
+    parallel::ExclusiveUseAssertion inUse_;
 };
 
 }  // namespace oval4d::slicing

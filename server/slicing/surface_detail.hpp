@@ -47,7 +47,7 @@ constexpr SurfaceLimits surfaceLimits(Quality quality) {
 /// Returns the maximum number of points of the fog lattices of all slices of a picture together. The lattices are made
 /// coarser to meet this limit, and so that sampling them takes no longer than surfaceLimits(quality).time. A point
 /// takes one byte in a message, and two bytes of texture memory in a rendered picture.
-constexpr std::size_t maxFogPoints(Quality quality) { return quality == Quality::draft ? 250'000 : 2'000'000; }
+constexpr std::size_t maxFogSamples(Quality quality) { return quality == Quality::draft ? 250'000 : 2'000'000; }
 
 /// Returns the width of a lattice cube in a rendered picture, in pixels.
 constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }

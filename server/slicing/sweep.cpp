@@ -27,7 +27,7 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
     const std::size_t bytes = size * sizeof(Item);
     std::size_t done = bytes;
     if (bytes >= sizeof(Chunk) && bytes <= kSmall) {
-        const std::size_t last = bytes - sizeof(Chunk);  // the begin of the last chunk, which overlaps the one before
+        const std::size_t last = bytes - sizeof(Chunk);  // where the last chunk begins; it may overlap the one before
         for (; done < bytes * std::min(times, kFew); done += bytes) {
             for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
             copyChunk(first + last, first + done + last);
@@ -72,7 +72,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
         advance(polytope, out.rotatedVertices, k);
         const SliceCounts size = countsOfSlice();
         if (verticesMet_[k] == VerticesMet::inside) {
-            out.begin(first + k, here);
+            out.setSliceBegin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
                 here = here + copySlice(*touching[k], here, out);
             } else {
@@ -82,7 +82,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
             ++k;
         }
         if (k < next && !write(k, next, here, out)) return false;
-        for (; k < next; ++k, here = here + size) out.begin(first + k, here);
+        for (; k < next; ++k, here = here + size) out.setSliceBegin(first + k, here);
     }
     at = here;
     return true;
@@ -167,7 +167,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
 }
 
 void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane) {
-    for (const ActiveList::Element& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, rotatedVertices);
+    for (const ActiveList::Entry& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, rotatedVertices);
     faces_.advance(plane);
     cells_.advance(plane);
 }
@@ -226,7 +226,7 @@ void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
     glm::dvec3* vertex = out.vertices.data() + at.vertices;
     for (int k = plane; k < end; ++k) {
         const double w = out.planes.w(first_ + k);
-        for (const ActiveList::Element& edge : cut) {
+        for (const ActiveList::Entry& edge : cut) {
             const Line& line = edgeLines[edge.number];
             *vertex++ = glm::dvec3(line.at) + (w - line.at.w) * line.slope;
         }

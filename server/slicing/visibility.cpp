@@ -45,15 +45,15 @@ std::uint32_t coloringCell(const Polytope& p, const Visibilities& visibilities, 
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out) {
     out = {};
     if (std::ranges::all_of(ofType, [](Visibility visibility) { return visibility == Visibility::full; })) return;
-    visitElements(
+    visitPolytopeOrCloud(
         Visitor{[&](const PolytopePtr& p) { findVisibilities(*p, ofType, out); }, [](const CloudPtr& /*cloud*/) {}},
         object);
 }
 
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
-    return visitElements(Visitor{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
-                                 [&](const CloudPtr& /*cloud*/) { return source; }},
-                         object);
+    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
+                                        [&](const CloudPtr& /*cloud*/) { return source; }},
+                                object);
 }
 
 }  // namespace oval4d::slicing

@@ -20,7 +20,7 @@ Visitor(Functions...) -> Visitor<Functions...>;  // Clang 16 has no implicit ded
 /// Calls `visitor` with the PolytopePtr or CloudPtr in an object or, for a field, with the PolytopePtr of its domain.
 /// Returns the result of this call.
 template <typename V>
-decltype(auto) visitElements(const V& visitor, const Object& object) {
+decltype(auto) visitPolytopeOrCloud(const V& visitor, const Object& object) {
     return std::visit(Visitor{[&](const PolytopePtr& p) -> decltype(auto) { return visitor(p); },
                               [&](const CloudPtr& cloud) -> decltype(auto) { return visitor(cloud); },
                               [&](const FieldPtr& field) -> decltype(auto) { return visitor(field->domain); }},

@@ -27,7 +27,8 @@ std::optional<Record> MemoryStore::claim(const std::string& id) {
     return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, ++entry.fence, {}};
 }
 
-/// Returns an upper bound of the size after the updates. It counts even the bytes that the updates replace.
+/// Returns an upper bound of the total size of all records after the updates, in bytes. Counts even the bytes that the
+/// updates replace.
 std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
     std::size_t bytes = bytes_;
     for (const RecordUpdate& update : updates) bytes += estimateStoredSize(update);

@@ -93,10 +93,11 @@ void readSecond(const json& second, const json& shape, fields::Field& field) {
     if (error) throwUnreadable("a field is not valid: " + error->message);
 }
 
-// Encodes a source as [path, format, axes, variable, values, valuesVariable, box or null]: see fields::FileSource.
+// Encodes a source as [dataName, format, axes, variable, secondFormula, secondVariable, box or null]: see
+// fields::FileSource.
 json encoded(const fields::FileSource& source) {
-    const auto& [path, format, axes, variable, values, valuesVariable, box] = source;
-    return json::array({path, format, axes, variable, values, valuesVariable,
+    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box] = source;
+    return json::array({dataName, format, axes, variable, secondFormula, secondVariable,
                         box ? encoded(std::vector{box->min, box->max}) : json()});
 }
 
@@ -106,28 +107,28 @@ fields::Box boxIn(const json& value) {
     return {corners[0], corners[1]};
 }
 
-slicing::Object openFile(const std::string& name, const json& source, const FileOpener& open) {
+slicing::Object openFile(const std::string& name, const json& source, const DataFolderReader& open) {
     session::LoadObject load;
     load.name = name;
-    load.path = source.at(0).get<std::string>();
+    load.dataName = source.at(0).get<std::string>();
     load.format = source.at(1).get<std::string>();
     load.axes = source.at(2).get<std::string>();
     load.variable = source.at(3).get<std::string>();
-    load.values = source.at(4).get<std::string>();
-    load.valuesVariable = source.at(5).get<std::string>();
+    load.secondFormula = source.at(4).get<std::string>();
+    load.secondVariable = source.at(5).get<std::string>();
     if (!source.at(6).is_null()) load.box = boxIn(source.at(6));
     const auto object = open ? open(load) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
-        throwUnreadable("its field " + text::inQuotes(load.path) + " cannot be read: " + object.error().message);
+        throwUnreadable("its field " + text::inQuotes(load.dataName) + " cannot be read: " + object.error().message);
     return *object;
 }
 
 // --- The record of each kind of object
 //
-// The record of a kind of object is an array that begins with [version, name]. Only the length of the array tells the
-// kind. A separate member for the kind is not possible, because earlier versions of the server, which may use the same
-// store, would refuse it. The code does not compile if a kind lacks a RecordOf, or if records of two kinds have the
-// same length.
+// The record of a kind of object is an array that begins with a version and a name. Only the length of the array tells
+// the kind. A separate member for the kind is not possible, because earlier versions of the server, which may use the
+// same store, would refuse it. The code does not compile if a kind lacks a RecordOf, or if records of two kinds have
+// the same length.
 
 template <typename ObjectPtr>
 struct RecordOf;
@@ -141,7 +142,7 @@ struct RecordOf<slicing::PolytopePtr> {
         return json({kRecordVersion, p.name, encoded(p.vertices), rows(p.faces), rows(p.cells), p.typeOfCell});
     }
 
-    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& /*open*/) {
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const DataFolderReader& /*open*/) {
         geometry::JaggedArray cells = arrayIn(value.at(4));
         std::vector<std::uint32_t> typeOfCell = readIntegers(value.at(5));
         if (typeOfCell.size() != cells.size()) throwUnreadable("the numbers of cells and of their types differ");
@@ -165,7 +166,7 @@ struct RecordOf<slicing::CloudPtr> {
         return json({kRecordVersion, cloud.name, encoded(cloud.points), cloud.radii});
     }
 
-    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& /*open*/) {
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const DataFolderReader& /*open*/) {
         std::vector<double> radii;
         for (const json& radius : value.at(3)) radii.push_back(readNumber(radius, 0, kMaxCoordinate));
         try {
@@ -186,7 +187,7 @@ struct RecordOf<slicing::FieldPtr> {
 
     // [version, name, file in the data folder] or [version, name, formula or samples, box, shape]. The shape of a
     // formula is an empty array. If there is a second function, two members follow: this function, and the text
-    // "field".
+    // "field", without which the record would have the length of a polytope's record.
     static json encode(const fields::Field& field) {
         if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
         const fields::Box& box = field.array ? field.array->box() : field.box;
@@ -199,7 +200,7 @@ struct RecordOf<slicing::FieldPtr> {
         return record;
     }
 
-    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const FileOpener& open) {
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const DataFolderReader& open) {
         if (originInFile != glm::dvec4(0)) throwUnreadable("a field cannot be moved");
         const std::string name = readShortText(value.at(1));
         const json& source = value.at(2);
@@ -237,7 +238,7 @@ static_assert(lengthsDiffer(std::type_identity<slicing::Object>()));
 /// Decodes the record of an object of one of these kinds.
 template <typename... Kinds>
 slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/, const json& record,
-                            const glm::dvec4& originInFile, const FileOpener& open) {
+                            const glm::dvec4& originInFile, const DataFolderReader& open) {
     std::optional<slicing::Object> object;
     const auto decodeIfLengthMatches = [&]<typename Kind>(std::type_identity<Kind> /*kind*/) {
         if (std::ranges::find(RecordOf<Kind>::kLengths, record.size()) != RecordOf<Kind>::kLengths.end())
@@ -251,7 +252,7 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 
 }  // namespace
 
-bool namesFile(std::string_view record) {
+bool refersToFile(std::string_view record) {
     // If an array has fewer than 24 elements, its first byte is 0x80 plus their number (RFC 8949, section 3.1).
     constexpr char kFileRecord = static_cast<char>(0x80 + RecordOf<slicing::FieldPtr>::kFileLength);
     return record.starts_with(kFileRecord);
@@ -265,7 +266,7 @@ std::string encodeObjectRecord(const slicing::Object& object) {
         object);
 }
 
-slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open) {
+slicing::Object decodeObjectRecord(std::string_view bytes, const DataFolderReader& open) {
     return translatingErrors([&] {
         const json value = parseRecord(bytes);
         constexpr std::type_identity<slicing::Object> kKinds;

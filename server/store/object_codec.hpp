@@ -18,14 +18,14 @@ namespace oval4d::store {
 std::string encodeObjectRecord(const slicing::Object& object);
 
 /// Returns whether a record contains the name of a file instead of samples.
-bool namesFile(std::string_view record);
+bool refersToFile(std::string_view record);
 
-/// Reads a field from the server's data folder. Blocks the calling thread.
-using FileOpener = std::function<Result<slicing::Object>(const session::LoadObject& load)>;
+/// A function that reads a field from the server's data folder. Blocks the calling thread.
+using DataFolderReader = std::function<Result<slicing::Object>(const session::LoadObject& load)>;
 
 /// Returns the object in a record made by encodeObjectRecord(), and validates it like an object from a client's file.
 /// Throws UnreadableRecord if the record is invalid, or if it names a file that `open` cannot read. An empty `open`
 /// reads no files.
-slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open = {});
+slicing::Object decodeObjectRecord(std::string_view bytes, const DataFolderReader& open = {});
 
 }  // namespace oval4d::store

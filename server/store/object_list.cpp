@@ -42,7 +42,7 @@ const slicing::Object& ObjectListReader::at(const json& index) const {
     return objects_[i];
 }
 
-slicing::Object ObjectListReader::imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+slicing::Object ObjectListReader::transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
     if (frame == geometry::ReferenceFrame{}) return source;
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
@@ -50,7 +50,7 @@ slicing::Object ObjectListReader::imageOf(const slicing::Object& source, const g
     const std::size_t vertices = slicing::elementCounts(source)[0];
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
     vertexBudget_ -= vertices;
-    images_.push_back({source, frame, slicing::imageOf(source, frame)});
+    images_.push_back({source, frame, slicing::transformedTo(source, frame)});
     return images_.back().image;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The list of the objects of one session record. Its states refer to these objects by their indices.
+// The list of the objects in a session record. The states in the record refer to these objects by their indices in the
+// list.
 
 #include <cstddef>
 #include <map>
@@ -40,13 +41,14 @@ class ObjectListReader {
     /// built, or if the objects that are built from their names have more than ten million vertices altogether.
     ObjectListReader(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
 
-    /// Returns the object with this index, as long as this reader exists. Throws UnreadableRecord if there is none.
+    /// Returns the object with this index. The reference is valid as long as this reader exists. Throws
+    /// UnreadableRecord if there is none.
     const slicing::Object& at(const nlohmann::json& index) const;
 
-    /// Returns `source` in the frame of reference `frame` (see slicing::imageOf()). Calls with equal arguments return
-    /// the same object, so that states share it. Throws UnreadableRecord if all transformed objects and the objects
-    /// that are built from their names have more than ten million vertices altogether.
-    slicing::Object imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
+    /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments
+    /// return the same object, so that states share it. Throws UnreadableRecord if all transformed objects and the
+    /// objects that are built from their names have more than ten million vertices altogether.
+    slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
     struct Image {

@@ -89,7 +89,7 @@ bool checkFile(const std::string& path, Permissions permissions) {
 
 }  // namespace
 
-void makePrivate(const std::string& path) {
+void ensurePrivateFile(const std::string& path) {
     if (checkFile(path, Permissions::tighten)) return;
     makeFolders(std::filesystem::path(path).parent_path());
     {

@@ -13,9 +13,9 @@ void requireOwnRegularFile(const std::string& path);
 /// Creates `path` as an empty file with mode 0600, and missing parent folders with mode 0700. If the file exists with
 /// another mode, sets mode 0600 and logs this. Throws StoreError if one of these steps fails, or if
 /// requireOwnRegularFile() would throw.
-void makePrivate(const std::string& path);
+void ensurePrivateFile(const std::string& path);
 
-/// Like makePrivate(), but does nothing if the file does not exist.
+/// Like ensurePrivateFile(), but does nothing if the file does not exist.
 void makePrivateIfExists(const std::string& path);
 
 /// Returns the device and inode numbers of a file, as a string that changes if another file replaces the one at `path`.

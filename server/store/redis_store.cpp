@@ -33,11 +33,11 @@ redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period in milliseconds,
-// the fence, the hash of the token, the token or an empty string, head, whole, 1 if no client has the session open
-// anymore, the number of objects to add, their keys and bytes, the keys of the objects to drop. Returns the number of a
-// SaveResult. Two servers have equal fences only if Redis has lost writes; then only the save of the owner is accepted.
-// A save of the head alone does not restart the expiry period, because a save of the whole session follows within a
-// second.
+// the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the head, the
+// whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the key and
+// the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers have
+// equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head alone
+// does not restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -284,7 +284,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::touch(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // if so, tokens in plain text are deleted, too
+    const bool hashed = !alsoStoresPlainTokens();  // if true, also delete tokens in plain text
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});
@@ -293,7 +293,7 @@ void RedisStore::touch(std::span<const std::string> ids) {
     for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();
 }
 
-std::vector<std::string> RedisStore::pollClaims() {
+std::vector<std::string> RedisStore::pollLostSessions() {
     const std::string list = "oval4d:taken:" + self_;
     send({"MULTI"});
     send({"LRANGE", list, "0", "-1"});

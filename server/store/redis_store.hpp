@@ -31,7 +31,7 @@ class RedisStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
-    std::vector<std::string> pollClaims() override;
+    std::vector<std::string> pollLostSessions() override;
     std::size_t size() const override { return size_; }
 
   private:

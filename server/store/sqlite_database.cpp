@@ -105,7 +105,7 @@ void Database::run(const char* sql) {
 
 std::int64_t Database::number(const char* sql) {
     Statement statement(*this, sql);
-    return statement.row() ? statement.numberAt(0) : 0;
+    return statement.step() ? statement.numberAt(0) : 0;
 }
 
 void Database::keepWriteAheadLog() { sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr); }
@@ -128,7 +128,7 @@ Statement& Statement::blob(std::string_view value) {
 
 Statement& Statement::number(std::int64_t value) { return bound(sqlite3_bind_int64(statement_, ++bound_, value)); }
 
-bool Statement::row() {
+bool Statement::step() {
     const int status = sqlite3_step(statement_);
     if (status != SQLITE_ROW && status != SQLITE_DONE) database_.fail(sqlite3_sql(statement_));
     return status == SQLITE_ROW;

@@ -62,7 +62,7 @@ class Statement {
     Statement& number(std::int64_t value);
 
     /// Executes the statement up to its next row; returns false if there are no more rows.
-    bool row();
+    bool step();
     /// These functions return a value of the current row; columns count from 0.
     std::string bytesAt(int column) const;
     std::int64_t numberAt(int column) const;

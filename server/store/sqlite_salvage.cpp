@@ -42,7 +42,7 @@ class IdScan {
         try {
             Statement statement(from_, sql);
             for (const std::string& bound : bounds) statement.text(bound);
-            while (statement.row()) found.insert(statement.bytesAt(0));
+            while (statement.step()) found.insert(statement.bytesAt(0));
             return true;
         } catch (const StoreError&) {
             return false;
@@ -57,14 +57,15 @@ struct SalvagedSession {
     std::vector<std::pair<std::string, std::string>> objects;
 };
 
-/// Reads a session; returns an empty optional if it is missing or damaged. `hashed`: whether the file has the schema of
-/// version 2, with hashed tokens and digests.
+/// Reads a session. Returns an empty optional if it is missing, or if a part of it does not match its digest. Throws
+/// StoreError if a page is damaged. `hashed`: whether the file has the schema of version 2, with hashed tokens and
+/// digests.
 std::optional<SalvagedSession> readSession(Database& from, bool hashed, const std::string& id) {
     Statement session(from, hashed
                                 ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
                                   "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
                                 : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
-    if (!session.text(id).row()) return std::nullopt;
+    if (!session.text(id).step()) return std::nullopt;
     SalvagedSession salvaged{session.bytesAt(0),
                              session.bytesAt(1),
                              session.bytesAt(2),
@@ -76,7 +77,7 @@ std::optional<SalvagedSession> readSession(Database& from, bool hashed, const st
         from, hashed ? "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?"
                      : "SELECT key, bytes, 1 FROM polytope WHERE session = ?");
     polytopes.text(id);
-    while (polytopes.row()) {
+    while (polytopes.step()) {
         if (polytopes.numberAt(2) == 0) return std::nullopt;
         salvaged.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
     }
@@ -87,10 +88,10 @@ void insert(Database& to, const std::string& id, const SalvagedSession& salvaged
     Statement session(
         to, "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
     session.text(id).text(salvaged.tokenHash).number(salvaged.fence).number(salvaged.touched).number(salvaged.changed);
-    session.blob(salvaged.whole).blob(salvaged.head).row();
+    session.blob(salvaged.whole).blob(salvaged.head).step();
     for (const auto& [key, bytes] : salvaged.objects) {
         Statement polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
-        polytope.text(id).text(key).blob(bytes).row();
+        polytope.text(id).text(key).blob(bytes).step();
     }
 }
 

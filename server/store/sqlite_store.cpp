@@ -72,7 +72,7 @@ std::string listed(const std::set<std::string>& ids) {
     return text;
 }
 
-/// Returns an unused path for a damaged file, which will be renamed to it.
+/// Returns an unused path, to which the caller renames a damaged file.
 std::string damagedName(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
@@ -106,7 +106,7 @@ std::int64_t SqliteStore::nowMilliseconds() const {
 void SqliteStore::open() {
     for (const char* beside : {"", "-wal", "-shm", "-journal"}) requireOwnRegularFile(path_ + beside);
     refuseForeignFile(path_);
-    makePrivate(path_);
+    ensurePrivateFile(path_);
     for (const char* beside : {"-wal", "-shm", "-journal"}) makePrivateIfExists(path_ + beside);
     const std::string identity = fileIdentity(path_);
     database_ = std::make_unique<Database>(path_);
@@ -144,7 +144,7 @@ void SqliteStore::check() {
     }
     // Unlike quick_check, this also compares the indices with the tables.
     Statement check(*database_, "PRAGMA integrity_check(1)");
-    const std::string result = check.row() ? check.bytesAt(0) : "the integrity check returned nothing";
+    const std::string result = check.step() ? check.bytesAt(0) : "the integrity check returned nothing";
     if (result != "ok") throw CorruptDatabase(path_ + ": " + result);
     if (tables > 0 && ours < 2) throw CorruptDatabase(path_ + ": a table is missing");
 }
@@ -167,7 +167,7 @@ void SqliteStore::setUp() {
         Statement statement(
             *database_,
             "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
-        statement.number(nowMilliseconds()).row();
+        statement.number(nowMilliseconds()).step();
     }
     if (const auto count = evictUntilFits(0, [](const std::string&) { return false; }); count > 0) {
         spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
@@ -210,7 +210,7 @@ void SqliteStore::repair(const std::string& why) {
     spdlog::error("store damaged store={} damage=\"{}\"", name(), why);
     const std::string fresh = path_ + ".salvaged";
     for (const char* beside : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(fresh + beside);
-    makePrivate(fresh);
+    ensurePrivateFile(fresh);
     SalvageResult salvaged;
     {
         Database to(fresh);
@@ -250,7 +250,7 @@ void SqliteStore::logDamagedRecords() {
         *database_,
         "SELECT id FROM session WHERE digest <> digest_of(id, token_hash, whole) OR head_digest <> digest_of(id, head)"
         " UNION SELECT session FROM polytope WHERE digest <> digest_of(session, key, bytes)");
-    while (statement.row()) damaged.insert(statement.bytesAt(0));
+    while (statement.step()) damaged.insert(statement.bytesAt(0));
     if (damaged.empty()) return;
     const auto all = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
     spdlog::error("sessions damaged, and lost store={} kept={} lost={} lost_sessions={}", name(),
@@ -278,7 +278,7 @@ auto SqliteStore::afterPendingRepair(Work work) {
 std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
     return afterPendingRepair([&]() -> std::optional<std::string> {
         Statement statement(*database_, "SELECT token_hash FROM session WHERE id = ?");
-        return statement.text(id).row() ? std::optional(statement.bytesAt(0)) : std::nullopt;
+        return statement.text(id).step() ? std::optional(statement.bytesAt(0)) : std::nullopt;
     });
 }
 
@@ -286,7 +286,7 @@ bool SqliteStore::isDamaged(const std::string& id) {
     return afterPendingRepair([&] {
         Statement statement(*database_,
                             "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
-        return statement.text(id).row();
+        return statement.text(id).step();
     });
 }
 
@@ -294,20 +294,20 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
     return afterPendingRepair([&]() -> std::optional<Record> {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
-            statement.number(nowMilliseconds()).text(id).row();
+            statement.number(nowMilliseconds()).text(id).step();
         } catch (const NotWritable&) {
             // The record can still be read. It does not need the new fence, because no other server uses this file.
         }
         Statement statement(*database_,
                             "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
                             "head_digest = digest_of(id, head) FROM session WHERE id = ?");
-        if (!statement.text(id).row()) return std::nullopt;
+        if (!statement.text(id).step()) return std::nullopt;
         Record record{statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<Fence>(statement.numberAt(2)), {}};
         if (statement.numberAt(3) == 0) record.damage = "its record in the store is damaged";
         Statement polytopes(
             *database_, "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
         polytopes.text(id);
-        while (polytopes.row()) {
+        while (polytopes.step()) {
             record.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
             if (polytopes.numberAt(2) == 0) record.damage = "one of its objects in the store is damaged";
         }
@@ -347,27 +347,27 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
             .number(changed)
             .blob(update.whole)
             .blob(update.head)
-            .row();
+            .step();
         written = statement.changes();
     } else {
         Statement statement(
             *database_,
             "UPDATE session SET fence = ?1, touched = ?2, changed = ?3, head = ?4, head_digest = digest_of(id, ?4) "
             "WHERE id = ?5 AND fence <= ?1");
-        statement.number(fence).number(nowMilliseconds()).number(changed).blob(update.head).text(id).row();
+        statement.number(fence).number(nowMilliseconds()).number(changed).blob(update.head).text(id).step();
         written = statement.changes();
     }
     if (written == 0) {
         Statement statement(*database_, "SELECT 1 FROM session WHERE id = ?");
-        return statement.text(id).row() ? SaveResult::claimed : SaveResult::missing;
+        return statement.text(id).step() ? SaveResult::claimed : SaveResult::missing;
     }
     for (const auto& [key, bytes] : update.objects) {
         Statement statement(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
-        statement.text(id).text(key).blob(bytes).row();
+        statement.text(id).text(key).blob(bytes).step();
     }
     for (const std::string& key : update.dropped) {
         Statement statement(*database_, "DELETE FROM polytope WHERE session = ? AND key = ?");
-        statement.text(id).text(key).row();
+        statement.text(id).text(key).step();
     }
     return SaveResult::saved;
 }
@@ -382,14 +382,14 @@ std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned
     std::vector<std::string> candidates;
     {
         Statement statement(*database_, "SELECT id FROM session ORDER BY changed, touched");
-        while (statement.row()) candidates.push_back(statement.bytesAt(0));
+        while (statement.step()) candidates.push_back(statement.bytesAt(0));
     }
     std::size_t count = 0;
     Transaction all(*database_);
     for (const std::string& id : candidates) {
         if (isPinned(id)) continue;
         Statement statement(*database_, "DELETE FROM session WHERE id = ?");
-        statement.text(id).row();
+        statement.text(id).step();
         ++count;
         if (fits()) break;
     }
@@ -402,7 +402,7 @@ void SqliteStore::remove(std::span<const std::string> ids) {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "DELETE FROM session WHERE id = ?");
-            statement.text(id).row();
+            statement.text(id).step();
         }
         all.commit();
     });
@@ -413,7 +413,7 @@ void SqliteStore::touch(std::span<const std::string> ids) {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
-            statement.number(nowMilliseconds()).text(id).row();
+            statement.number(nowMilliseconds()).text(id).step();
         }
         all.commit();
     });
@@ -422,12 +422,12 @@ void SqliteStore::touch(std::span<const std::string> ids) {
 std::size_t SqliteStore::expire(Milliseconds age) {
     return afterPendingRepair([&] {
         Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
-        statement.number(nowMilliseconds() - age.count()).row();
+        statement.number(nowMilliseconds() - age.count()).step();
         return statement.changes();
     });
 }
 
-std::vector<std::string> SqliteStore::pollClaims() {
+std::vector<std::string> SqliteStore::pollLostSessions() {
     afterPendingRepair([&] {
         releasePages(kMaxReleasedPages);
         size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));

@@ -113,7 +113,7 @@ void visitMembers(Is<geometry::ReferenceFrame> auto& frame, auto& visit) {
 
 void visitMembers(Is<session::OngoingTurnToward> auto& turn, auto& visit) {
     auto& [goal, seconds] = turn;
-    visit.rotation(0, goal);  // as the members 0 and 1
+    visit.rotation(0, goal);  // two quaternions: the members 0 and 1
     visit.member(2, seconds, Range{kLeastPositive, session::kMaxTurnTowardSeconds});
 }
 
@@ -138,7 +138,7 @@ constexpr std::size_t kSourceNumber = 0;
 
 void visitMembers(Is<State> auto& state, auto& visit) {
     auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
-    visit.rotation(1, orientation);  // as the members 1 and 2
+    visit.rotation(1, orientation);  // two quaternions: the members 1 and 2
     visit.members(3, KeyAngles{alpha, beta, step});
     visit.member(4, slices);
     visit.member(5, look);
@@ -326,8 +326,8 @@ class MemberReader {
 
 // --- Checks of members together with other members or the object
 //
-// These limits are far above those that the server enforces for clients. Without them, a damaged record could produce,
-// for example, a state with a million slices instead of an error.
+// These limits are at least as wide as those that the server enforces for clients. Without them, a damaged record could
+// produce, for example, a state with a million slices instead of an error.
 
 // Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, they may
 // exceed these limits by this fraction.
@@ -392,7 +392,7 @@ State decodeState(const json& array, ObjectListReader& objects) {
     const MemberReader reader(array);
     visitMembers(state, reader);
     if (!(glm::length(state.referenceFrame.boost) <= session::kMaxBoost)) throwUnreadable("a boost is too fast");
-    state.object = objects.imageOf(source, state.referenceFrame);
+    state.object = objects.transformedTo(source, state.referenceFrame);
     check(state);
     return state;
 }

@@ -47,7 +47,7 @@ struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
     std::string head;                                          ///< as in Record; not empty if `whole` is empty
-    std::string whole;                                         ///< empty: unchanged; otherwise `head` is replaced, too
+    std::string whole;                                         ///< empty if unchanged; else `head` is replaced, too
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore
@@ -114,10 +114,10 @@ class Store {
 
     /// Returns whether the session with this id must not be evicted.
     using IsPinned = std::function<bool(const std::string& id)>;
-    /// Evicts sessions that are not pinned until `updates` fit within the quota, and returns the number of evicted
-    /// sessions. Evicts first the sessions that were never changed, then those that were not saved, claimed or touched
-    /// for the longest time. Evicts none if the updates already fit: in that case, the save failed for another reason,
-    /// such as a full disk, and deleting sessions would not help.
+    /// Called after save() has thrown NotWritable. Evicts sessions that are not pinned until `updates` fit within the
+    /// quota, and returns the number of evicted sessions. Evicts first the sessions that were never changed, then those
+    /// that were not saved, claimed or touched for the longest time. Evicts none if the updates already fit: in that
+    /// case, the save failed for another reason, such as a full disk, and deleting sessions would not help.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.
@@ -132,9 +132,9 @@ class Store {
 
     /// Updates size(), and returns the ids of the sessions that other servers have claimed from this one since the last
     /// call.
-    virtual std::vector<std::string> pollClaims() = 0;
+    virtual std::vector<std::string> pollLostSessions() = 0;
 
-    /// Returns the approximate number of stored sessions, as of the last pollClaims().
+    /// Returns the approximate number of stored sessions, as of the last pollLostSessions().
     virtual std::size_t size() const = 0;
 };
 

@@ -49,7 +49,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
-    SessionsInMemory cached;
+    CachedSessions cached;
     decltype(tasks_) tasks;
     {
         const std::lock_guard lock(mutex_);
@@ -84,7 +84,7 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        if (SessionInMemory* const cached = cached_.find(id)) {
+        if (CachedSession* const cached = cached_.find(id)) {
             ours = true;
             auto& [head, whole, waiting] = cached->pending;
             (scope == SaveScope::head ? head : whole) = std::make_shared<const Session>(std::move(value));
@@ -98,10 +98,10 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
 
 void WriteBehindStore::close(const std::string& id, Session value) {
     const std::size_t bytes = estimateMemory(value);
-    std::vector<std::pair<std::string, SessionInMemory>> evicted;
+    std::vector<std::pair<std::string, CachedSession>> evicted;
     {
         const std::lock_guard lock(mutex_);
-        SessionInMemory* const cached = cached_.find(id);
+        CachedSession* const cached = cached_.find(id);
         if (cached == nullptr) return;
         cached->pending.whole = std::make_shared<const Session>(std::move(value));
         cached->closed = true;
@@ -124,10 +124,10 @@ void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back([this, id] {
-            std::optional<SessionInMemory> removed;  // destroyed without holding the lock
+            std::optional<CachedSession> removed;  // destroyed without holding the lock
             {
                 const std::lock_guard inner(mutex_);
-                const SessionInMemory* const cached = cached_.find(id);
+                const CachedSession* const cached = cached_.find(id);
                 if (cached != nullptr && !cached->closed) return;
                 removed = cached_.remove(id);
                 objects_.forget(id);
@@ -140,7 +140,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Drops the object keys of a session, unless the session is in `cached_` again.
+/// Forgets the object keys of a session, unless the session is in `cached_` again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
@@ -254,7 +254,7 @@ void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate
             const std::lock_guard lock(mutex_);
             const auto id = cached_.takeQueued();
             if (!id) break;
-            SessionInMemory& cached = *cached_.find(*id);
+            CachedSession& cached = *cached_.find(*id);
             jobs.push_back({*id, std::exchange(cached.pending, {}), {}});
             updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
@@ -336,7 +336,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     if (result == SaveResult::saved) {
         objects_.saved(job.id, job.added, update);
         const std::lock_guard lock(mutex_);
-        if (SessionInMemory* const cached = cached_.find(job.id)) {
+        if (CachedSession* const cached = cached_.find(job.id)) {
             cached->inFlight = false;
             if (!std::exchange(cached->everSaved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
             if (cached->closed && !cached->queued) {
@@ -361,7 +361,7 @@ void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
         const std::lock_guard lock(mutex_);
-        SessionInMemory* const cached = cached_.find(job.id);
+        CachedSession* const cached = cached_.find(job.id);
         if (cached == nullptr) return;
         cached->inFlight = false;
         cached->pending.addOlder(std::move(job.changes));
@@ -375,7 +375,7 @@ void WriteBehindStore::requeue(Job& job) {
 
 /// Drops a session that another server has claimed.
 void WriteBehindStore::dropTaken(const std::string& id) {
-    std::optional<SessionInMemory> dropped;
+    std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
         dropped = cached_.remove(id);
@@ -395,7 +395,7 @@ void WriteBehindStore::poll() {
     }
     try {
         if (now_() >= refreshAt_) refreshExpiry();
-        for (const std::string& id : timed("pulse", [&] { return store_->pollClaims(); })) dropTaken(id);
+        for (const std::string& id : timed("pulse", [&] { return store_->pollLostSessions(); })) dropTaken(id);
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;
@@ -443,7 +443,7 @@ void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std
 WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
-        if (SessionInMemory* const cached = cached_.find(credentials.id)) {
+        if (CachedSession* const cached = cached_.find(credentials.id)) {
             if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
             if (!cached->pending.whole) return kNoAnswer;  // another client is opening it, or it is being written
             cached->closed = false;

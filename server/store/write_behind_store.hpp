@@ -15,9 +15,9 @@
 #include "errors/error.hpp"
 #include "session/session.hpp"
 #include "store/backoff.hpp"
-#include "store/sessions_in_memory.hpp"
+#include "store/cached_sessions.hpp"
 #include "store/store.hpp"
-#include "store/stored_objects.hpp"
+#include "store/stored_object_keys.hpp"
 
 namespace oval4d::store {
 
@@ -78,9 +78,9 @@ class WriteBehindStore {
     /// until it is saved.
     SessionCredentials create();
 
-    /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
-    /// `internal` if the session cannot be fetched now. If `done` receives a record, the caller must decode it, and
-    /// then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
+    /// Makes the cache's thread claim a session for this server and then call `done` with the session or with an error:
+    /// `not_found`, `bad_token`, or `internal` if the session cannot be fetched now. If `done` receives a record, the
+    /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Records which objects of a fetched session the store already has, so that they are not written again.
@@ -156,7 +156,7 @@ class WriteBehindStore {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // Guarded by mutex_.
-    SessionsInMemory cached_;
+    CachedSessions cached_;
     std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
     std::set<std::string> removals_;           // ids to remove from the store
     std::size_t storedCount_ = 0;              // number of sessions in the store, as of the last poll
@@ -168,9 +168,9 @@ class WriteBehindStore {
     Clock::time_point stopAt_;  // if stopping_: the time to end even if changes are pending
 
     // Used only by the cache's thread.
-    StoredObjects objects_;
+    StoredObjectKeys objects_;
     Backoff backoff_;
-    Clock::time_point refreshAt_;
+    Clock::time_point refreshAt_;  // time of the next refreshExpiry()
 
     std::thread thread_;  // the last member, so that the others are initialized before the thread uses them
 };

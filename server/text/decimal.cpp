@@ -40,7 +40,7 @@ constexpr std::array<Separator, Size> separators() {
     return all;
 }
 
-char* separate(char* at, const Separator& separator) {
+char* putSeparator(char* at, const Separator& separator) {
     std::memcpy(at, separator.text, sizeof separator.text);
     return at + separator.length;
 }
@@ -58,7 +58,7 @@ char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t e
         const bool large = std::abs(number) >= kExponentFrom && isExactInteger(number);
         at = large ? std::to_chars(at, room, static_cast<std::int64_t>(number)).ptr
                    : std::to_chars(at, room, number).ptr;
-        at = separate(at, kSeparators[i % Size]);
+        at = putSeparator(at, kSeparators[i % Size]);
     }
     return at;
 }
@@ -74,11 +74,11 @@ using Int32x4 = std::int32_t __attribute__((vector_size(16)));
 // A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
 // processes all groups of a block before the next step begins. This hides the latency of the instructions, because the
 // groups do not depend on each other.
-constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
+constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of the vector sizes 3 and 4
 
 // The numbers of a block as text. The first character of a text is in the lowest byte.
 struct Block {
-    alignas(32) std::uint64_t head[kBlock];        // per number: its text up to the second decimal
+    alignas(32) std::uint64_t head[kBlock];        // per number: its text through the second decimal
     alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
     // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
     // byte.
@@ -101,9 +101,9 @@ constexpr std::int32_t kMinExponent = -10, kExponents = 16;
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
 constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p
 
-// Tables with the index 10 − p: kUnits contains 10^p, and kUnit contains 10^−p in units of 10^−10. Floats represent all
-// of these numbers exactly.
-constexpr std::array<float, 8> kUnits{1e10, 1e9, 1e8, 1e7, 1e6}, kUnit{1e0, 1e1, 1e2, 1e3, 1e4};
+// Tables for the unit 10^−p, with the index 10 − p: kUnitsPerOne contains 10^p, and kUnitSize contains the unit itself
+// as a multiple of 10^−10. Floats represent all of these numbers exactly.
+constexpr std::array<float, 8> kUnitsPerOne{1e10, 1e9, 1e8, 1e7, 1e6}, kUnitSize{1e0, 1e1, 1e2, 1e3, 1e4};
 
 // Adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds the number to an integer. The low bits of the sum
 // then contain this integer; integerOf() extracts it.
@@ -133,8 +133,8 @@ constexpr double kRounder = 0x1.8p52;
     return Uint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
-// Converts each 32-bit half of each element, which is a number below 10,000, to its four decimal digits, one per byte,
-// the most significant one in the lowest byte.
+// Converts the two 32-bit halves of each element to their four decimal digits: one digit per byte, the most significant
+// one in the lowest byte. Each half must be a number below 10,000.
 [[gnu::target("avx2")]] inline Uint64x4 fourDigits(Uint64x4 numbers) {
     const auto hundreds = Uint64x4(Uint32x8(highTimes(numbers, 5243)) >> 3);
     const Uint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
@@ -144,7 +144,7 @@ constexpr double kRounder = 0x1.8p52;
 
 [[gnu::target("avx2")]] void convert(const double* numbers, Block& out) {
     Int32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
-    Double4 units[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
+    Double4 unitsPerOne[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
     Uint64x4 digits[kGroups], first[kGroups];
     for (std::size_t g = 0; g < kGroups; ++g) {
         Double4 four;
@@ -152,19 +152,19 @@ constexpr double kRounder = 0x1.8p52;
         bits[g] = Int32x4(__builtin_convertvector(four, Float4));
         const Int32x4 place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
         outOfRange[g] = place & ~(kExponents - 1);
-        drop[g] = (place * 1233 + 270) >> 12;  // 10 + log10(2^(e − 23)), rounded down
+        drop[g] = (place * 1233 + 270) >> 12;  // the index 10 − p: 10 + log10(2^(e − 23)), rounded down
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
-        units[g] = pick(kUnits, drop[g]);
-        exact[g] = widened(Float4(bits[g] & 0x7FFF'FFFF)) * units[g];
+        unitsPerOne[g] = pick(kUnitsPerOne, drop[g]);
+        exact[g] = widened(Float4(bits[g] & 0x7FFF'FFFF)) * unitsPerOne[g];
     }
     for (std::size_t g = 0; g < kGroups; ++g) rounder[g] = ((exact[g] * 0.1 + kRounder) - kRounder) * 10;
     for (std::size_t g = 0; g < kGroups; ++g) {
         const auto half = Float4((bits[g] & kExponentMask) - kHalfSpacing);
-        const Double4 reach = widened(half) * units[g] - kMargin;
+        const Double4 reach = widened(half) * unitsPerOne[g] - kMargin;
         const Double4 off = Double4(Uint64x4(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
         const Double4 nearest = (exact[g] + kRounder) - kRounder;
-        decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnit, drop[g]);
+        decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnitSize, drop[g]);
     }
     for (std::size_t g = 0; g < kGroups; ++g) upper[g] = (decimals[g] - 49'999'999.5) * 1e-8 + kRounder;
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -210,7 +210,7 @@ template <std::size_t Size>
         const std::uint64_t digits = block.digits[i] | 0x3030'3030'3030'3030;
         std::memcpy(at, &digits, 8);
         const auto zeros = static_cast<unsigned>(std::countl_zero(block.digits[i])) / 8;
-        at = separate(at + 8 - zeros, kSeparators[i % Size]);
+        at = putSeparator(at + 8 - zeros, kSeparators[i % Size]);
     }
     return at;
 }
@@ -261,7 +261,7 @@ char* putLargeInteger(char* at, std::uint32_t number) {
     return at + 4;
 }
 
-char* putVectorsAsFloats(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
-char* putVectorsAsFloats(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
+char* putVectorsAsJson(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
+char* putVectorsAsJson(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
 
 }  // namespace oval4d::text

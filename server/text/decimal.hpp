@@ -21,7 +21,7 @@ inline bool isExactInteger(double number) {
 }
 
 /// The number of bytes to reserve in the buffer for each number, including the brackets and commas after it. The buffer
-/// must have room for one number more than will be written, because putVectorsAsFloats() and putInteger() may write
+/// must have room for one number more than will be written, because putVectorsAsJson() and putInteger() may write
 /// beyond the end of the text.
 inline constexpr std::size_t kBytesPerNumber = 20;
 
@@ -29,8 +29,8 @@ inline constexpr std::size_t kBytesPerNumber = 20;
 /// the text. Rounds each number to a float and writes the fewest digits from which the same float can be read back; in
 /// rare cases, writes one digit more. Writes integers within ±2^53 with all their digits and without an exponent. All
 /// numbers must be finite.
-char* putVectorsAsFloats(char* at, std::span<const glm::dvec3> list);
-char* putVectorsAsFloats(char* at, std::span<const glm::dvec4> list);
+char* putVectorsAsJson(char* at, std::span<const glm::dvec3> list);
+char* putVectorsAsJson(char* at, std::span<const glm::dvec4> list);
 
 /// The decimal text of each number below 10,000, as an integer: the first character is in the lowest byte, the next
 /// ones in the bytes above it, and the number of characters is in the highest byte.

@@ -146,7 +146,7 @@ std::string roundedDecimal(double value) {
     return value < 0 ? "\u2212" + text : text;
 }
 
-std::string outsideBounds(double least, double most, std::string_view unit, double value) {
+std::string outsideBoundsText(double least, double most, std::string_view unit, double value) {
     const std::string rounded = roundedDecimal(value);
     const bool isClose = rounded == roundedDecimal(least) || rounded == roundedDecimal(most);
     const auto plain = [&](double number) {

@@ -8,9 +8,9 @@
 
 namespace oval4d::text {
 
-/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`, of which only the first 60 bytes
-/// count. If several candidates have this distance, returns the first of them that is as long as `text`, or if there is
-/// none, the first of them. Returns an empty string if the distance is more than about half of the candidate's length.
+/// Returns the candidate with the smallest edit distance (Levenshtein) from the first 60 bytes of `text`. Among several
+/// candidates with this distance, prefers those that are as long as `text`, then the first one. Leaves out candidates
+/// whose distance is more than about half of their length; returns an empty string if none is left.
 std::string_view closestMatch(std::string_view text, std::span<const std::string_view> candidates);
 
 /// Returns " (did you mean 'x'?)", where x is the result of closestMatch(); an empty string if closestMatch() finds no
@@ -45,6 +45,6 @@ std::string roundedDecimal(double value);
 /// Returns what a message says about a number outside its bounds, such as "from −2 to 2 circumradii, not 3" for the
 /// unit " circumradii". Rounds the three numbers as roundedDecimal() does. But if the rounded number equals a rounded
 /// bound, writes all three as shortestDecimal() does.
-std::string outsideBounds(double least, double most, std::string_view unit, double value);
+std::string outsideBoundsText(double least, double most, std::string_view unit, double value);
 
 }  // namespace oval4d::text

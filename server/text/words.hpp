@@ -22,12 +22,12 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 /// their normalized names are equal.
 std::string normalizedName(std::string_view text);
 
-/// If a UTF-8 text begins with a space character that is not ASCII, such as the no-break space U+00A0, returns the
-/// number of bytes of this character; otherwise 0.
+/// If a UTF-8 text begins with a space character that is not ASCII (U+00A0, U+2000 to U+200A, U+202F, U+205F or
+/// U+3000), returns the number of bytes of this character; otherwise 0.
 std::size_t leadingUnicodeSpace(std::string_view text);
 
-/// Returns the text with a space in place of each kind of space that is not ASCII, such as the no-break space that
-/// texts have between a number and its unit.
+/// Returns the text with U+0020 in place of each space that leadingUnicodeSpace() recognizes, such as the no-break
+/// space between a number and its unit.
 std::string withPlainBlanks(std::string_view text);
 
 /// Returns the text without spaces and tabs at its ends.

@@ -19,7 +19,7 @@ struct FileError {
     throw FileError{line, std::move(reason), false, column};
 }
 
-/// Returns the reason after the position, such as "line 2, column 3: …".
+/// Returns the position, if it is known, and then the reason: "line 2, column 3: …".
 inline std::string message(const FileError& error) {
     if (error.line == 0) return error.reason;
     std::string text = "line " + std::to_string(error.line);

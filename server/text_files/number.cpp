@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNotANumber = "is not a number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
-// Returns the word without its sign. Sets `negative`.
+// Returns the word without its sign. Sets `negative` to whether this is a minus sign.
 std::string_view withoutSign(std::string_view word, bool& negative) {
     negative = word.starts_with('-') || word.starts_with(kMinusSign);
     if (word.starts_with(kMinusSign)) return word.substr(kMinusSign.size());
@@ -46,7 +46,7 @@ bool isBelowOne(std::string_view number) {
     return exponent <= -places;
 }
 
-// Says what is wrong with a word that is not a number with a decimal point.
+// Returns why a word with a comma, such as "0,5" or "1,", is not a number if the decimal mark is a point.
 std::string faultOf(std::string_view word) {
     CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())

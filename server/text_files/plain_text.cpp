@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A kind of file that is not text, known by its first bytes.
+/// A kind of file that is refused. A file of this kind begins with `signature`.
 struct Kind {
     std::string_view signature, description;
 };
@@ -43,7 +43,7 @@ constexpr auto kKinds = std::to_array<Kind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text that hold no numbers in rows, known by their beginning, here in lowercase letters.
+/// Kinds of text files without rows of numbers. Their signatures are compared with the start of the text in lowercase.
 constexpr auto kTextKinds = std::to_array<Kind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
@@ -53,7 +53,7 @@ constexpr auto kTextKinds = std::to_array<Kind>({
 
 constexpr std::string_view kMarkUtf8 = "\xEF\xBB\xBF", kMarkLittle = "\xFF\xFE", kMarkBig = "\xFE\xFF";
 
-// Returns the UTF-8 text of 16-bit units. `low`: the position of the low byte in each unit, 0 or 1.
+// Converts UTF-16 to UTF-8. `low`: the position of the low byte in each 16-bit unit, 0 or 1.
 std::string fromUtf16(std::string_view bytes, std::size_t low) {
     std::u16string units(bytes.size() / 2, u'\0');
     for (std::size_t i = 0; i < units.size(); ++i) {
@@ -64,7 +64,7 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
 }
 
 // Returns the number of bytes of the space at the beginning of a text: a vertical tab, a form feed, a byte order mark,
-// a zero-width space or any space of Unicode other than U+0020; 0 if there is none.
+// a zero-width space, or a space that text::leadingUnicodeSpace() recognizes. Returns 0 if there is none.
 std::size_t spaceAt(std::string_view text) {
     for (const std::string_view space : {"\v"sv, "\f"sv, "\xEF\xBB\xBF"sv, "\xE2\x80\x8B"sv}) {
         if (text.starts_with(space)) return space.size();
@@ -72,7 +72,7 @@ std::size_t spaceAt(std::string_view text) {
     return text::leadingUnicodeSpace(text);
 }
 
-// Replaces the line ends CR LF and CR by LF, and each space by U+0020.
+// Replaces the line ends CR LF and CR by LF, and each space that spaceAt() recognizes by U+0020.
 void normalizeSpace(std::string& text) {
     constexpr auto kStarts = "\r\v\f\xC2\xE2\xE3\xEF"sv;
     if (text.find_first_of(kStarts) == std::string::npos) return;

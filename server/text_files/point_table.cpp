@@ -16,21 +16,22 @@ namespace oval4d::text_files {
 namespace {
 
 constexpr std::string_view kCoordinates = "xyzw";
-constexpr std::size_t kRadius = 4;  // the index of the radius, after those of the coordinates
+constexpr std::size_t kRadiusIndex = 4;  // the index of the radius, after those of the coordinates
 
 // The position of each coordinate and of the radius among the columns of a row.
 struct Layout {
-    std::array<std::optional<std::size_t>, kRadius + 1> columns;
+    std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
     std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
     bool radiusMayMiss = false;   // rows may lack the last column, which is the radius
     std::string otherColumns;     // names of the columns that are left out, in quotes
-    std::string_view radiusName;  // as it is written
+    std::string_view radiusName;  // the name of the radius as the header writes it
 
     bool hasAllCoordinates() const {
-        return std::all_of(columns.begin(), columns.begin() + kRadius, [](const auto& at) { return at.has_value(); });
+        return std::all_of(columns.begin(), columns.begin() + kRadiusIndex,
+                           [](const auto& at) { return at.has_value(); });
     }
-    // Returns whether x, y, z and w follow each other in this order.
-    bool isInOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadius)); }
+    // Returns whether the columns x, y, z and w come in this order.
+    bool isInOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadiusIndex)); }
 };
 
 // Returns the name of a column without its unit, which follows in brackets or after a slash, as in "t [s]" and "t/s".
@@ -39,7 +40,7 @@ std::string_view withoutUnit(std::string_view name) {
     return before.empty() ? name : before;
 }
 
-// Removes the words that are units, where blanks separate them from the names, as in "t [s]".
+// Removes the words that are units from a header that was split at blanks: "[s]" from "x", "t", "[s]".
 void removeUnits(std::vector<std::string_view>& names) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -68,24 +69,24 @@ std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
         std::optional<std::size_t> member;
         if (name.size() == 1 && kCoordinates.find(name[0]) != std::string_view::npos)
             member = kCoordinates.find(name[0]);
-        if (name == "r" || name == "radius") member = kRadius;
+        if (name == "r" || name == "radius") member = kRadiusIndex;
         if (member && !layout.columns[*member]) {
             layout.columns[*member] = i;
-            coordinates += *member < kRadius ? 1 : 0;
-            if (*member == kRadius) layout.radiusName = names[i];
+            coordinates += *member < kRadiusIndex ? 1 : 0;
+            if (*member == kRadiusIndex) layout.radiusName = names[i];
             continue;
         }
         if (!layout.otherColumns.empty()) layout.otherColumns += ", ";
         layout.otherColumns += names[i].empty() ? "column " + std::to_string(i + 1) : text::inQuotes(names[i]);
     }
-    layout.radiusMayMiss = layout.columns[kRadius] == layout.count - 1;
+    layout.radiusMayMiss = layout.columns[kRadiusIndex] == layout.count - 1;
     return coordinates >= 2 ? std::optional(std::move(layout)) : std::nullopt;
 }
 
-// Reads the names of columns in a line. Their separator may differ from that of the rows. Returns the first layout that
-// `accepts` accepts; an empty optional if there is none. Changes `row`.
-std::optional<Layout> namesIn(std::string_view line, const TableFormat& format, TableRow& row,
-                              const std::function<bool(const Layout&)>& accepts) {
+// Reads the names of columns in a line. Tries several separators, because the names may have another one than the rows.
+// Returns the first layout for which `accepts` returns true; an empty optional if there is none. Changes `row`.
+std::optional<Layout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
+                                 const std::function<bool(const Layout&)>& accepts) {
     for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
         split(line, separator, row);
         if (separator == ' ') removeUnits(row.columns);
@@ -132,8 +133,8 @@ class PointReader {
     }
 
   private:
-    // Reads the header from the first line that is not blank, or from the comments above it. Returns whether the line
-    // is not a row.
+    // Reads the header from the first line with content, or else from the comments above it. Returns true if the line
+    // is a header or a title, and false if it is a row of numbers.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -143,15 +144,15 @@ class PointReader {
             return false;
         }
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
-        auto layout = namesIn(line.content, format_, row_, &Layout::hasAllCoordinates);
-        if (!layout) layout = namesIn(line.content, format_, row_, [](const Layout&) { return true; });
+        auto layout = findLayout(line.content, format_, row_, &Layout::hasAllCoordinates);
+        if (!layout) layout = findLayout(line.content, format_, row_, [](const Layout&) { return true; });
         if (!layout && likeNumbers) return false;  // readRow() says what is wrong
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
             return true;
         }
-        for (std::size_t i = 0; i < kRadius; ++i) {
+        for (std::size_t i = 0; i < kRadiusIndex; ++i) {
             if (!layout->columns[i])
                 throwFileError(line.number, std::string("the header names no column ") + kCoordinates[i] +
                                                 "; it must name x, y, z and w");
@@ -160,8 +161,8 @@ class PointReader {
         return true;
     }
 
-    // Uses the last comment above the first row as a header if it has a name for each column of this row; otherwise,
-    // the comment before it, and so on. `row_` must be the first row.
+    // Uses as header the last comment that has a name for each column of the first row. If there is none, warns of a
+    // comment that names the coordinates in another order than x, y, z, w. `row_` must be the first row.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const Layout& layout) {
@@ -171,11 +172,11 @@ class PointReader {
             return layout.hasAllCoordinates() && (sameSize || radiusMisses);
         };
         for (std::size_t i = comments.size(); i-- > 0;) {
-            if (auto layout = namesIn(namesOfComment(comments[i].comment), format_, row_, fits))
+            if (auto layout = findLayout(namesOfComment(comments[i].comment), format_, row_, fits))
                 return setLayout(std::move(*layout));
         }
         for (const TableLine& line : comments) {
-            const auto layout = namesIn(namesOfComment(line.comment), format_, row_, &Layout::hasAllCoordinates);
+            const auto layout = findLayout(namesOfComment(line.comment), format_, row_, &Layout::hasAllCoordinates);
             if (!layout || layout->isInOrder()) continue;
             warnings_.push_back("the comment in line " + std::to_string(line.number) +
                                 " does not name each column of the rows, and was not read as a header");
@@ -186,7 +187,7 @@ class PointReader {
     // Uses this layout for the rows, and warns of the columns that are left out.
     void setLayout(Layout layout) {
         layout_ = std::move(layout);
-        if (!options_.radii && std::exchange(layout_.columns[kRadius], std::nullopt)) {
+        if (!options_.radii && std::exchange(layout_.columns[kRadiusIndex], std::nullopt)) {
             if (!layout_.otherColumns.empty()) layout_.otherColumns += ", ";
             layout_.otherColumns += text::inQuotes(layout_.radiusName);
         }
@@ -198,10 +199,10 @@ class PointReader {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
 
-    // Refuses the row if it has too few or too many columns, or if a column that is read is empty.
+    // Throws a FileError if `row_` has too few or too many columns, or if a column that is read is empty.
     void checkColumns(std::size_t line) {
         auto& columns = row_.columns;
-        const std::size_t needed = layout_.count > 0 ? layout_.count : std::max(firstSize_, kRadius);
+        const std::size_t needed = layout_.count > 0 ? layout_.count : std::max(firstSize_, kRadiusIndex);
         if (row_.endsWithSeparator && columns.size() < needed) columns.resize(needed);
         for (std::size_t i = 0; i < columns.size(); ++i) {
             if (columns[i].empty() && isRead(i)) throwFileError(line, "the column is empty", i + 1);
@@ -211,12 +212,12 @@ class PointReader {
         if (layout_.count > 0 && size != layout_.count && !radiusMisses)
             throwFileError(line, "the row has " + std::to_string(size) + " columns, but the header names " +
                                      std::to_string(layout_.count));
-        if (size < kRadius)
+        if (size < kRadiusIndex)
             throwFileError(line, "a point has " + std::to_string(size) + " coordinates; four are needed");
-        const std::size_t most = layout_.count > 0 ? layout_.count : kRadius + (options_.radii ? 1 : 0);
+        const std::size_t most = layout_.count > 0 ? layout_.count : kRadiusIndex + (options_.radii ? 1 : 0);
         if (size > most)
             throwFileError(line, text::inQuotes(columns[most]) + " follows a point's " +
-                                     (most == kRadius ? "four coordinates" : "radius") +
+                                     (most == kRadiusIndex ? "four coordinates" : "radius") +
                                      "; a header x y z w says which columns to read");
         if (firstSize_ == 0) firstSize_ = size;
         if (format_.separator != ' ' && size != firstSize_)
@@ -228,7 +229,8 @@ class PointReader {
     void splitRow(const TableLine& line) {
         std::string_view content = line.content;
         const std::size_t last = content.find_last_not_of(" \t");
-        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);  // a matrix of MATLAB
+        // In MATLAB, a semicolon ends each row of a matrix.
+        if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);
         split(content, format_.separator, row_);
     }
 
@@ -241,15 +243,16 @@ class PointReader {
         checkColumns(line.number);
         PointRow point;
         point.line = line.number;
-        for (std::size_t i = 0; i < kRadius; ++i) {
+        for (std::size_t i = 0; i < kRadiusIndex; ++i) {
             const std::size_t at = layout_.columns[i].value_or(i);
             const ParsedCoordinate& read = coordinate(line, at, readers_[i]);
             point.point[static_cast<int>(i)] = read.value;
             point.numbers[i] = read.text;
         }
-        const std::optional<std::size_t> radius = layout_.count > 0 ? layout_.columns[kRadius] : std::optional(kRadius);
+        const std::optional<std::size_t> radius =
+            layout_.count > 0 ? layout_.columns[kRadiusIndex] : std::optional(kRadiusIndex);
         if (radius && *radius < row_.columns.size()) {
-            point.radius = coordinate(line, *radius, readers_[kRadius]).value;
+            point.radius = coordinate(line, *radius, readers_[kRadiusIndex]).value;
             if (point.radius < 0) throwFileError(line.number, "a radius is negative", *radius + 1);
             if (layout_.count == 0 && !std::exchange(warnedOfRadius_, true))
                 warnings_.emplace_back("the fifth column was read as radius");
@@ -270,7 +273,7 @@ class PointReader {
     const std::function<void(const PointRow&)>& add_;
     Layout layout_;
     TableRow row_;
-    std::array<CoordinateReader, kRadius + 1> readers_;
+    std::array<CoordinateReader, kRadiusIndex + 1> readers_;
     std::size_t rows_ = 0;
     std::size_t firstSize_ = 0;  // the number of columns of the first row; 0 before it
     bool warnedOfRadius_ = false;

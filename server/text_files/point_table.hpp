@@ -17,7 +17,7 @@ struct PointRow {
     std::size_t line = 0;  ///< counted from 1
     glm::dvec4 point{0};
     double radius = 0;                        ///< 0 if the row has none
-    std::array<std::string_view, 4> numbers;  ///< the coordinates as they are written; see ParsedCoordinate::text
+    std::array<std::string_view, 4> numbers;  ///< the texts of the coordinates, as in ParsedCoordinate::text
 };
 
 /// What a table of points may contain.
@@ -26,22 +26,25 @@ struct PointTableOptions {
     bool radii = false;  ///< the points may have radii
 };
 
-/// Reads a table of points from a text that plainText() has returned, calls `add` for each row, and returns warnings:
-/// what was left out or read as a radius. Throws a FileError with line and column if a row is refused, or if there are
-/// too many rows.
+/// Reads a table of points and calls `add` for each row. `text` must be a result of plainText(). Returns warnings, for
+/// example about columns that were left out. Throws a FileError if the table does not follow the rules below, or if it
+/// has more than PointTableOptions::maxPoints rows.
 ///
-/// - The columns are separated by tabs if there are at least four numbers between tabs; else by semicolons, else by
-///   commas (unless these may be decimal commas), else by tabs, else by blanks. Where semicolons, tabs or blanks
-///   separate them, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator
-///   at the end of a row is ignored. Comments begin with # and extend to the end of the line.
-/// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns,
-///   which may be text, need a header: a first row in which no word is a number, or a comment above the first row that
-///   has a name for each column. The header names the columns x, y, z, w (or t, or time, if none is called w), and r or
-///   radius; other columns are left out. Units in brackets may follow the names. A first row without numbers that names
-///   fewer than two of the coordinates is a title, and left out.
-/// - Each row must have as many columns as the header, or, without a header, as the first row; where blanks separate
-///   the columns, some rows may have a radius in the last column and others none. A column that is read must not be
-///   empty in any row. There must be a row.
+/// - The separator of the columns is the first of these that fits: a tab, if every row has at least four numbers
+///   between tabs; a semicolon; a comma, unless the commas may be decimal commas; a tab, if a row has at least four
+///   columns between tabs; blanks. If it is not a comma, numbers may have decimal commas. Words in double quotes are
+///   read without the quotes. A separator at the end of a row is ignored. Comments begin with # and extend to the end
+///   of the line.
+/// - Without a header, the columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and
+///   further columns need a header. The further columns are left out, and may contain text.
+/// - A first row without numbers is the header if it names at least two of the coordinates; otherwise, it is a title,
+///   and left out. If the first row contains a number, a comment above it is the header, provided that it names every
+///   column; of several such comments, the last one.
+/// - The coordinates are called x, y, z and w, or t or time instead of w; the radius is called r or radius. A unit
+///   may follow a name in brackets or after a slash.
+/// - With a header, each row must have as many columns as the header, otherwise as many as the first row. However, if
+///   blanks separate the columns and the radius is the last column, each row may have a radius or none. A column that
+///   is read must not be empty in any row. There must be at least one row.
 std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
                                     const std::function<void(const PointRow&)>& add);
 

@@ -28,7 +28,7 @@ bool hasSeparatorInside(std::string_view line, char separator) {
     return last != std::string_view::npos && line.find(separator) < last;
 }
 
-// The columns of a line that tabs separate.
+// Counts of the columns between the tabs of a line.
 struct ColumnsBetweenTabs {
     std::size_t filled = 0;      // the number of columns that are not empty
     std::size_t numbers = 0;     // the number of columns that are numbers
@@ -47,8 +47,9 @@ ColumnsBetweenTabs columnsBetweenTabs(std::string_view line, TableRow& row) {
     return result;
 }
 
-// Returns an empty optional if commas may separate the columns of a line. Otherwise, blanks or tabs separate them,
-// because no word has a comma at an end, or two of them; then returns whether a word has a decimal comma.
+// Splits a line into words at blanks and tabs. Returns an empty optional if commas may separate its columns: if there
+// are fewer than four words, or if a word has two commas or a comma at an end. Otherwise, returns whether a word has a
+// decimal comma. Changes `row`.
 std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -62,8 +63,8 @@ std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     return any;
 }
 
-// Returns whether a line is a row of a table, not a header or a title: it begins with a number, or has at least `least`
-// numbers, and not more other words than numbers.
+// Returns whether a line is a row of a table, not a header or a title. A row begins with a number; or it has at least
+// `least` numbers, and no more other words than numbers.
 bool isRow(std::string_view line, std::size_t least) {
     constexpr std::string_view kBetween = ";,\t \"";
     std::size_t numbers = 0, others = 0;
@@ -103,7 +104,7 @@ std::string_view withoutTexts(std::string_view line, std::string& memory) {
     return memory;
 }
 
-// Returns the format that fits all rows, as isRow() finds them; an empty optional if there are no rows.
+// Returns the format that fits all lines that are rows according to isRow(); an empty optional if there are none.
 std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
     bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
     TableRow row;
@@ -141,8 +142,8 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    // A row may begin with a text. A line with fewer numbers than a point has may be a title, so such lines count only
-    // if no line has enough numbers.
+    // A row may begin with a text. Such a row must have as many numbers as a point, because a line with fewer numbers
+    // may be a title. Only if no line is a row, half as many are enough.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }

@@ -13,8 +13,8 @@ namespace oval4d::text_files {
 /// A line of a text file, divided at its first #.
 struct TableLine {
     std::size_t number = 0;    ///< counted from 1
-    std::string_view content;  ///< what precedes the #, with the blanks around it
-    std::string_view comment;  ///< what follows the #, without the blanks around it
+    std::string_view content;  ///< the text before the #, including blanks at its ends
+    std::string_view comment;  ///< the text after the #, without blanks at its ends
 };
 
 /// The lines of a text file, one after the other.
@@ -43,7 +43,7 @@ TableFormat formatOf(TableLines lines);
 /// The columns of a line.
 struct TableRow {
     std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
-    bool endsWithSeparator = false;         ///< with a separator other than blanks; it begins no further column
+    bool endsWithSeparator = false;         ///< with a separator other than a blank; no column follows it
 };
 
 /// Sets `row` to the columns of a line.

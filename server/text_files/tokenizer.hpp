@@ -10,8 +10,8 @@
 
 namespace oval4d::text_files {
 
-/// Splits a text that plainText() has returned into words separated by white space. Skips comments, which extend from #
-/// to the end of the line. The text must outlive the tokenizer and the words.
+/// Splits a text into words at white space. Skips comments, which extend from # to the end of the line. The text must
+/// be a result of plainText(), and must outlive the tokenizer and the words.
 class Tokenizer {
   public:
     explicit Tokenizer(std::string_view text) : text_(text) {}

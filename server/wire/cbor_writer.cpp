@@ -92,7 +92,7 @@ void CborWriter::doubles(std::span<const double> list) {
     typedArray(kFloat64Array, list.size_bytes());
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
 }
-void CborWriter::roundedFloats(std::span<const float> list) {
+void CborWriter::floatsForPictures(std::span<const float> list) {
     typedArray(kFloat32Array, list.size_bytes());
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
 }

@@ -40,9 +40,9 @@ class CborWriter {
     /// Appends encoded CBOR unchanged: a value, or members of an object.
     void raw(std::string_view text) { buffer_.put(text); }
 
-    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and roundedFloats() write
-    // single precision, and doubles are rounded to it; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32
-    // bits, the smallest size that fits all numbers of the array. Vectors, pairs and triples are flattened.
+    // Typed arrays (RFC 8746), little-endian. doubles() writes double precision; vectors() and floatsForPictures()
+    // write single precision, to which vectors() rounds doubles; pairs(), triples() and numbers() write integers of 8,
+    // 16 or 32 bits, the smallest size that fits all numbers of the array. Vectors, pairs and triples are flattened.
     void doubles(std::span<const double> list);
     void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
@@ -50,7 +50,7 @@ class CborWriter {
     void pairs(std::span<const Pair> list);
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void roundedFloats(std::span<const float> list);  ///< writes all digits; only JsonWriter rounds to decimals
+    void floatsForPictures(std::span<const float> list);  ///< does not round the numbers; only JsonWriter does
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row
 
     template <typename T>

@@ -29,7 +29,7 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice: the number of walls, and three sizes
+    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice: the number of SliceFog::walls; SliceFog::size
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;
     std::vector<std::uint8_t> values_;

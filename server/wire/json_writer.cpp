@@ -105,7 +105,7 @@ void JsonWriter::value(std::string_view text) {
 void JsonWriter::vector(const glm::dvec3& v) {
     separate();
     buffer_.reserve(reserveFor(3));
-    buffer_.moveTo(text::putVectorsAsFloats(buffer_.at(), std::span(&v, 1)));
+    buffer_.moveTo(text::putVectorsAsJson(buffer_.at(), std::span(&v, 1)));
 }
 
 // Writes an array. `put(at)` writes the content, which consists of `numbers` numbers, and returns its end.
@@ -120,7 +120,7 @@ void JsonWriter::array(std::size_t numbers, Put put) {
     buffer_.moveTo(at);
 }
 
-void JsonWriter::roundedFloats(std::span<const float> list) {
+void JsonWriter::floatsForPictures(std::span<const float> list) {
     constexpr double kDecimals = 1e4;
     beginArray();
     for (const float number : list) value(std::round(number * kDecimals) / kDecimals);
@@ -135,18 +135,18 @@ void JsonWriter::vectors(std::span<const glm::vec3> list) {
             const auto batch = list.subspan(begin, std::min(kBatch, list.size() - begin));
             std::ranges::transform(batch, doubles.begin(), [](const glm::vec3& v) { return glm::dvec3(v); });
             if (begin > 0) *at++ = ',';
-            at = text::putVectorsAsFloats(at, std::span(std::as_const(doubles)).first(batch.size()));
+            at = text::putVectorsAsJson(at, std::span(std::as_const(doubles)).first(batch.size()));
         }
         return at;
     });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec3> list) {
-    array(3 * list.size(), [list](char* at) { return text::putVectorsAsFloats(at, list); });
+    array(3 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec4> list) {
-    array(4 * list.size(), [list](char* at) { return text::putVectorsAsFloats(at, list); });
+    array(4 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
 }
 
 template <std::size_t Size>

@@ -60,8 +60,8 @@ class JsonWriter {
     void pairs(std::span<const Pair> list);
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void roundedFloats(std::span<const float> list);  ///< rounds the numbers to four decimals
-    void lists(JaggedArrayView view);                 ///< writes an array of arrays
+    void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
+    void lists(JaggedArrayView view);                     ///< writes an array of arrays
     /// Writes an image with this number of columns as an array of rows.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 

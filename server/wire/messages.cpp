@@ -102,7 +102,7 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
                 w.member("vertices", std::uint64_t{section.vertices});
             } else {
                 const auto& [components, cavities, euler] = section.before;
-                w.member("level", std::uint64_t{section.level});
+                w.member("level", std::uint64_t{section.levelIndex});
                 writePair(w, "components", std::uint64_t{components}, std::uint64_t{section.after.components});
                 writePair(w, "cavities", std::uint64_t{cavities}, std::uint64_t{section.after.cavities});
                 writePair(w, "euler", std::int64_t{euler}, std::int64_t{section.after.euler});

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/describe/members.hpp>
+#include <boost/describe/modifiers.hpp>
+#include <boost/mp11/algorithm.hpp>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,17 +75,7 @@ void choose(const json& message, const char* member, const Choices& choices, Val
     if (const auto name = message.find(member); name != message.end()) into = choiceOf(*name, choices);
 }
 
-Hello helloOf(const json& message) {
-    Hello hello;
-    choose(message, "stream", kStreams, hello.stream);
-    choose(message, "encoding", kEncodings, hello.encoding);
-    hello.viewport = viewportOf(message).value_or(scene::Viewport{});
-    choose(message, "scheme", scene::kSchemes, hello.scheme);
-    take(message, "token", hello.token);
-    return hello;
-}
-
-// Reads the value of a setting, whose type the schema has checked.
+// Reads the value of a member or of a setting, whose type the schema has checked.
 template <typename Value>
 void readValue(const json& value, Value& into) {
     into = value.get<Value>();
@@ -105,6 +99,29 @@ void readValue(const json& element, std::optional<slicing::Element>& into) {
         into = slicing::Element{choiceOf(element.at("element"), slicing::kElementKinds), element.at("number")};
 }
 
+// Returns the body of a valid message. A member that the message lacks keeps its default.
+template <typename T>
+T bodyOf(const json& message) {
+    T body;
+    using Members = boost::describe::describe_members<T, boost::describe::mod_public>;
+    boost::mp11::mp_for_each<Members>([&](auto member) {
+        if (const auto value = message.find(member.name); value != message.end())
+            readValue(*value, body.*member.pointer);
+    });
+    return body;
+}
+
+template <>
+Hello bodyOf(const json& message) {
+    Hello hello;
+    choose(message, "stream", kStreams, hello.stream);
+    choose(message, "encoding", kEncodings, hello.encoding);
+    hello.viewport = viewportOf(message).value_or(scene::Viewport{});
+    choose(message, "scheme", scene::kSchemes, hello.scheme);
+    take(message, "token", hello.token);
+    return hello;
+}
+
 fields::Box boxOf(const json& ranges) {
     fields::Box box;
     for (int axis = 0; axis < 4; ++axis) {
@@ -114,13 +131,14 @@ fields::Box boxOf(const json& ranges) {
     return box;
 }
 
-/// Returns the command that loads the formula field `name`, from the member `field` of a state; an empty optional if
-/// the field is an array.
+/// Returns the command that loads a field that is given by a formula. `field` is the member `field` of a state, and
+/// `name` the name of the field. Returns an empty optional if the field is an array.
 std::optional<session::LoadObject> formulaOf(const json& field, const std::string& name) {
     if (!field.contains("formula")) return {};
     session::LoadObject load{name, std::string(session::kFormula), field["formula"]};
     load.box = boxOf(field.at("box"));
-    if (const auto values = field.find("values"); values != field.end()) load.values = values->value("formula", "");
+    if (const auto values = field.find("values"); values != field.end())
+        load.secondFormula = values->value("formula", "");
     return load;
 }
 
@@ -136,7 +154,8 @@ const json* memberOf(const json& message, const session::SettingName& name) {
     return member == object->end() ? nullptr : &*member;
 }
 
-session::Set setOf(const json& message) {
+template <>
+session::Set bodyOf(const json& message) {
     session::Set set;
     set.continues = message.value("continues", false);
     if (const auto polytope = message.find("polytope"); polytope != message.end()) {
@@ -159,15 +178,13 @@ session::Set setOf(const json& message) {
     return set;
 }
 
-session::Key keyOf(const json& message) {
-    return {message.at("key"), message.value("shift", false), message.value("ctrl", false)};
-}
-
-session::Rotate rotateOf(const json& message) {
+template <>
+session::Rotate bodyOf(const json& message) {
     return {turnOf(message, "rotate: "), message.value("continues", false)};
 }
 
-session::TurnToward towardOf(const json& message) {
+template <>
+session::TurnToward bodyOf(const json& message) {
     session::TurnToward toward;
     choose(message, "element", slicing::kElementKinds, toward.kind);
     take(message, "number", toward.index);
@@ -190,7 +207,8 @@ geometry::Centering centerOf(const json& center) {
     return {name == "object" ? Kind::object : Kind::origin};
 }
 
-session::LoadObject loadOf(const json& message) {
+template <>
+session::LoadObject bodyOf(const json& message) {
     if (!message.contains("data") && !message.contains("path"))
         throw InvalidRequest{"load: /data is missing: the text of a file, or else /path, a name in the data folder"};
     if (message.contains("data") && message.contains("path"))
@@ -198,11 +216,11 @@ session::LoadObject loadOf(const json& message) {
     if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
     session::LoadObject load{message.at("name"), message.value("format", ""), message.value("data", ""),
                              message.value("continues", false)};
-    load.path = message.value("path", "");
+    load.dataName = message.value("path", "");
     load.axes = message.value("axes", "");
     load.variable = message.value("variable", "");
-    load.values = message.value("values", "");
-    load.valuesVariable = message.value("values_variable", "");
+    load.secondFormula = message.value("values", "");
+    load.secondVariable = message.value("values_variable", "");
     load.append = message.value("append", false);
     if (const auto box = message.find("box"); box != message.end()) load.box = boxOf(*box);
     if (const auto center = message.find("center"); center != message.end()) load.center = centerOf(*center);
@@ -230,13 +248,14 @@ exports::ExportRequest exportRequestOf(const json& message) {
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);
     request.size = message.value("size", request.size);
-    if (const auto at = message.find("at"); at != message.end()) request.at = numbersOf(*at, "get: /at");
-    take(message, "fit", request.fit);
+    if (const auto at = message.find("at"); at != message.end()) request.chosenW = numbersOf(*at, "get: /at");
+    take(message, "fit", request.fittedSlices);
     if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContents::oval;
     return request;
 }
 
-Get getOf(const json& message) {
+template <>
+Get bodyOf(const json& message) {
     if (message.contains("width") != message.contains("height"))
         throw InvalidRequest{"get: give /width and /height together, or neither"};
     Get get;
@@ -259,27 +278,20 @@ struct RequestType {
     std::string_view name;
     Body (*bodyOf)(const json& message);
 };
-// The parser of messages that are commands without members.
 template <typename T>
-constexpr Body (*kPlain)(const json&) = [](const json& /*message*/) -> Body { return session::Command{T{}}; };
-
-constexpr auto kRequestTypes = std::to_array<RequestType>({
-    {"hello", [](const json& message) -> Body { return helloOf(message); }},
-    {"key", [](const json& message) -> Body { return session::Command{keyOf(message)}; }},
-    {"rotate", [](const json& message) -> Body { return session::Command{rotateOf(message)}; }},
-    {"toward", [](const json& message) -> Body { return session::Command{towardOf(message)}; }},
-    {"set", [](const json& message) -> Body { return session::Command{setOf(message)}; }},
-    {"load", [](const json& message) -> Body { return session::Command{loadOf(message)}; }},
-    {"undo", kPlain<session::Undo>},
-    {"redo", kPlain<session::Redo>},
-    {"reset", kPlain<session::Reset>},
-    {"command", [](const json& message) -> Body { return session::Command{session::CommandLine{message.at("line")}}; }},
-    {"address",
-     [](const json& message) -> Body { return session::Command{session::OpenAddress{message.at("query")}}; }},
-    {"get", [](const json& message) -> Body { return getOf(message); }},
-    {"ping", [](const json& /*message*/) -> Body { return Ping{}; }},
-    {"shown", [](const json& message) -> Body { return PictureShown{message.at("revision")}; }},
-});
+Body parse(const json& message) {
+    if constexpr (boost::mp11::mp_contains<session::Command, T>::value) {
+        return session::Command{bodyOf<T>(message)};
+    } else {
+        return bodyOf<T>(message);
+    }
+}
+template <typename... T>
+constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
+    return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
+}
+// mp_flatten puts the commands in the place of session::Command.
+constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<Body>>{});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.
 class Peek : public nlohmann::json_sax<json> {
@@ -388,7 +400,7 @@ RequestPeek peekRequest(std::string_view beginning) {
     return seen;
 }
 
-Result<session::Set> setFromState(std::string_view text) {
+Result<session::Set> setCommandFromState(std::string_view text) {
     constexpr int kDepth = 8;
     ParsedJson read = parseJson(text, kDepth);
     if (read.value.is_object()) {
@@ -403,8 +415,8 @@ Result<session::Set> setFromState(std::string_view text) {
     return std::get<session::Set>(std::get<session::Command>(std::get<Request>(request).body));
 }
 
-Result<session::Set> setFromFile(std::string_view file, std::size_t maxMessage) {
-    const auto message = image::isPng(file) ? image::stateIn(file) : file;
+Result<session::Set> setCommandFromFile(std::string_view file, std::size_t maxMessage) {
+    const auto message = image::isPng(file) ? image::stateTextIn(file) : file;
     if (!message)
         return Error{ErrorCode::bad_message,
                      "the picture contains no state: oval4d has not made it, or another program "
@@ -412,7 +424,7 @@ Result<session::Set> setFromFile(std::string_view file, std::size_t maxMessage) 
     if (message->size() > maxMessage)
         return Error{ErrorCode::too_large, "the state has " + std::to_string(message->size()) + " bytes; at most " +
                                                std::to_string(maxMessage) + " are allowed (--max-message)"};
-    return setFromState(*message);
+    return setCommandFromState(*message);
 }
 
 bool mayContainState(std::string_view file) {

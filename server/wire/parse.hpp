@@ -38,15 +38,15 @@ RequestPeek peekRequest(std::string_view beginning);
 
 /// Parses a `state` message, such as the one in the iTXt chunk of a frame's PNG file. Returns the command that restores
 /// this state. Errors: `bad_json`, `bad_message`, `out_of_range`.
-Result<session::Set> setFromState(std::string_view text);
+Result<session::Set> setCommandFromState(std::string_view text);
 
 /// Parses the `state` message in a file: either a picture that oval4d has made, or a JSON file that is this message.
 /// Errors: `bad_message` if the file is a PNG file without a state; `too_large` if the message has more than
-/// `maxMessage` bytes; those of setFromState().
-Result<session::Set> setFromFile(std::string_view file,
-                                 std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
+/// `maxMessage` bytes; those of setCommandFromState().
+Result<session::Set> setCommandFromFile(std::string_view file,
+                                        std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
 
-/// Returns whether a file is meant for setFromFile(): it starts like a PNG file or a JSON object.
+/// Returns whether a file is meant for setCommandFromFile(): it starts like a PNG file or a JSON object.
 bool mayContainState(std::string_view file);
 
 }  // namespace oval4d::wire

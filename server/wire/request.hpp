@@ -1,10 +1,13 @@
 #pragma once
-// Parsed messages from clients. Only the parser deals with JSON and with the names of message types.
+// Parsed messages from clients. `kMessageType` is the type of the messages that are parsed to a struct. If the members
+// of a struct are described with Boost.Describe, a message has them under the same names.
 
 #include <array>
+#include <boost/describe/class.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <glm/vec2.hpp>
@@ -32,6 +35,7 @@ inline constexpr auto kEncodings =
 
 /// Begins a connection, or changes its settings.
 struct Hello {
+    static constexpr std::string_view kMessageType = "hello";
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
     scene::Viewport viewport;
@@ -52,25 +56,31 @@ inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"st
 
 /// Requests data once.
 struct Get {
+    static constexpr std::string_view kMessageType = "get";
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
         viewport;  ///< for slices, frames and at; if absent, the connection's viewport is used
-    std::optional<scene::Background> background;  ///< for slices and frames; if absent, the session's one is used
+    std::optional<scene::Background> background;  ///< for slices and frames; if absent, that of the session is used
     glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {
+    static constexpr std::string_view kMessageType = "shown";
     std::uint64_t revision = 0;
 };
+BOOST_DESCRIBE_STRUCT(PictureShown, (), (revision))
 
 /// Asks for the server's load.
-struct Ping {};
+struct Ping {
+    static constexpr std::string_view kMessageType = "ping";
+};
+BOOST_DESCRIBE_STRUCT(Ping, (), ())
 
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
-    std::variant<Hello, Get, PictureShown, Ping, session::Command> body;
+    std::variant<Hello, session::Command, Get, Ping, PictureShown> body;
 };
 
 }  // namespace oval4d::wire

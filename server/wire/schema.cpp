@@ -168,7 +168,7 @@ bool outOfBounds(const json& schema, const json& value) {
            (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
 }
 
-// Returns a number as a person reads it, but with all digits if it is too close to a bound of its schema.
+// Returns a number rounded for a reader, but with all digits if rounding makes it equal to a bound of its schema.
 std::string numberText(const json& schema, const json& value) {
     const auto number = value.get<double>();
     std::string rounded = text::roundedDecimal(number);

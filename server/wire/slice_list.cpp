@@ -47,8 +47,8 @@ void writeSources(W& w, const Sources& of) {
 
 // Writes the cells that determine the colors of the faces, unless these cells are equal to the sources of the faces.
 template <typename W>
-void writeTints(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
-                std::size_t to) {
+void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
+                     std::size_t to) {
     if (faceCells.empty()) return;
     const Numbers sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
     const Numbers cells = part(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
@@ -83,9 +83,9 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.key("balls");
     w.beginObject();
     w.key("scale");
-    w.roundedFloats(part(slices.ballScale, begin, end));
+    w.floatsForPictures(part(slices.ballScale, begin, end));
     w.key("opacity");
-    w.roundedFloats(part(slices.ballOpacity, begin, end));
+    w.floatsForPictures(part(slices.ballOpacity, begin, end));
     w.endObject();
 }
 
@@ -94,7 +94,7 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
 struct Fill {
     std::vector<glm::dvec3> points;
     std::vector<Triple> triangles;
-    std::vector<std::uint32_t> tints, seen;
+    std::vector<std::uint32_t> colorCells, visibilities;
 };
 
 // Adds the triangles of one slice, except hidden ones.
@@ -104,15 +104,15 @@ void addFill(const Scene& scene, std::size_t slice, Fill& fill) {
     for (std::uint32_t p = from.patchBegin[slice]; p < from.patchBegin[slice + 1]; ++p) {
         const slicing::Visibility visibility = scene.visibilities.face(from.patches[p].source);
         if (visibility == slicing::Visibility::hidden) continue;
-        const std::uint32_t tint = scene.patchCells[p];
+        const std::uint32_t colorCell = scene.patchCells[p];
         for (std::uint32_t k = from.pieceBegin[p]; k < from.pieceBegin[p + 1]; ++k) {
             const auto first = static_cast<std::uint32_t>(fill.points.size() - begin);
             const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
             fill.points.insert(fill.points.end(), corners.begin(), corners.end());
             for (std::uint32_t c = 2; c < corners.size(); ++c) {
                 fill.triangles.push_back({first, first + c - 1, first + c});
-                fill.tints.push_back(tint);
-                fill.seen.push_back(static_cast<std::uint32_t>(visibility));
+                fill.colorCells.push_back(colorCell);
+                fill.visibilities.push_back(static_cast<std::uint32_t>(visibility));
             }
         }
     }
@@ -125,10 +125,10 @@ void writeFill(W& w, const Fill& fill, const slicing::Visibilities& visibilities
     w.key("triangles");
     w.triples(fill.triangles);
     w.key("tints");
-    w.numbers(fill.tints);
+    w.numbers(fill.colorCells);
     if (!visibilities.allVisible()) {
         w.key("seen");
-        w.numbers(fill.seen);
+        w.numbers(fill.visibilities);
     }
 }
 
@@ -158,7 +158,7 @@ void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std:
     w.lists(
         {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
     writeSources(w, of);
-    writeTints(w, slices, faceCells, i, i + 1);
+    writeColorCells(w, slices, faceCells, i, i + 1);
     writeBalls(w, slices, i, i + 1);
     writeVisibilities(w, visibilities, of);
 }
@@ -263,7 +263,7 @@ void SliceListWriter::writeElements(CborWriter& w, const SliceSet& slices, const
     w.key("corners");
     w.numbers(slices.corners);
     writeSources(w, of);
-    writeTints(w, slices, faceCells, 0, count);
+    writeColorCells(w, slices, faceCells, 0, count);
     writeBalls(w, slices, 0, count);
     writeVisibilities(w, visibilities, of);
 }

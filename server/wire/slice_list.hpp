@@ -22,8 +22,8 @@ class SliceListWriter {
   public:
     void write(JsonWriter& w, const scene::Scene& scene);
     void write(CborWriter& w, const scene::Scene& scene);
-    /// Writes the projection of the whole object: each ProjectionPart with its vertices, edges and faces. As with
-    /// slices, CBOR has one array per property, with the values of all parts, instead of one object per part.
+    /// Writes the projection of the whole object: each ProjectionPart with its vertices, edges and faces. In CBOR, as
+    /// with slices, one array per property has the vertices, edges and faces of all parts.
     void writeProjection(JsonWriter& w, const scene::Scene& scene);
     void writeProjection(CborWriter& w, const scene::Scene& scene);
 

@@ -77,10 +77,10 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.endObject();
 }
 
-// Returns the number of columns of Scene::density; 0 if it is not drawn.
+// Returns the number of columns of Scene::plotTones; 0 if it is not drawn.
 int columnsOf(const scene::CoordinatesLayout& layout) {
     if (layout.panel > 0) return slicing::CoordinateHistograms::kColumns;
-    return layout.density ? scene::DensityPlot::kColumns : 0;
+    return layout.isDensityStrip ? scene::DensityPlot::kColumns : 0;
 }
 
 template <typename W>
@@ -189,7 +189,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
         }
         if (!scene.coordinates.hasLines()) {
             w.key("density");
-            w.image(scene.density, columnsOf(scene.coordinates));
+            w.image(scene.plotTones, columnsOf(scene.coordinates));
         }
         if (scene.showsHistogram()) writeHistogram(w, scene.histogram);
     }

@@ -155,7 +155,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.member("vertices", section.vertices);
     w.endObject();
     w.member("turning", state.turning);
-    w.member("moving", state.moves());
+    w.member("moving", state.isMoving());
     writeSettings(w, state);
     writeLast(w, state.lastTurn);
     w.endObject();

@@ -12,10 +12,10 @@
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state. `section` has the names of the section in its focus slice, and `quality` is
-/// the quality of the picture that follows. `viewer` is the color scheme of this picture if the background is
-/// scene::Background::automatic; it determines the colors of cell types and of values in the message. The PNG files of
-/// frames contain the same text.
+/// Returns the `state` message of a state. `section` has the names of the section in the state's focus slice, and
+/// `quality` is the quality of the picture that follows. `viewer` is the color scheme of this picture if the background
+/// is scene::Background::automatic; it determines the colors of cell types and of values in the message. The PNG files
+/// of frames contain the same text.
 std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
                          std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
                          scene::Scheme viewer = scene::Scheme::dark);

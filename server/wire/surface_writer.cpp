@@ -21,7 +21,7 @@ void SurfaceWriter::add(const scene::Scene& scene, std::size_t slice) {
     normals_.insert(normals_.end(), surface.normals.begin(), surface.normals.end());
     triangles_.insert(triangles_.end(), surface.triangles.begin(), surface.triangles.end());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        level_.push_back(static_cast<std::uint32_t>(surface.level(t)));
+        level_.push_back(static_cast<std::uint32_t>(surface.levelIndex(t)));
         cap_.push_back(surface.isCap(t) ? 1 : 0);
     }
     const scene::SurfaceLook& look = scene.surfaces;

@@ -6,8 +6,8 @@ import signal
 import socket
 
 import pytest
-from harness import DEADLINE, Server
-from raw import CLOSE, ConnectionEnded, Socket, WebSocket, fetch, request
+from harness import DEADLINE, LONG_TIME, Server
+from raw import CLOSE, TEXT, ConnectionEnded, Socket, WebSocket, fetch, frame, request, send_as_far_as_read
 from running_work import KINDS_OF_WORK, server_with_running_work
 
 
@@ -36,6 +36,18 @@ def test_a_signal_stops_the_server_gracefully(number):
             status, _ = stopped.result()
         assert status == 0 and "stopped" in server.log()
         assert idle.read_until_end() == b""
+
+
+def test_answers_that_are_unread_when_the_server_stops_do_not_delay_its_end():
+    with Server("--max-unsent", "16k", "--stop-timeout", LONG_TIME) as server, WebSocket(server, receive_buffer=4096) as peer:
+        peer.request(type="hello")
+        flood = frame(TEXT, b'{"type":"get","what":"keymap"}') * 10_000
+        assert send_as_far_as_read([peer], flood, lambda: fetch(server, "/readyz")) < len(flood)
+        server.process.send_signal(signal.SIGTERM)
+        assert close_code(peer) == 1012
+        peer.socket.close()
+        assert server.process.wait(DEADLINE) == 0
+        assert "clients still connected" not in server.log()
 
 
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])

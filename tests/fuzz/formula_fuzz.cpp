@@ -61,7 +61,7 @@ void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& 
         const float value = points.values[i];
         require(isSame(value, values[i]),
                 "a value does not depend on whether the gradient is computed:", formula.text());
-        require(std::isnan(value) ? !bounds.total : bounds.min <= value && value <= bounds.max,
+        require(std::isnan(value) ? !bounds.hasValueEverywhere : bounds.min <= value && value <= bounds.max,
                 "a value is within the bounds:", formula.text());
         for (const PointValues& gradient : points.gradients)
             require(std::isfinite(gradient[i]), "a gradient is finite:", formula.text());

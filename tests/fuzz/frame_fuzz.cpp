@@ -21,7 +21,7 @@ std::uint32_t load32(const Bytes& bytes, std::size_t at) {
 }
 
 /// Returns the text of the file's iTXt chunk; requires that every chunk is complete.
-std::string stateIn(const Bytes& png) {
+std::string stateTextIn(const Bytes& png) {
     constexpr std::string_view kHeader("oval4d\0\0\0\0\0", 11);
     std::string state;
     std::vector<std::string> names;
@@ -71,7 +71,7 @@ OVAL4D_FUZZER(frame) {
     static image::PngEncoder encoder;
     static Bytes png;
     encoder.encode(image, text, png);
-    require(stateIn(png) == text, "the state's text comes back");
+    require(stateTextIn(png) == text, "the state's text comes back");
     png_image header;
     const Bytes read = pixelsIn(png, header);
     require(static_cast<int>(header.width) == image.width && static_cast<int>(header.height) == image.height,
@@ -84,7 +84,7 @@ OVAL4D_FUZZER(frame) {
                 "the pixels come back");
     }
 
-    const auto set = wire::setFromState(text);
+    const auto set = wire::setCommandFromState(text);
     if (!set) {
         fuzz::requireSentence(set.error());
         return 0;

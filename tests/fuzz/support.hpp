@@ -192,7 +192,7 @@ inline void execute(session::Session& session, const session::Command& command) 
     for (int orders = 0; loader.isPending(); ++orders) {
         require(!done && session == before, "what is not ready yet changes nothing");
         if (!small) return;
-        loader.loadPendingObject();
+        loader.completePending();
         done = session::apply(session, command, kLimits, loader);
         require(orders < 3, "a command orders at most a file, the array to which it is added, and images");
     }
@@ -228,7 +228,7 @@ inline void requireHistory(session::Session session) {
 inline void requireRoundTrip(const session::State& state, const session::LoadedObjects& loaded) {
     const std::string text = wire::stateMessage(state, {}, 7, 3);
     requireJson(text);
-    const auto set = wire::setFromState(text);
+    const auto set = wire::setCommandFromState(text);
     require(static_cast<bool>(set), "a state message is read back:", set ? "" : set.error().message + " " + text);
     const std::string& name = slicing::infoOf(state.object).name;
     require(set->object == name, "an object's name travels whole");

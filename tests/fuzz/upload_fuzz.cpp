@@ -22,7 +22,7 @@ void requireSound(const net::Upload& upload, std::string_view method, std::strin
     require(load.append == (method == "POST"), "POST adds moments, and PUT does not");
     require(!load.append || path.ends_with("/moments"), "moments are added at their own path:", path);
     require(load.format.empty() || session::isArrayFormat(load.format), "only arrays are uploaded:", load.format);
-    require(load.data.empty() && load.path.empty() && !load.isFile(), "the file is only in the body");
+    require(load.data.empty() && load.dataName.empty() && !load.isArrayInFiles(), "the file is only in the body");
     session::LoadObject checked = load;
     if (checked.format.empty()) checked.format = "npy";
     require(!session::checkLoad(checked, fuzz::kLimits), "what is received can be loaded");

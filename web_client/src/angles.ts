@@ -17,7 +17,10 @@ export function editableAngle(radians: number): string {
     return `${formatDecimal(degrees, 10)}°`;
 }
 
-/** Converts an angle such as "10", "10°", "10 deg", "pi/8" or "0.2 rad" to an expression of the command line. */
+/**
+ * Converts an angle such as "10", "10°", "10 deg", "pi/8" or "0.2 rad" to an expression of the command line. Throws an
+ * Error if the text is blank.
+ */
 export function angleExpression(text: string): string {
     const typed = withoutBlanks(text).toLowerCase();
     if (typed === "") throw new Error("an angle is expected, such as 10° or pi/8");

@@ -1,12 +1,13 @@
-// The page: makes its parts, and connects the session to the picture, the keys, the buttons and the display of the state.
-// It is long because every connection between two parts is made here, so that the parts need not know each other.
+// Creates the parts of the page, and connects the session to the picture, the keys, the buttons and the display of the
+// state. This file is long because every connection between two parts is made here, so that the parts need not know
+// each other.
 
 import { Client, RequestError } from "@oval4d/protocol";
 import type { Command, Done, Keymap, PolytopeElement, Settings, State } from "@oval4d/protocol";
 
 import { Clicks } from "./clicks";
+import { ColorControls } from "./color_controls";
 import { ColorScheme, groundOf, type SchemeChoice } from "./color_scheme";
-import { Colors } from "./colors";
 import { CommandLine } from "./command_line";
 import { namesOfKeys } from "./completion";
 import { ConnectionStatus } from "./connection_status";
@@ -14,20 +15,21 @@ import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
-import { fieldOfLine, type FormulaField, loadOf } from "./fields";
+import { fieldOfLine, loadOf, type ScalarFieldFormula } from "./fields";
 import { FileLoading } from "./file_loading";
 import { WelcomeLine } from "./first_visit";
-import { FocusPoint } from "./focus_point";
+import { FocusPointControl } from "./focus_point_control";
 import { FocusPointDrag } from "./focus_point_drag";
 import { FocusSlider } from "./focus_slider";
-import { FrameHitTester } from "./frame_hit_tester";
-import { FrameMatrix } from "./frame_matrix";
+import { FrameHitTesterCache } from "./frame_hit_tester_cache";
+import { FrameMatrixCache } from "./frame_matrix_cache";
 import { FramePointing } from "./frame_pointing";
 import { FullScreen } from "./full_screen";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
+import { HeaderValues } from "./header_values";
 import { Help } from "./help";
-import { KeyRepeat } from "./key_repeat";
+import { KeyRepeatLimiter } from "./key_repeat_limiter";
 import { Keyboard } from "./keyboard";
 import { Latency } from "./latency";
 import { readInitialView, rememberSession } from "./link";
@@ -43,19 +45,18 @@ import { Pointing } from "./pointing";
 import { PrintView } from "./print_view";
 import { RenderingMode } from "./rendering_mode";
 import { Sharing } from "./sharing";
-import { StateFields } from "./state_fields";
 import { RotationControl } from "./rotation";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
 
-const kResizeDelay = 120; // milliseconds after the last change of the window's size
+const kResizeDelay = 120; // milliseconds after the last change of the size, before pictures of this size are requested
 
 export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
     private readonly connection = new ConnectionStatus();
-    private readonly keyRepeat = new KeyRepeat();
+    private readonly keyRepeatLimiter = new KeyRepeatLimiter();
     private readonly latency = new Latency();
     private readonly initialView = readInitialView();
     private readonly colorScheme = new ColorScheme(() => this.schemeChanged());
@@ -101,24 +102,26 @@ export class App {
         viewShown: (revision) => this.welcomeLine.viewShown(revision),
         tell: (messages) => this.notice.showAll(messages),
     });
-    private readonly frameHitTester = new FrameHitTester(this.client, this.stage, () => this.orbit.hitTesterKnown());
+    private readonly frameHitTesterCache = new FrameHitTesterCache(this.client, this.stage, () =>
+        this.orbit.hitTesterKnown(),
+    );
     private readonly orbit: OrbitControl = new OrbitControl(
         this.client,
         this.stage,
-        () => this.stage.hitTester ?? this.frameHitTester.current,
+        () => this.stage.hitTester ?? this.frameHitTesterCache.currentOrRequest(),
         (reason) => this.notice.show(reason),
     );
     private readonly slider: FocusSlider = new FocusSlider(this.client, {
         pressKey: (key, held) => this.keyboard.send({ key, shift: false, ctrl: false }, held),
         failed: (error) => this.notice.show(error.message),
     });
-    private readonly frameMatrix = new FrameMatrix(this.client, this.stage);
-    private readonly focusPoint = new FocusPoint(this.client, {
+    private readonly frameMatrixCache = new FrameMatrixCache(this.client, this.stage);
+    private readonly focusPointControl = new FocusPointControl(this.client, {
         began: () => this.slider.stop(),
         failed: (error) => this.notice.show(error.message),
     });
-    private readonly focusPointDrag = new FocusPointDrag(this.drawing, this.stage, this.focusPoint, () =>
-        this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrix.current,
+    private readonly focusPointDrag = new FocusPointDrag(this.drawing, this.stage, this.focusPointControl, () =>
+        this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly pointedLabel = new PointedLabel(this.drawing);
@@ -128,7 +131,7 @@ export class App {
         this.stage,
         this.client,
         this.pointedLabel,
-        (revision) => revision === this.state?.revision && !this.state.moving && this.keyRepeat.mayRepeat,
+        (revision) => revision === this.state?.revision && !this.state.moving && this.keyRepeatLimiter.mayRepeat,
     );
     private readonly renderingMode = new RenderingMode(this.stage, {
         changed: (mode) => this.modeChanged(mode),
@@ -136,7 +139,7 @@ export class App {
     });
     private readonly clicks: Clicks = new Clicks(this.drawing, this.stage, this.pointing, {
         state: () => this.state,
-        hitTester: async () => this.stage.hitTester ?? (await this.frameHitTester.request()),
+        hitTester: async () => this.stage.hitTester ?? (await this.frameHitTesterCache.request()),
         began: () => this.slider.stop(),
         moveFocusPoint: (at) => this.focusPointDrag.moveTo(at),
         send: (command) => void this.send(command),
@@ -152,7 +155,7 @@ export class App {
             keys: namesOfKeys(this.keyboard.keys),
         }),
     });
-    private readonly stateFields = new StateFields((line) => this.request({ type: "command", line }));
+    private readonly headerValues = new HeaderValues((line) => this.request({ type: "command", line }));
     private readonly picker = new Picker((name, isData) =>
         this.request(isData ? { type: "load", name, path: name } : { type: "set", polytope: name }),
     );
@@ -171,7 +174,7 @@ export class App {
         () => this.stage.size,
         (warnings) => this.notice.showAll(warnings),
     );
-    private readonly keyboard: Keyboard = new Keyboard(this.keyRepeat, {
+    private readonly keyboard: Keyboard = new Keyboard(this.keyRepeatLimiter, {
         send: (command) => void this.send(command),
         focusMoves: () => this.slider.stop(),
         escape: (event) => this.escape(event),
@@ -191,7 +194,7 @@ export class App {
         () => this.tour.start(),
         () => this.drawing.focus(),
     );
-    private readonly colors = new Colors((change) => void this.send({ type: "set", ...change }));
+    private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
     private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;
     private resizing: ReturnType<typeof setTimeout> | undefined;
@@ -247,9 +250,9 @@ export class App {
 
     /** Handles a new connection. The server may be another one, with another key table. */
     private async connectionOpened(): Promise<void> {
-        this.keyRepeat.restart();
+        this.keyRepeatLimiter.restart();
         this.latency.restart();
-        for (const part of [this.slider, this.orbit, this.focusPoint, this.fieldPanel]) part.restart();
+        for (const part of [this.slider, this.orbit, this.focusPointControl, this.fieldPanel]) part.restart();
         try {
             await this.session.restoreView();
             this.requestStream();
@@ -284,10 +287,13 @@ export class App {
             usesSingleKeys: this.keyboard.usesSingleKeys,
             useSingleKeys: (on) => (this.keyboard.usesSingleKeys = on),
         });
-        this.tools.show(keymap, [...this.colors.sections, ...page]);
+        this.tools.show(keymap, [...this.colorControls.sections, ...page]);
     }
 
-    /** Requests the stream for the current mode, or no stream while the page is hidden; tests the connection. */
+    /**
+     * Requests the stream for the current mode, or no stream while the page is hidden. If the page is visible, also
+     * tests the connection or, if there is none, connects without further delay.
+     */
     private requestStream(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
         // Without a connection, the hello of the next connection requests the stream.
@@ -301,25 +307,25 @@ export class App {
         this.state = state;
         document.documentElement.dataset["ground"] = groundOf(state.background, this.colorScheme.current);
         this.orbit.adoptCamera(state);
-        this.frameHitTester.update(state);
-        this.frameMatrix.update(state);
-        this.focusPoint.update(state);
+        this.frameHitTesterCache.update(state);
+        this.frameMatrixCache.update(state);
+        this.focusPointControl.update(state);
         this.slider.update(state);
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
         this.polytopeButton.title = `${name}: search for another object`;
         document.title = `${name} \u2013 oval4d`;
-        this.stateFields.update(state);
+        this.headerValues.update(state);
         this.welcomeLine.update(state);
         this.tools.update(state);
-        this.colors.update(state);
+        this.colorControls.update(state);
         this.fieldPanel.update(state);
         this.connection.stateShown(state.revision);
     }
 
     private picturePresented(revision: number, by: Mode): void {
         this.client.shown(revision);
-        this.keyRepeat.picturePresented(revision);
+        this.keyRepeatLimiter.picturePresented(revision);
         this.latency.picturePresented(revision, by);
         this.framePointing.picturePresented(revision);
         this.connection.picturePresented(this.latency.last);
@@ -329,7 +335,7 @@ export class App {
         clearTimeout(this.resizing);
         this.resizing = setTimeout(() => {
             this.requestStream();
-            if (this.state) this.frameMatrix.update(this.state);
+            if (this.state) this.frameMatrixCache.update(this.state);
         }, kResizeDelay);
     }
 
@@ -337,7 +343,7 @@ export class App {
         this.framePointing.reset();
         markMode(mode);
         this.requestStream();
-        if (this.state) this.frameMatrix.update(this.state);
+        if (this.state) this.frameMatrixCache.update(this.state);
     }
 
     private chooseScheme(choice: SchemeChoice): void {
@@ -355,12 +361,12 @@ export class App {
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
-        if (document.activeElement === document.body) this.drawing.focus(); // the button may be hidden now
+        if (document.activeElement === document.body) this.drawing.focus(); // the button with the focus may be hidden
         markFullScreen(isOn);
         this.stage.redraw();
     }
 
-    /** Ends the highlight and what is shown over the picture, and returns to the drawing. */
+    /** Hides the messages over the picture, and focuses the drawing. If it had the focus, also ends the highlight. */
     private escape(event: KeyboardEvent): void {
         const isInDrawing = event.target === this.drawing;
         if (isInDrawing && this.state?.highlight) void this.send({ type: "set", highlight: null });
@@ -399,8 +405,8 @@ export class App {
         return undefined;
     }
 
-    /** Loads a formula, then changes settings; resolves to the revision. */
-    private async loadField(field: FormulaField, settings: Settings, continues = false): Promise<number> {
+    /** Loads a formula, then changes settings; resolves to the revision after both. */
+    private async loadField(field: ScalarFieldFormula, settings: Settings, continues = false): Promise<number> {
         // Both are sent at once, so that no picture shows the formula without the settings.
         const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
         if (Object.keys(settings).length > 0) {
@@ -434,7 +440,7 @@ export class App {
         this.tour.stop();
     }
 
-    /** Opens the export dialog. If an element is given, only this is exported. */
+    /** Opens the export dialog. If an element is given, only this element is exported. */
     private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
         if (!this.state) return;
@@ -446,7 +452,7 @@ export class App {
     private async request(command: Command): Promise<Done> {
         const answer = this.client.request(command);
         try {
-            await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
+            await Promise.all([this.keyRepeatLimiter.track(answer), this.latency.track(command.type, answer)]);
         } finally {
             this.framePointing.update();
         }

@@ -15,7 +15,8 @@ export async function isBinary(file: File): Promise<boolean> {
 
 /**
  * Loads an array into the session under a name. `sent` is called with the fraction that has been sent, from 0 to 1.
- * Rejects with FileError and the server's reason, or if the connection is lost.
+ * Rejects with a FileError if the connection is lost, or if the server refuses the array; then the FileError has the
+ * server's reason.
  */
 export function uploadArray(
     file: File,

@@ -36,7 +36,7 @@ export class Catalogue {
         this.families = [...new Set(this.indexed.map(({ family }) => family))];
     }
 
-    /** The entries that contain every word of `query`, by family; the best matches come first. */
+    /** The entries that contain every word of `query`, grouped by family; the best matches come first. */
     find(query: string): Family[] {
         const words = query.split(/\s+/).map(normalize);
         const found = this.indexed.filter(({ searchText }) => words.every((word) => hasSearchWord(searchText, word)));
@@ -44,8 +44,8 @@ export class Catalogue {
     }
 
     /**
-     * The entries whose names differ from `query` by the fewest spelling mistakes, by family; none if all have more
-     * than one mistake in three letters. Numbers must be the same.
+     * The entries whose names differ from `query` by the fewest spelling mistakes, grouped by family; none if all names
+     * have more than one mistake in three letters. The numbers in a name must be those in `query`.
      */
     findSimilar(query: string): Family[] {
         return this.byFamily(this.similar(normalize(query)), normalize(query));

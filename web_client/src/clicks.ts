@@ -9,9 +9,9 @@ import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { Pointing } from "./pointing";
 
-const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, even if it is smaller
+const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, however small the slice is
 
-interface Actions {
+interface ClickActions {
     state: () => State | undefined;
     /** Resolves to the hit tester of the picture; undefined if it is not known. */
     hitTester: () => Promise<HitTester | undefined>;
@@ -30,7 +30,7 @@ export class Clicks {
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
         private readonly pointing: Pointing,
-        private readonly actions: Actions,
+        private readonly actions: ClickActions,
     ) {
         this.menu = new ElementMenu(drawing);
     }

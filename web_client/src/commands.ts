@@ -39,7 +39,10 @@ export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${p
 /** The kinds of elements of a polytope. */
 export const kElementKinds = settings.properties.highlight.properties.element.enum;
 
-/** The settings of an object in `set`. Settings of nested objects have their own names; `slices.count` is `slices`. */
+/**
+ * The settings among the properties of an object in `set`, each with a list of its values. A setting in a nested object
+ * has its own name on the command line, except that `slices.count` is called `slices`. `parent` is the nested object.
+ */
 function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {
         if (kNotOnTheLine.includes(name)) return [];

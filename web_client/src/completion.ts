@@ -51,7 +51,7 @@ function settingCompletions(line: string, start: number, rest: string, names: Na
     return finish(line, start, withPrefix(all, line.slice(start)));
 }
 
-/** The names or values of a kind, or of the setting of this name, that complete `typed`. */
+/** What completes `typed`: names of this kind, such as "planes", or else values of the setting called `kind`. */
 function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names): string[] {
     if (kind === "polytope") return polytopeNames(polytopes, typed);
     const lists: Record<string, string[]> = {

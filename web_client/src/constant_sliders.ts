@@ -19,7 +19,7 @@ export class ConstantSliders {
         private readonly changed: (formula: string) => void,
     ) {}
 
-    /** Shows the constants of a formula. A slider keeps its range as long as it contains the value. */
+    /** Shows the constants of a formula. A slider keeps its range as long as the range contains the value. */
     update(formula: string): void {
         this.formula = formula;
         const constants = constantsOf(formula);

@@ -38,7 +38,7 @@ export class CriticalValues {
 
     update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
         const object = [polytope, pace, follow, boost, field, levels, inside];
-        const key = JSON.stringify([object, orientation, slices.spacing]); // another object of this name changes δ
+        const key = JSON.stringify([object, orientation, slices.spacing]); // δ changes if this name gets another object
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;

@@ -153,7 +153,7 @@ export class ExportDialog {
         }
     }
 
-    /** Keeps the choices for later visits, but not those that only an element needs. */
+    /** Stores the choices for reloads of the page in this tab, but not those that only an element needs. */
     private storeChoices(): void {
         const choices = this.formValues();
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
@@ -170,7 +170,7 @@ export class ExportDialog {
         this.restoreChoices();
     }
 
-    /** Restores the previous choices. */
+    /** Restores the stored choices. */
     private restoreChoices(): void {
         for (const [name, value] of Object.entries(readStored<Record<string, string>>(kChoicesKey) ?? {})) {
             const field = this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement | null;

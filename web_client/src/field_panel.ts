@@ -1,11 +1,11 @@
-// The panel in which the formula of a field is written, with its constants, levels and domain. The picture follows every
-// change. At most one change is on its way to the server; of the changes made meanwhile, only the newest is sent.
+// The panel in which the formula of a field is written, with its constants, levels and domain. The picture follows
+// every change. At most one change is on its way to the server; of the changes made meanwhile, only the newest is sent.
 
 import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@oval4d/protocol";
 
 import { byId, element } from "./element";
 import { kExamples } from "./field_examples";
-import { type FormulaField, isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf } from "./fields";
+import { isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf, type ScalarFieldFormula } from "./fields";
 import { FogEditor } from "./fog_editor";
 import { toSentence } from "./format";
 import { comparisonOf } from "./formula";
@@ -20,7 +20,7 @@ export interface FieldPanelEvents {
      * Loads a formula, then changes settings; resolves to the revision. `continues` tells whether this belongs to the
      * undo step of the previous command. Rejects with an Error if the formula is refused.
      */
-    load(field: FormulaField, settings: Settings, continues: boolean): Promise<number>;
+    load(field: ScalarFieldFormula, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
     set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
     /** Gives the user a link to this address. */
@@ -29,7 +29,7 @@ export interface FieldPanelEvents {
     closed(): void;
 }
 
-const kTypingDelay = 150; // milliseconds after the last change by typing
+const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const kSeries = 1500; // milliseconds: changes that follow each other within this time are undone together
 const kMaxTyped = 100; // the number of formulas whose typed text is kept for undo
 const kStorageKey = "oval4d.formula";
@@ -49,26 +49,26 @@ export class FieldPanel {
         this.formula.value = text;
         this.changed(0);
     });
-    private readonly loads = new NewestOnly<FormulaField>((field) => this.load(field));
+    private readonly loads = new NewestOnly<ScalarFieldFormula>((field) => this.load(field));
     private readonly levelSettings = new NewestOnly<number[]>((levels) => this.apply({ levels }));
     private readonly capSettings = new NewestOnly<Caps>((caps) => this.apply({ caps }));
     private readonly insideSettings = new NewestOnly<Inside>((inside) => this.apply({ inside }));
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
-    private loaded: FormulaField | undefined; // the formula that this page loaded last
-    private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until their state arrives
+    private loaded: ScalarFieldFormula | undefined; // the formula that this page loaded last
+    private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until its state arrives
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordOwnText() has seen its state.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // textOf() of the newest state
     private ownText = ""; // textOf() of the state with the formula that this page loaded last
-    private readonly typedFields = new Map<string, FormulaField>(); // what was typed, by textOf() of its state
+    private readonly typedFields = new Map<string, ScalarFieldFormula>(); // what was typed, by textOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
         byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
-        this.loaded = readStored<FormulaField>(kStorageKey);
+        this.loaded = readStored<ScalarFieldFormula>(kStorageKey);
         this.write(this.loaded ?? { formula: kExamples[0]!.formula, box: kUsualBox });
         for (const end of this.ends) end.addEventListener("input", () => this.changed(kTypingDelay));
         this.example.addEventListener("change", () => this.startFrom(Number(this.example.value)));
@@ -111,14 +111,14 @@ export class FieldPanel {
     }
 
     /** Shows a formula that another part of the page has loaded at this revision, and stores it as if typed here. */
-    adoptLoaded(field: FormulaField, revision: number): void {
+    adoptLoaded(field: ScalarFieldFormula, revision: number): void {
         this.write(field);
         writeStored(kStorageKey, field);
         this.noteLoaded(field, revision);
         this.showError(undefined);
     }
 
-    private noteLoaded(field: FormulaField, revision: number): void {
+    private noteLoaded(field: ScalarFieldFormula, revision: number): void {
         this.loaded = field;
         this.lastLoad = { revision, time: performance.now(), isRecorded: false };
         this.recordOwnText();
@@ -161,7 +161,7 @@ export class FieldPanel {
         this.typedFields.set(this.ownText, loaded);
     }
 
-    /** Shows the formula of a state that this page did not load, such as one that undo has restored. */
+    /** Shows the formula of a state if this page has not loaded this formula: for example, if undo has restored it. */
     private showForeignFormula(state: State): void {
         this.recordOwnText();
         const text = textOf(state);
@@ -182,17 +182,17 @@ export class FieldPanel {
     }
 
     /** Shows a formula in the fields. */
-    private write({ formula, box, values = "" }: FormulaField): void {
+    private write({ formula, box, values = "" }: ScalarFieldFormula): void {
         this.formula.value = formula;
         this.values.value = values;
         this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
         this.sliders.update(formula);
-        this.readBox(); // this clears the error of another box
+        this.readBox(); // clears the error about what was in the fields before
     }
 
     private startFrom(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // another field does not keep the levels and slices
+        this.loaded = undefined; // so that the levels and slices of the old field are not kept
         this.example.selectedIndex = 0;
         this.changed(0);
     }
@@ -208,7 +208,7 @@ export class FieldPanel {
     }
 
     /** What is written in the fields. */
-    private written(box: Box): FormulaField {
+    private written(box: Box): ScalarFieldFormula {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
     }
@@ -227,7 +227,7 @@ export class FieldPanel {
         return kAxes.map((_, i) => [numberIn(this.ends[2 * i]!.value), numberIn(this.ends[2 * i + 1]!.value)]) as Box;
     }
 
-    private async load(field: FormulaField): Promise<void> {
+    private async load(field: ScalarFieldFormula): Promise<void> {
         this.root.setAttribute("aria-busy", "true");
         try {
             const settings = this.keptSettings(field);
@@ -245,7 +245,7 @@ export class FieldPanel {
      * Whether the change to this field continues a series of changes, such as the steps of a drag, that are undone
      * together.
      */
-    private continues({ formula }: FormulaField): boolean {
+    private continues({ formula }: ScalarFieldFormula): boolean {
         const { loaded, lastLoad, state } = this;
         // If the state is newer than the last load, there was another command in between.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
@@ -253,7 +253,7 @@ export class FieldPanel {
     }
 
     /** The settings that stay the same when a formula is edited, although a new object has settings of its own. */
-    private keptSettings({ formula, box }: FormulaField): Settings {
+    private keptSettings({ formula, box }: ScalarFieldFormula): Settings {
         const { loaded, state } = this;
         if (!loaded || !state || !isField(state) || state.polytope.name !== kFormulaName) return {};
         const { levels, inside, fog, slices, point } = { ...state, ...this.sent?.settings };
@@ -264,7 +264,7 @@ export class FieldPanel {
         };
     }
 
-    /** Shows an error of the server at the formula that it concerns. */
+    /** Shows an error of the server at the formula that the error concerns; undefined clears the errors. */
     private showError(message: string | undefined): void {
         const isOfValues = message !== undefined && kOfValues.test(message);
         this.formula.showError(isOfValues ? undefined : message);
@@ -315,7 +315,10 @@ function textOf({ field }: State): string {
     return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
 }
 
-/** The settings that say where the slices are, without the distance between them, which belongs to the object. */
+/**
+ * The position of the slices along w, which stays when a formula is edited. The distance between them is left out,
+ * because each object gets a distance of its own.
+ */
 function placeOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };
 }

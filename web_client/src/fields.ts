@@ -1,4 +1,4 @@
-// Fields: what the page shows of a 4-D field besides its picture.
+// 4-D fields: their formulas and settings in messages, commands, addresses and spoken text.
 
 import type { Box, Settings, State } from "@oval4d/protocol";
 
@@ -7,7 +7,7 @@ import { formatCoordinate } from "./format";
 import { frameQuery } from "./reference_frame";
 
 /** A formula and its domain, from which the server makes a field. */
-export interface FormulaField {
+export interface ScalarFieldFormula {
     formula: string;
     box: Box;
     /** The formula whose values color the surfaces, if there is one. */
@@ -44,12 +44,12 @@ export interface FormulaLoad {
     values?: string;
 }
 
-export function loadOf({ formula, box, values }: FormulaField): FormulaLoad {
+export function loadOf({ formula, box, values }: ScalarFieldFormula): FormulaLoad {
     return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
 }
 
 /** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */
-export function fieldOfLine(line: string): FormulaField | undefined {
+export function fieldOfLine(line: string): ScalarFieldFormula | undefined {
     const [, formula, values] = /^\s*:?\s*formula\s+(.*?\S)(?:\s+colored by\s+(.*?\S))?\s*$/s.exec(line) ?? [];
     return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
 }
@@ -63,20 +63,20 @@ export function spokenLevels({ levels, inside = "below", fog = [] }: State): str
     return `${named} ${levels.map(formatCoordinate).join(", ")}, inside ${inside}${fogText}`;
 }
 
-/** Reads numbers that commas or blanks separate; a minus sign may be typed as such. Other texts become NaN. */
+/** Reads numbers separated by blanks, commas or semicolons; the minus sign U+2212 counts as "-". Other words: NaN. */
 export function parseNumbers(text: string): number[] {
     const words = text.replaceAll("\u2212", "-").split(/[\s,;]+/);
     return words.filter((word) => word !== "").map(Number);
 }
 
-/** The box with these ranges of x, y, z and w; undefined unless they are eight finite numbers. */
+/** The box with these ranges of x, y, z and w; undefined if they are not eight finite numbers. */
 export function boxOf(numbers: number[]): Box | undefined {
     if (numbers.length !== 8 || !numbers.every(Number.isFinite)) return undefined;
     return [0, 2, 4, 6].map((i) => [numbers[i]!, numbers[i + 1]!]) as Box;
 }
 
 /** The query of an address that opens this field, without the question mark. */
-export function queryOf({ formula, box, values }: FormulaField, look: FieldLook): string {
+export function queryOf({ formula, box, values }: ScalarFieldFormula, look: FieldLook): string {
     const { levels, inside, caps, fog } = look;
     const parameters = {
         formula,

@@ -1,4 +1,5 @@
-// Moves the focus slice to any w. The newest w is sent once per animation frame, when the previous one has been answered.
+// Moves the focus slice to any w. The newest w is sent once per animation frame, when the previous one has been
+// answered.
 
 import type { Client, State } from "@oval4d/protocol";
 

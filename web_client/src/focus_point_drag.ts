@@ -2,7 +2,7 @@
 
 import type { SectionMatrix } from "@oval4d/protocol";
 
-import type { FocusPoint } from "./focus_point";
+import type { FocusPointControl } from "./focus_point_control";
 import { followHover, type Point } from "./hover";
 import { type MatrixPanel, panelAt } from "./picture/matrix_panel";
 import type { Stage } from "./picture/stage";
@@ -15,7 +15,7 @@ export class FocusPointDrag {
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
-        private readonly focusPoint: FocusPoint,
+        private readonly focusPointControl: FocusPointControl,
         private readonly matrix: () => SectionMatrix | undefined,
     ) {
         followHover(drawing, (at) => {
@@ -39,7 +39,7 @@ export class FocusPointDrag {
         this.panel = this.panelAt(at);
         this.showCursor(at);
         if (!this.panel) return false;
-        this.focusPoint.begin();
+        this.focusPointControl.begin();
         return true;
     }
 
@@ -52,7 +52,7 @@ export class FocusPointDrag {
     moveTo(at: Point): boolean {
         const panel = this.panelAt(at);
         if (!panel) return false;
-        this.focusPoint.begin();
+        this.focusPointControl.begin();
         this.moveIn(panel, at);
         return true;
     }
@@ -60,7 +60,7 @@ export class FocusPointDrag {
     private moveIn(panel: MatrixPanel, at: Point): void {
         const { x, y } = this.pixelOf(at);
         const [across, up] = panel.coordinatesAt(x, y);
-        this.focusPoint.move([[panel.column, across], [panel.row, up]]);
+        this.focusPointControl.move([[panel.column, across], [panel.row, up]]);
     }
 
     private panelAt(at: Point): MatrixPanel | undefined {

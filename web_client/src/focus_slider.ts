@@ -19,7 +19,7 @@ const kKeySteps = 200; // steps of the arrow keys from one end to the other
 const kMaxMarks = 60; // more critical values are shown as a density
 const kDensityBins = 80;
 const kSweepTime = 8; // seconds from one end to the other at the speed 1
-const kMaxInterval = 0.1; // seconds between two animation frames, if the page was too busy
+const kMaxInterval = 0.1; // seconds: if the page is busy, a longer time between two animation frames counts as this
 
 export class FocusSlider {
     private readonly input = byId<HTMLInputElement>("focus-w");

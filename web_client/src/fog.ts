@@ -10,7 +10,7 @@ export const kMaxFogPoints = 8;
 /** The distribution of a field's values. */
 export interface ValueDistribution {
     range: [number, number];
-    /** How often the values occur, 0 to 1, at evenly spaced values from the least to the greatest. */
+    /** The cube root of how often a value occurs, at most 1, at evenly spaced values from the least to the greatest. */
     tones: number[];
 }
 
@@ -19,7 +19,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;
     const rows = density.length / columns;
-    // Tones are cube roots of how often a value occurs. The greatest value is in row 0.
+    // The numbers in `density` are cube roots of how often a value occurs. The greatest value is in row 0.
     const counts = Array.from({ length: rows }, (_, row) => {
         const tones = density.subarray((rows - 1 - row) * columns, (rows - row) * columns);
         return tones.reduce((sum, tone) => sum + tone ** 3, 0);
@@ -28,7 +28,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-/** Fog for a body inside a level: dense where it is farthest inside, and thin at the level. */
+/** Fog for a body inside a level: dense where the values are farthest inside, and thin at the level. */
 export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;
@@ -80,7 +80,10 @@ export function isTransferFunction(points: FogPoint[]): boolean {
     );
 }
 
-/** Moves point i as far as its neighbors and `ends`, the least and the greatest value, allow. */
+/**
+ * The points, with point i moved to `value` and `opacity`, or as near to them as its neighbors and `ends` allow.
+ * `ends`: the least and the greatest value of the field.
+ */
 export function withPoint(points: FogPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;
     const least = i > 0 ? points[i - 1]!.value + gap : ends[0];

@@ -12,7 +12,7 @@ import { toSentence } from "./format";
 import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
 
-const kTypingDelay = 150; // milliseconds after the last change by typing
+const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the curve, in units of its viewBox
 const kSvg = "http://www.w3.org/2000/svg";
 
@@ -63,7 +63,7 @@ export class FogEditor {
     update(state: State): void {
         this.state = state;
         this.showButton.disabled = state.fog === undefined;
-        const isOld = this.lastChange.isNewerThan(state);
+        const isOld = this.lastChange.recordAndCheckIfOld(state);
         if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // what the editor shows is newer
         this.points = state.fog ?? [];
         this.draw();

@@ -3,7 +3,7 @@
 import type { State } from "@oval4d/protocol";
 
 const kMinus = "\u2212";
-const kMaxPlanes = 3; // the number of planes that are listed of a rotation
+const kMaxPlanes = 3; // the most planes that the text of a rotation lists
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {

@@ -58,7 +58,7 @@ export function around(text: string, at: number, reach: number): [before: string
     ];
 }
 
-/** A range for the slider of a constant: from 0 to about twice its value; its step is a power of ten. */
+/** The slider range of a constant: 0 to about twice its value, or −1 to 1 if it is 0; the step is a power of ten. */
 export function rangeFor(value: number): { min: number; max: number; step: number } {
     const reach = 2 * Math.abs(value) || 1;
     const step = 10 ** Math.floor(Math.log10(reach / 50));

@@ -1,4 +1,4 @@
-// A text field with a formula, and the mistake that the server has found in it.
+// A text field with a formula, and the mistake that the server has found in the formula.
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";

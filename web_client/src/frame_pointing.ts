@@ -109,7 +109,7 @@ export class FramePointing {
     }
 
     private hide(): void {
-        if (!this.named) return; // a label that is shown belongs to the page's own picture
+        if (!this.named) return; // if the label is visible, pointing.ts has shown it for the page's own picture
         this.named = undefined;
         this.label.hide();
     }

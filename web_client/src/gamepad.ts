@@ -6,7 +6,7 @@ import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
 
 const kPause = 300; // milliseconds at rest after which a gesture has ended
-const kMaxInterval = 100; // milliseconds between two polls, if the page was too busy to poll
+const kMaxInterval = 100; // milliseconds: if the page is busy, a longer time between two polls counts as this
 
 export function listenForGamepads(rotation: RotationControl): void {
     let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled

@@ -1,7 +1,8 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
 // element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right
-// or middle button or with Alt, dragging rolls the 4-D ball or, if Shift is held as well, the 3-D ball of every slice.
-// Dragging with two fingers rolls the 4-D ball. In a panel of the matrix, dragging moves the focus point.
+// or middle button or with Alt, dragging rolls the 4-D ball or, if Shift is held as well, the 3-D ball of every slice
+// (see rolling_ball.ts). Dragging with two fingers rolls the 4-D ball. In a panel of the matrix, dragging moves the
+// focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
@@ -23,7 +24,7 @@ export interface GestureTargets {
     focusPoint: FocusPointDrag;
     /** A click, or the tap of a finger, at a point of the drawing. */
     click(at: Point, isTap: boolean): void;
-    /** A click with the right button, or a long press of a finger, at a point. Resolves to whether a menu has opened. */
+    /** A click with the right button, or a long press of a finger, at a point. Resolves to whether a menu opened. */
     openMenu(at: Point): Promise<boolean>;
 }
 
@@ -37,7 +38,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
     let pair: TwoFingers | undefined;
-    let wheelAt = -Infinity; // time of the last wheel event that turned, in milliseconds
+    let wheelAt = -Infinity; // time of the last wheel event that turned the polytope, in milliseconds
 
     const placeOf = ({ clientX, clientY }: MouseEvent): Point => {
         const { left, top } = drawing.getBoundingClientRect();
@@ -87,7 +88,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     drawing.addEventListener("pointerup", (event) => {
         if (isClick && event.button === kButtons.right) void targets.openMenu(placeOf(event));
     });
-    // Some systems open the menu when the button goes down, others when it is released after a drag.
+    // Some systems open the browser's own menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
     drawing.addEventListener("mousedown", (event) => {
         if (event.button === kButtons.middle) event.preventDefault(); // otherwise the browser would scroll

@@ -2,15 +2,15 @@
 
 import type { Command, KeyBinding } from "@oval4d/protocol";
 
-import type { KeyRepeat } from "./key_repeat";
+import type { KeyRepeatLimiter } from "./key_repeat_limiter";
 import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
 import { readStored, writeStored } from "./storage";
 
 const kSingleKeysKey = "oval4d.single_keys"; // lasting storage key of whether keys act without Ctrl
 
-interface Actions {
+interface KeyActions {
     send: (command: Command) => void;
-    /** Called before a key moves the focus. */
+    /** Called before a key moves the focus slice. */
     focusMoves: () => void;
     /** Called when Escape was pressed outside dialogs. */
     escape: (event: KeyboardEvent) => void;
@@ -26,8 +26,8 @@ export class Keyboard {
     private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
 
     constructor(
-        private readonly repeat: KeyRepeat,
-        private readonly actions: Actions,
+        private readonly repeatLimiter: KeyRepeatLimiter,
+        private readonly actions: KeyActions,
     ) {}
 
     /** Whether letters, digits and signs act without Ctrl; the browser remembers it. */
@@ -61,13 +61,13 @@ export class Keyboard {
         const act = this.actions.page[binding.action];
         if (act) act();
         else if (this.actions.camera(binding.action)) return;
-        else if (held && !this.repeat.mayRepeat) return;
+        else if (held && !this.repeatLimiter.mayRepeat) return;
         else for (const stroke of strokesOfBinding(binding, inverse)) this.send(stroke, false);
     }
 
     /** Sends a key to the server. A held key repeats only after the picture of its last press has been presented. */
     send(stroke: KeyStroke, held: boolean): void {
-        if (held && !this.repeat.mayRepeat) return;
+        if (held && !this.repeatLimiter.mayRepeat) return;
         if (this.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key))) this.actions.focusMoves();
         this.actions.send({ type: "key", ...stroke });
     }

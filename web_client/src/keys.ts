@@ -1,6 +1,6 @@
 // Converts keyboard events to keystrokes of the key table. The server decides what a keystroke does.
 //
-// The `key` of a row is a character, a sequence of two characters, or the name of a key, which is longer.
+// The `key` of a row of this table is a character, a sequence of two characters, or the name of a key, which is longer.
 
 import type { KeyBinding } from "@oval4d/protocol";
 
@@ -17,8 +17,9 @@ export interface KeyStroke {
 }
 
 /**
- * Whether the key is for the control that has the focus: every key in a text field; Enter and the space bar on a button;
- * Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a checkbox.
+ * Whether the key is for the control that has the focus: every key in a text field; Enter and the space bar on a
+ * button; Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a
+ * checkbox.
  */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
@@ -35,10 +36,10 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 }
 
 /**
- * The keystroke of an event; undefined while a text is composed, for other modifiers, and for keys that are not in the
- * table. A character of the table counts, whichever key types it: "(" and "-" on the digit keys of a French keyboard.
- * Otherwise a digit key counts as its digit, and a key that types a letter of another script counts as the American key
- * in its place.
+ * The keystroke of an event; undefined while a text is composed, if a modifier other than Shift and Ctrl is held, and
+ * for keys that are not in the table. A character of the table counts, whichever key types it: "(" and "-" on the digit
+ * keys of a French keyboard. Otherwise a digit key counts as its digit, and a key that types a letter of another script
+ * counts as the American key in its place.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
@@ -106,7 +107,7 @@ const kPunctuation: Record<string, string> = {
     Backquote: "`~",
 };
 
-/** The character of the physical key on an American keyboard, for keyboards of another script; "\0" if there is none. */
+/** The character of this key on an American keyboard, for keyboards of another script; "\0" if there is none. */
 function characterOfPlace({ code, key, shiftKey }: KeyboardEvent): string {
     if ([...key].length !== 1) return "\0"; // the name of a key
     const [, letter] = /^Key([A-Z])$/.exec(code) ?? [];

@@ -17,8 +17,8 @@ export class LastChange {
         this.revision = this.seen = 0;
     }
 
-    /** Whether the last change was made after this state, which must be the newest one. */
-    isNewerThan({ revision }: State): boolean {
+    /** Records this state, which must be the newest one. Returns whether the last change was made after it. */
+    recordAndCheckIfOld({ revision }: State): boolean {
         if (revision < this.seen) this.revision = 0; // the revisions of another session
         this.seen = revision;
         return revision < this.revision;

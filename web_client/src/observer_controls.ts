@@ -9,7 +9,7 @@ import { formatDecimal, toSentence } from "./format";
 import { NewestOnly } from "./newest_only";
 import type { Velocity } from "./reference_frame";
 
-const kTypingDelay = 150; // milliseconds after the last change by typing
+const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const kPaceDigits = 2; // significant digits of the paces that the slider offers
 const kAxes = ["x", "y", "z"] as const;
 const kVelocities: Record<Velocity, string> = {
@@ -29,7 +29,7 @@ export class ObserverControls {
     };
     private continues = false; // whether the next pace belongs to the undo step of the last one
 
-    /** `set` changes settings; it rejects with an Error whose message is shown. */
+    /** `set` changes settings. If the server refuses, it must reject with an Error, whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
         for (const begin of ["pointerdown", "keydown"]) {
             this.pace.addEventListener(begin, () => (this.continues = false));

@@ -34,7 +34,7 @@ export class OrbitControl {
 
     /**
      * `hitTester` returns the hit tester of the picture, which tells how many slices are visible; undefined until it is
-     * known. `stopped` says why the camera stays where it is.
+     * known. `stopped` tells the user why the camera stays where it is.
      */
     constructor(
         private readonly client: Client,
@@ -114,7 +114,7 @@ export class OrbitControl {
 
     /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
     adoptCamera(state: State): void {
-        const isOld = this.lastChange.isNewerThan(state);
+        const isOld = this.lastChange.recordAndCheckIfOld(state);
         if (isOld || this.sending || this.unsent) return; // the page's orbit is newer
         this.stage.orbit = state.camera;
     }

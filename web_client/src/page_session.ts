@@ -2,15 +2,15 @@
 
 import type { Client, Credentials, RequestError, State } from "@oval4d/protocol";
 
-import type { FormulaField } from "./fields";
+import type { ScalarFieldFormula } from "./fields";
 import { isFirstVisit, kFirstView } from "./first_visit";
 import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
 
-interface Actions {
+interface PageSessionActions {
     /** Called when the page joins another session, of which nothing is known yet. */
     joined: () => void;
     /** Loads a field, which the panel of fields then shows. */
-    loadField: (field: FormulaField) => Promise<void>;
+    loadField: (field: ScalarFieldFormula) => Promise<void>;
     /** Reloads a file that this page had loaded into the lost session. */
     reloadFile: (name: string) => Promise<unknown>;
     /** Called when a command of the initial view has produced this revision. */
@@ -25,11 +25,11 @@ export class PageSession {
     constructor(
         private readonly client: Client,
         private readonly view: InitialView,
-        private readonly actions: Actions,
+        private readonly actions: PageSessionActions,
     ) {}
 
     /**
-     * On the first visit, makes the first view the initial one, unless the address names another view or session.
+     * On the first visit, makes kFirstView the initial view, unless the address names another view or a session.
      * Returns whether it has done so.
      */
     useFirstView(): boolean {
@@ -39,7 +39,7 @@ export class PageSession {
         return true;
     }
 
-    /** Joins the session of a link that was pasted into the address bar, because this does not load the page again. */
+    /** Joins the session of a link that was pasted into the address bar, because this does not reload the page. */
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tell([fault]);
@@ -47,7 +47,7 @@ export class PageSession {
         else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
     }
 
-    /** Returns to the session of an entry of the browser's history, if this does not load the page again. */
+    /** Returns to the session of the present entry of the browser's history, when Back or Forward keeps the page. */
     joinSessionOfEntry(): void {
         const credentials = sessionOfEntry();
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
@@ -90,7 +90,7 @@ export class PageSession {
     }
 
     private join(credentials: Credentials): void {
-        this.clearView(); // another session's view does not apply to this one
+        this.clearView(); // the initial view is only for a new session
         this.lostState = undefined;
         this.actions.joined();
         this.client.credentials = credentials;
@@ -102,7 +102,7 @@ export class PageSession {
         delete this.view.field;
     }
 
-    /** Restores a view. Omits its polytope if it is not available, for example a file that another page has loaded. */
+    /** Restores a view, without its polytope if that is not available: for example, if another page loaded its file. */
     private async restore(lost: State): Promise<void> {
         try {
             await this.actions.reloadFile(lost.polytope.name);

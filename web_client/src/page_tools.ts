@@ -5,7 +5,7 @@ import { element } from "./element";
 import { capitalize } from "./format";
 import type { FullScreen } from "./full_screen";
 import type { Mode } from "./picture/stage";
-import type { Section } from "./tools";
+import type { ToolSection } from "./tools";
 
 export interface PageActions {
     mode: Mode;
@@ -32,7 +32,7 @@ const kSchemeTitles: Record<SchemeChoice, string> = {
     light: "A light page; the picture is light, too, unless it has another background",
 };
 
-export function pageSections(actions: PageActions): Section[] {
+export function pageSections(actions: PageActions): ToolSection[] {
     const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
         const made = button(mode, label, title, () => actions.setMode(mode));
         made.toggleAttribute("disabled", mode === "geometry" && !actions.canDrawGeometry);
@@ -122,7 +122,7 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
     return made;
 }
 
-/** A switch, for those who type keys unintentionally, such as by speech (WCAG 2.1.4). */
+/** Switches the keys off that act without Ctrl, for those who press them by mistake, such as by speech (WCAG 2.1.4). */
 function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
     const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
         const on = made.getAttribute("aria-pressed") !== "true";

@@ -39,19 +39,19 @@ export class Pointing {
         // The state may be newer than the picture, and of another object.
         if (polytope?.cells !== hitTester.picture.scene.colors.cells.length) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
-        const column = hitTester.columnAt(x * ratio, y * ratio, size);
-        if (column !== undefined) return { element: "vertex", number: column };
+        const vertex = hitTester.vertexInColumnAt(x * ratio, y * ratio, size);
+        if (vertex !== undefined) return { element: "vertex", number: vertex };
         const hit = hitTester.hitAt(x * ratio, y * ratio, orbit, size, ratio);
         return hit && { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };
     }
 
     /**
-     * Shows the name of what a finger has tapped until the next touch. The picture may change meanwhile, because a tap
-     * moves the focus.
+     * Shows the name of what a finger has tapped, until the next touch; the picture may change before, because a tap
+     * moves the focus slice.
      */
     showName(tapped: Pointed, hitTester: HitTester, at: Point): void {
         const state = this.state()!;
-        const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).showing(tapped);
+        const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).partsShowing(tapped);
         this.isTapped = true;
         this.label.show(descriptionOf(tapped, [...ownVertices], hitTester, state), at);
     }
@@ -78,7 +78,7 @@ export class Pointing {
         } else {
             const state = this.state()!;
             this.sources ??= new ElementSources(hitTester!.picture, state.polytope);
-            const lit = this.sources.showing(found);
+            const lit = this.sources.partsShowing(found);
             if (!isSame) this.stage.highlightPointed(lit);
             this.label.show(descriptionOf(found, [...lit.ownVertices], hitTester!, state), at!);
         }

@@ -28,7 +28,7 @@ export class RenderingMode {
         return undefined;
     }
 
-    /** While the WebGL context is lost, shows the server's pictures, if the user has chosen this device to render. */
+    /** If the user has chosen this device to render, shows the server's pictures while the WebGL context is lost. */
     graphicsChanged(isAvailable: boolean): void {
         if (this.chosen === "frames") return;
         this.actions.tell(isAvailable ? "This device renders the pictures again." : kNoGraphics);

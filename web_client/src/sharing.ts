@@ -49,7 +49,7 @@ export class Sharing {
         }
     }
 
-    /** Copies a link; `effect` says what it does. */
+    /** Copies a link; `effect` tells the user what the link does. */
     async copyLink(link: string, effect: string): Promise<void> {
         await this.copy("link", link, effect);
     }

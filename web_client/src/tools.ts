@@ -13,7 +13,7 @@ export interface ToolEvents {
 }
 
 /** A section of the page. If a group of the key table has the same title, the section is appended to that group. */
-export interface Section {
+export interface ToolSection {
     title: string;
     /** The group of the key table after which the section is placed; by default, the section comes last. */
     after?: string;
@@ -46,7 +46,7 @@ const kToggles: Record<string, (state: State) => boolean> = {
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
 };
-/** The label of the button that switches between projections names the one that is shown. */
+/** The label of the button that switches between projections: the name of the one that is shown, if one is shown. */
 const kProjectionLabels: Record<Projection, string> = {
     off: "Project",
     perspective: "Perspective",
@@ -87,7 +87,7 @@ export class Tools {
         this.root.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
-    show(keymap: Keymap, pageSections: Section[]): void {
+    show(keymap: Keymap, pageSections: ToolSection[]): void {
         this.toggleButtons.clear();
         const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareGridPlaces);
         const sections = keymap.groups

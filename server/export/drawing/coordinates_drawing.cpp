@@ -23,7 +23,7 @@ constexpr double kNameRoom = 3.2 * kText;  // the width of the label of a vertex
 struct Columns {
     std::size_t count, perRow, rows;
     double step, rowStep;    ///< the distance from a column to the next, and from a row to the next
-    std::size_t namedEvery;  ///< one column in this number has a label: P0, P1, …
+    std::size_t namedEvery;  ///< the distance, in columns, from one label (P0, …) to the next in a row
 
     explicit Columns(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;

@@ -50,8 +50,9 @@ struct TextLine {
     std::string text;
 };
 /// A raster image of a density strip (see scene::DensityPlot) or of a panel of a histogram (see
-/// slicing::CoordinateHistograms). The centers of the first and the last column lie on the left and right edges of the
-/// rectangle, and the centers of the first and the last row on its upper and lower edges.
+/// slicing::CoordinateHistograms), in the rectangle from `topLeft` to `bottomRight`. The centers of the first and the
+/// last column lie on the left and right edges of the rectangle, and the centers of the first and the last row on its
+/// upper and lower edges.
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> tones;   ///< opacities from 0 to 255, row by row from the top

@@ -11,7 +11,7 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
-constexpr double kNumberRoom = 14;       // to the left of the matrix and below it
+constexpr double kNumberRoom = 14;       // the room for numbers to the left of the matrix and below it
 constexpr double kNumberCharacters = 4;  // the number of characters of kNumberSize for which there is room
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
@@ -56,7 +56,7 @@ class SectionDrawer {
         };
         ShapeGroup group{{"xyzw"[row], "xyzw"[column]}, {}};
         drawFrame(center, group);
-        if (!scene_.isNonconvex && !from.boundary.empty()) {
+        if (!scene_.facesMayCross && !from.boundary.empty()) {
             FilledPolygon polygon{{}, kFill};
             for (const std::uint32_t p : from.boundary) polygon.corners.push_back(place(from.points[p]));
             group.shapes.emplace_back(std::move(polygon));
@@ -73,7 +73,7 @@ class SectionDrawer {
                                            .roundEnds = true,
                                            .opacity = opacity});
         }
-        const bool differ = !from.ballScale.empty();  // the points of a cloud
+        const bool differ = !from.ballScale.empty();  // true for points of a cloud with different radii or opacities
         for (std::size_t i = 0; i < from.points.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
@@ -113,8 +113,8 @@ class SectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis and, below it, the offset that must be added to the numbers at the axis, unless it is
-    /// 0.
+    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name what
+    /// must be added to them.
     void drawName(int axis, std::vector<Shape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});

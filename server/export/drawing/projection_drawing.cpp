@@ -58,7 +58,7 @@ class ProjectionDrawer {
     glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
     static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
-    // Returns the color of a bar or ball of a part at this depth.
+    // Returns the color of a bar or ball at this depth, in part 0 (the object) or in another part (a section).
     scene::Color colorAt(std::size_t part, double depth) const {
         const scene::Color focus = scene_.style().axes[3];
         if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;

@@ -77,8 +77,8 @@ class SliceDrawer {
         points_.clear();
         for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(seen(set_.vertices[v]));
         findSides();
-        if (scene_.look.parts.faces && !scene_.isNonconvex) addFaces();
-        if (scene_.look.parts.faces && scene_.isNonconvex) addPieces();
+        if (scene_.look.parts.faces && !scene_.facesMayCross) addFaces();
+        if (scene_.look.parts.faces && scene_.facesMayCross) addPieces();
         if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // balls of a point cloud are always drawn
         if (scene_.look.parts.bars) addBars();
         std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
@@ -107,7 +107,7 @@ class SliceDrawer {
     }
 
     /// Returns twice the area of a polygon times its unit normal.
-    static glm::dvec3 areaOf(std::span<const glm::dvec3> corners) {
+    static glm::dvec3 doubleAreaVectorOf(std::span<const glm::dvec3> corners) {
         glm::dvec3 area(0);
         for (std::size_t i = 2; i < corners.size(); ++i)
             area += glm::cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -124,10 +124,10 @@ class SliceDrawer {
     void findSides() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
-        if (scene_.isNonconvex) return;
+        if (scene_.facesMayCross) return;
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
             const auto corners = cornersOf(f);
-            if (corners.empty() || glm::dot(areaOf(corners), corners[0]) >= 0) continue;
+            if (corners.empty() || glm::dot(doubleAreaVectorOf(corners), corners[0]) >= 0) continue;
             for (std::uint32_t c = set_.cornerBegin[f]; c < set_.cornerBegin[f + 1]; ++c) {
                 towardVertices_[set_.corners[c]] = true;
                 towardEdges_[set_.cornerEdges[c]] = true;
@@ -135,7 +135,7 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a face as in the picture. `area` is a multiple of the normal of the face.
+    /// Returns the color of a face as in the picture. `area` is a multiple of the face's normal in view space.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
@@ -162,7 +162,7 @@ class SliceDrawer {
     void addFaces() {
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
             const auto corners = cornersOf(f);
-            const glm::dvec3 area = areaOf(corners);
+            const glm::dvec3 area = doubleAreaVectorOf(corners);
             const bool toward = !corners.empty() && glm::dot(area, corners[0]) < 0;
             const double opacity =
                 scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(set_.faceSource[f]));
@@ -190,7 +190,7 @@ class SliceDrawer {
 
     /// Returns the layer of a bar or ball. `toward`: whether it belongs to a face that is turned toward the eye.
     Layer frameLayer(bool toward) const {
-        if (scene_.isNonconvex) return away_faces;
+        if (scene_.facesMayCross) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 

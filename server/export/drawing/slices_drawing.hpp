@@ -9,7 +9,7 @@ namespace oval4d::exports {
 
 /// Draws the slices of the scene as its picture shows them: from the same camera, with faces, bars, balls and labels as
 /// far as they are shown, and the directions of the axes in the upper left corner. Bars are lines of constant width:
-/// the width that the middle of the bar has in the picture. The drawing has the shape of the scene's viewport.
+/// the width that the middle of the bar has in the picture. The drawing has the proportions of the scene's viewport.
 ///
 /// Slices are drawn from far to near. The faces of a convex slice are drawn in two layers, first those turned away from
 /// the viewer, then those turned toward the viewer. This order is exact. Faces that cross each other are drawn in

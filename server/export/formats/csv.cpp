@@ -16,7 +16,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// `origin`, ObjectInfo::originInFile, is added to w and to the centroid.
+// Appends the row of slice i. `origin`, ObjectInfo::originInFile, is added to w and to the centroid.
 void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
@@ -60,7 +60,7 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     slicing::ExactSurface surface;
     slicing::ExactSlicer::Options options{
         .inside = settings.inside, .maxTriangles = source.budget.triangles(), .mustStop = [&] {
-            source.budget.checkTriangles(surface.triangles.size());
+            source.budget.checkTrianglesAndMemory(surface.triangles.size());
             return source.budget.mustStop();
         }};
     for (int i = 0; i < planes.count; ++i) {
@@ -69,7 +69,7 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
             const auto done = slicer.slice(planes.w(i), options, surface);
             source.budget.checkTime();
             if (!done) throw ExportRefused{{ExportError::Cause::too_large, done.error().message}};
-            source.budget.checkTriangles(surface.triangles.size());
+            source.budget.checkTrianglesAndMemory(surface.triangles.size());
             out += std::to_string(planes.first + i) + ',';
             append(out, planes.w(i));
             if (hasLevels) append(out += ',', level);
@@ -87,15 +87,15 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     return out;
 }
 
-// The values of w at which there are vertices, and the number of vertices at each.
-std::string vertexLevelsCsv(const SceneInput& source) {
+// Returns a table of the values of w at which there are vertices, with the number of vertices at each.
+std::string criticalCsv(const SceneInput& source) {
     std::string out = "w,vertices\n";
     std::vector<double> levels;
     for (const glm::dvec4& v : source.scene.slices->rotatedVertices) levels.push_back(v.w);
-    const double same = slicing::kOnPlane * source.scene.circumradius;
-    for (const auto& [w, vertices] : slicing::groupHeights(std::move(levels), same)) {
+    const double same = slicing::kOnPlaneTolerance * source.scene.circumradius;
+    for (const auto& [w, vertexCount] : slicing::groupHeights(std::move(levels), same)) {
         append(out, slicing::infoOf(source.object).originInFile.w + w);
-        out += ',' + std::to_string(vertices) + '\n';
+        out += ',' + std::to_string(vertexCount) + '\n';
     }
     return out;
 }
@@ -105,7 +105,7 @@ std::string vertexLevelsCsv(const SceneInput& source) {
 std::string measurementsCsv(const SceneInput& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
     if (source.contents == ExportContents::critical) {
-        if (field == nullptr) return vertexLevelsCsv(source);
+        if (field == nullptr) return criticalCsv(source);
         throw ExportRefused{{ExportError::Cause::no_body,
                              "the critical w of a field are searched for; get them with the message get critical"}};
     }

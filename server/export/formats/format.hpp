@@ -52,15 +52,15 @@ struct Format {
     /// How the bodies of several slices are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D
     /// printer; `oval`: as in the oval view.
     enum class Arrangement { none, plate, oval };
-    /// The kinds of objects that files of the format can contain. `polytopes` includes point clouds.
-    enum class Objects { all, fields, polytopes };
+    /// The kinds of objects that files of the format can contain.
+    enum class Objects { all, fields, polytopes_and_points };
 
     std::string name;       ///< the name in messages, which is also the file name extension: "stl"
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
     std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
-    bool takesSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    bool readsSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;

@@ -26,13 +26,13 @@ namespace oval4d::exports {
 namespace {
 
 /// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
-/// null. `takesSurfaces` is Format::takesSurfaces.
+/// null. `readsSurfaces` is Format::readsSurfaces.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneInput&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
-    bool takesSurfaces = false;
+    bool readsSurfaces = false;
 };
 constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
                                                  {.name = "csv", .ofScene = measurementsCsv},
@@ -44,11 +44,13 @@ constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = thr
                                                  {.name = "stl", .ofBodies = stl},
                                                  {.name = "svg", .ofDrawing = svg},
                                                  {.name = "vti", .ofScene = vti},
-                                                 {.name = "vtp", .ofScene = vtp, .takesSurfaces = true},
+                                                 {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
                                                  {.name = "x3d", .ofBodies = x3d}});
 
-constexpr auto kObjects = std::to_array<text::Choice<Format::Objects>>(
-    {{"all", Format::Objects::all}, {"fields", Format::Objects::fields}, {"polytopes", Format::Objects::polytopes}});
+constexpr auto kObjects =
+    std::to_array<text::Choice<Format::Objects>>({{"all", Format::Objects::all},
+                                                  {"fields", Format::Objects::fields},
+                                                  {"polytopes", Format::Objects::polytopes_and_points}});
 
 std::vector<Format> readTable() {
     std::vector<Format> table;
@@ -66,7 +68,7 @@ std::vector<Format> readTable() {
         format.objects = text::valueNamed(kObjects, row.value("objects", "all")).value();
         for (const std::string of : row.at("of"))
             format.contents.push_back(text::valueNamed(kExportContents, of).value());
-        format.takesSurfaces = writer->takesSurfaces;
+        format.readsSurfaces = writer->readsSurfaces;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;
         format.writeDrawing = writer->ofDrawing;

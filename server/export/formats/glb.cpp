@@ -78,7 +78,7 @@ void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Mod
     const bool colored = !solid.mesh.pointColors.empty();
     const auto smooth = colored ? smoothNormals(solid.mesh) : std::vector<std::array<glm::dvec3, 3>>();
     for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
-        const glm::dvec3 across = normalOf(solid.mesh, solid.mesh.triangles[t]);
+        const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
         if (!(length > 0)) continue;  // a degenerate triangle is invisible and has no normal
         const glm::vec3 color = linearColor(meshes.colorOf(solid, t));

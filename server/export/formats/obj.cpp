@@ -6,7 +6,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// Returns a name without white space, because the names of objects in OBJ files must not contain any.
+// Replaces spaces and line ends by underscores, because the names of objects in OBJ files must not contain any.
 std::string wordOf(std::string name) {
     for (char& c : name) {
         if (c == ' ' || c == '\n') c = '_';

@@ -88,7 +88,7 @@ class PageWriter {
         const auto mask =
             HPDF_LoadRawImageFromMem(document_, density.tones.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
-        // The centers of the outer pixels lie on the edges of the rectangle (see DensityImage), so the image is larger.
+        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};

@@ -25,7 +25,7 @@ std::string stl(const MeshesToWrite& meshes) {
     put(out, static_cast<std::uint32_t>(count));
     for (const PlacedMesh& solid : solids) {
         for (const auto& triangle : solid.mesh.triangles) {
-            const glm::dvec3 across = normalOf(solid.mesh, triangle);
+            const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, triangle);
             const double length = glm::length(across);
             put(out, length > 0 ? across / length : glm::dvec3(0));
             for (const std::uint32_t corner : triangle) put(out, solid.mesh.points[corner] + solid.at);

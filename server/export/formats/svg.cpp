@@ -67,7 +67,7 @@ std::string gradient(const DensityImage& density) {
     return out + "</linearGradient>\n";
 }
 
-/// Returns the SVG element of a shape.
+/// A visitor that returns the SVG element of a shape.
 struct ElementWriter {
     std::string operator()(const Line& line) const {
         return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
@@ -95,7 +95,7 @@ struct ElementWriter {
                attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const DensityImage& density) const {
-        // The centers of the outer pixels lie on the edges of the rectangle (see DensityImage), so the image is larger.
+        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;

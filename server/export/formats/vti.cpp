@@ -45,7 +45,8 @@ Lattice latticeOf(const slicing::SliceSet& slices, double step) {
     return lattice;
 }
 
-/// Returns the values at the points of the lattice, x fastest; NaN outside of the domain.
+/// Returns the values at the points of the lattice in the hyperplane at `w`, x fastest; NaN outside of the domain.
+/// `toFunction` maps the coordinates of the rotated object to those of the function, relative to Field::center.
 std::vector<float> sample(const fields::Field& field, const Lattice& lattice, const glm::dmat4& toFunction, double w,
                           const Budget& budget) {
     std::vector<float> values(lattice.size());

@@ -66,9 +66,9 @@ std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& p
     return first;
 }
 
-/// Adds each point of a cap once more, with the mean normal of the caps at this point, because the point itself has the
-/// normal of the level set. `first` is the index of the first point of the surface in the file. Returns, for each point
-/// of the surface, the index of its copy in the file, or −1 if it is in no cap.
+/// Adds a copy of each point of a cap, with the mean normal of the caps at this point, because the first instance of
+/// the point has the normal of the level set. `first` is the index of the first point of the surface in the file.
+/// Returns, for each point of the surface, the index of its copy in the file, or −1 if it is in no cap.
 std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
     std::vector<std::int64_t> copies(surface.points.size(), -1);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -111,7 +111,7 @@ void addSurface(const SceneInput& source, int slice, PolyData& out) {
         for (const std::uint32_t corner : surface.triangles[t])
             out.corners.push_back(surface.isCap(t) ? copies[corner] : first + corner);
         out.ends.push_back(static_cast<std::int64_t>(out.corners.size()));
-        out.level.push_back(levels[surface.level(t)]);
+        out.level.push_back(levels[surface.levelIndex(t)]);
         out.cap.push_back(surface.isCap(t) ? 1 : 0);
         out.n.push_back(slices.planes.first + slice);
         out.w.push_back(slices.planes.w(slice));
@@ -159,7 +159,7 @@ std::string vtp(const SceneInput& source) {
     std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {
         source.budget.checkTime();
-        source.budget.checkTriangles(data.ends.size());
+        source.budget.checkTrianglesAndMemory(data.ends.size());
         const std::size_t before = data.ends.size();
         isField ? addSurface(source, i, data) : addFaces(source, i, data);
         if (data.ends.size() == before) empty.push_back(i);

@@ -44,7 +44,7 @@ std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& triangle = mesh.triangles[t];
         Face& face = faces[mesh.cells[t]];
-        const glm::dvec3 across = normalOf(mesh, triangle);
+        const glm::dvec3 across = doubleAreaNormalOf(mesh, triangle);
         face.normal += across;
         for (int i = 0; i < 3; ++i) {
             face.middle += glm::length(across) / 3 * mesh.points[triangle[i]];
@@ -89,8 +89,8 @@ TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, c
     return placement;
 }
 
-/// Returns the depth of the letters: at most kMaxDepth, a quarter of the letters' height, and half the depth at which
-/// the rectangle around the text, moved into the body, meets another face.
+/// Returns the depth of the letters: the least of kMaxDepth, a quarter of the letters' height, and half the depth at
+/// which the rectangle around the text, moved into the body, meets another face.
 double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Face>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
@@ -202,7 +202,7 @@ bool LabelText::engrave(Mesh& mesh, double size, const Grid& grid) const {
     });
 }
 
-Mesh LabelText::plate(double size, const Grid& grid) const {
+Mesh LabelText::labelBody(double size, const Grid& grid) const {
     const double height = std::clamp(size / 15, 3.0, 12.0);
     const Lettering& text = versions_.back();
     const glm::dvec2 extent = (text.size + 2.2 * kMargin) * height;
@@ -217,7 +217,7 @@ Mesh LabelText::plate(double size, const Grid& grid) const {
     // The faces of the box are numbered by axis and side: 2 · axis, plus 1 for the side in the positive direction.
     // Therefore face 5 is the top.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const glm::dvec3 normal = normalOf(mesh, mesh.triangles[t]);
+        const glm::dvec3 normal = doubleAreaNormalOf(mesh, mesh.triangles[t]);
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             if (normal[axis] != 0) mesh.cells[t] = 2 * axis + (normal[axis] > 0 ? 1 : 0);
         }

@@ -10,8 +10,8 @@
 
 namespace oval4d::exports {
 
-/// The text of a label, laid out both in one line and in two lines. Engraving uses the layout that allows larger
-/// letters.
+/// The text of a label, laid out both in one line and in two lines. engrave() uses the layout that allows larger
+/// letters, labelBody() the one with two lines.
 class LabelText {
   public:
     /// `name` is the object's name, and `w` the position of the hyperplane as text, such as "w = −0.25". Throws
@@ -24,11 +24,11 @@ class LabelText {
     /// too thin, or if the letters would be less than 1 mm high.
     bool engrave(Mesh& mesh, double size, const Grid& grid) const;
 
-    /// Returns a plate with the text engraved into its top side. The letters are size / 15 high, but at least 3 and at
-    /// most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is centered in x and extends from y = 0
-    /// toward negative y. `size` is ExportRequest::size, in millimeters. Throws std::runtime_error if the letters
-    /// cannot be engraved.
-    Mesh plate(double size, const Grid& grid) const;
+    /// Returns a body that carries the label: a plate with the text engraved into its top side. The letters are
+    /// size / 15 high, but at least 3 and at most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is
+    /// centered in x and extends from y = 0 toward negative y. `size` is ExportRequest::size, in millimeters. Throws
+    /// std::runtime_error if the letters cannot be engraved.
+    Mesh labelBody(double size, const Grid& grid) const;
 
   private:
     std::vector<Lettering> versions_;  // the text in one line, and in two lines

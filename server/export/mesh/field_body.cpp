@@ -17,7 +17,7 @@ std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::si
     if (!look.colorsPoints() && !look.colorsCapPoints()) return colors;
     std::vector<bool> onLevelSet(surface.points.size());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (surface.level(t) != level) continue;
+        if (surface.levelIndex(t) != level) continue;
         for (const std::uint32_t corner : surface.triangles[t]) {
             if (!surface.isCap(t)) {
                 onLevelSet[corner] = true;
@@ -38,14 +38,14 @@ Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double sca
     const scene::SurfaceLook::Level& look = scene.surfaces.levels[level];
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (surface.level(t) == look.index) triangles.push_back(surface.triangles[t]);
+        if (surface.levelIndex(t) == look.index) triangles.push_back(surface.triangles[t]);
     }
     if (triangles.empty()) return {};
     std::vector<glm::dvec3> points;
     points.reserve(surface.points.size());
     for (const glm::vec3& point : surface.points) points.push_back(glm::dvec3(point) * scale);
     SnappedSurface snapped = snapSurface(points, triangles, grid, budget);
-    if (!hasVolume(snapped.mesh, grid)) return {};
+    if (!isThickEnough(snapped.mesh, grid)) return {};
     const auto colors =
         colorsOf(surface, look.index, scene.surfaces.color(look, static_cast<std::size_t>(i)), scene.surfaces);
     for (const std::uint32_t source : snapped.source) {

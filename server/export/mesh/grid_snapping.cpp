@@ -178,8 +178,9 @@ class HalfEdges {
         std::ranges::sort(out);
     }
 
-    // Collapses an edge into its origin, and returns true. Returns false and changes nothing if a point other than the
-    // two opposite to the edge is a neighbor of both ends, or if this part of the surface is a tetrahedron.
+    // Collapses an edge into its origin, and returns true. Returns false and changes nothing if the ends of the edge
+    // have a common neighbor that is not a corner of a triangle at the edge, or if this part of the surface is a
+    // tetrahedron.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -216,8 +217,8 @@ class HalfEdges {
     }
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
-    // Replaces an edge by one between the two points opposite to it, unless these points are already neighbors or a new
-    // triangle would be degenerate.
+    // Flips an edge: replaces it by an edge between the two other corners of its triangles. Changes nothing if these
+    // corners are already neighbors, or if a new triangle would be degenerate.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];

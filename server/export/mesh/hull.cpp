@@ -29,7 +29,8 @@ class Hull {
     }
 
   private:
-    /// Returns six times the signed volume of the tetrahedron of triangle t and point p: positive if p is outside of t.
+    /// Returns six times the signed volume of the tetrahedron of triangle t and point p; positive if p is on the outer
+    /// side of t.
     std::int64_t sixVolume(const Triangle& t, std::uint32_t p) const {
         const GridPoint& o = points_[t[0]];
         const auto from = [&](std::uint32_t i) {

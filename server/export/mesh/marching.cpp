@@ -31,8 +31,9 @@ std::uint64_t keyOf(const glm::ivec3& point) {
 // of the field. `bits` has one bit per axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
-// The six tetrahedra of a cube, positively oriented. The corners of each lie on a path from corner 0 to corner 7 that
-// takes one step along each axis; there is one tetrahedron for each order of the axes.
+// The six tetrahedra of a cube, positively oriented. Corners are numbered by the bits of offset(). The corners of each
+// tetrahedron lie on a path from corner 0 to corner 7 that takes one step along each axis; there is one tetrahedron for
+// each order of the axes.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
@@ -63,7 +64,7 @@ class MarchingTetrahedra {
     Mesh run() {
         for (const SampledField::Block* block : field_.blocks()) {
             budget_.checkTime();
-            budget_.checkTriangles(mesh_.triangles.size());
+            budget_.checkTrianglesAndMemory(mesh_.triangles.size());
             load(block->corner);
             for (int i = 0; i < kPoints; ++i) cube(block->corner, {i & 7, i >> 3 & 7, i >> 6});
         }
@@ -130,8 +131,8 @@ class MarchingTetrahedra {
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // The least distance of a crossing from each end of its edge, as a fraction of the edge. It keeps crossings
-            // on edges with a common end several grid steps apart.
+            // The least distance of a crossing from each end of its edge, as a fraction of the edge. Because of this
+            // distance, crossings on two edges that share an end are several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
@@ -152,9 +153,9 @@ class MarchingTetrahedra {
     }
 
     using Ids = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
-    // Returns the table of mesh points of the block that contains `point`. The table has seven entries for each field
-    // point of the block, one for each edge from this point to a point with greater coordinates: the index of the mesh
-    // point on the edge, or kNone. Creates the table on first use.
+    // Returns the table of mesh points of the block that contains `point`. For each field point of the block, the table
+    // has seven entries, one for each edge from the point in a direction of offset(): the index of the mesh point on
+    // the edge, or kNone. Creates the table on first use.
     Ids& blockIdsOf(const glm::ivec3& point) {
         const std::uint64_t key = keyOf(point);
         if (last_ == nullptr || lastKey_ != key) {

@@ -3,8 +3,9 @@
 // cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
 // tetrahedron is a triangle or a quadrilateral. It has one corner on each tetrahedron edge that joins an inside point
-// to an outside point. The polygons around a corner form one ring, because the tetrahedra around that edge form one
-// ring. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever the field is.
+// to an outside point. The polygons that share a corner form one ring, because the tetrahedra that share the edge on
+// which it lies form one ring. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever
+// the field is.
 
 #include <array>
 #include <cstdint>

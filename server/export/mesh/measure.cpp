@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// With the extent e of a slice, a volume up to this fraction of e³ or an area up to this fraction of e² is a rounding
-// error.
+// A volume up to this fraction of e³, or an area up to this fraction of e², is a rounding error; e is the greatest
+// distance of a vertex of the slice from the mean of its vertices.
 constexpr double kRoundingError = 1e-12;
 
 struct Mean {
@@ -41,7 +41,7 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1];) {
         const std::uint32_t cell = slices.faceSource[f];
         glm::dvec3 area(0);
-        glm::dvec3 moment(0);  // the sum of the triangles' centroids times their signed areas
+        glm::dvec3 moment(0);  // the sum over the triangles of signed area · centroid
         double signedArea = 0;
         for (; f < slices.faceBegin[i + 1] && slices.faceSource[f] == cell; ++f) {
             const auto at = [&](std::uint32_t corner) { return points[slices.corners[corner]] - base; };

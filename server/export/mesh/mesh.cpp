@@ -64,14 +64,14 @@ double volumeOf(const Mesh& mesh) {
     return six / 6;
 }
 
-bool hasVolume(const Mesh& mesh, const Grid& grid) {
+bool isThickEnough(const Mesh& mesh, const Grid& grid) {
     double twiceArea = 0;
-    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
+    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(doubleAreaNormalOf(mesh, triangle));
     constexpr double kLeastThickness = 4;
     return volumeOf(mesh) > kLeastThickness * grid.step() * twiceArea / 4;
 }
 
-glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return glm::cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
 }
 
@@ -81,7 +81,7 @@ std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
     std::vector<glm::dvec3> across;
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
     for (const auto& triangle : mesh.triangles) {
-        across.push_back(normalOf(mesh, triangle));
+        across.push_back(doubleAreaNormalOf(mesh, triangle));
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];
     }
     for (std::size_t p = 0; p < mesh.points.size(); ++p) begin[p + 1] += begin[p];

@@ -69,10 +69,10 @@ double volumeOf(const Mesh& mesh);
 
 /// Returns whether the volume of the mesh is more than a rounding error: the mean thickness of the mesh, which is the
 /// volume divided by half the surface area, must exceed 4 grid steps.
-bool hasVolume(const Mesh& mesh, const Grid& grid);
+bool isThickEnough(const Mesh& mesh, const Grid& grid);
 
 /// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.
-glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
 /// Returns a unit normal for each corner of each triangle: the mean of the normals of the triangles around the corner's
 /// point, weighted by their areas. Triangles whose normals differ by more than 40° from the normal of the corner's own

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kCubes = 128;  // number of cubes along the slice's largest dimension
 
-/// A triangle of the fan into which a face is decomposed. Even if the loop of the face is a star, the winding number of
-/// the loop around a point of its plane is the sum of the winding numbers of the triangles.
+/// A triangle of the fan into which a face is decomposed. Even if the face is a star polygon, its winding number around
+/// a point of its plane is the sum of the winding numbers of the triangles.
 struct FanTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t cell;
@@ -66,9 +66,9 @@ class OuterSurface {
         std::uint32_t cell;
     };
 
-    // Returns −1 (toward +y) or 1 (toward −y) if the edge from a to b, projected onto the yz-plane, crosses the ray y =
-    // row.y, z > row.z; else 0. The edge from b to a gives exactly the negative. Therefore, despite rounding, a closed
-    // surface crosses every line along x equally often in both directions.
+    // Projects the edge from a to b onto the yz-plane. Returns −1 if it crosses the ray y = row.y, z > row.z toward +y;
+    // 1 if it crosses the ray toward −y; else 0. For the edge from b to a, the result is exactly the negative.
+    // Therefore, despite rounding, a closed surface crosses every line along x equally often in both directions.
     int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
         if (a > b) return -signedCrossing(b, a, row);
         const glm::dvec3& p = points_[a];

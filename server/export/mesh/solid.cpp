@@ -96,7 +96,8 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
     for (std::size_t apex = 0; apex < n; ++apex) {
         double least = 1e300;
         for (std::size_t c = 1; c + 1 < n; ++c) {
-            const glm::dvec3 normal = normalOf(mesh, {loop[apex], loop[(apex + c) % n], loop[(apex + c + 1) % n]});
+            const glm::dvec3 normal =
+                doubleAreaNormalOf(mesh, {loop[apex], loop[(apex + c) % n], loop[(apex + c + 1) % n]});
             least = std::min(least, glm::dot(normal, normal));
         }
         if (least > bestLeast) {
@@ -118,16 +119,16 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Gri
     return mesh;
 }
 
-/// Returns the convex hull of the points of `faces`, and assigns each triangle to the cell of the slice face with the
-/// most similar normal. `faces` are the rounded faces of a convex slice. The hull is used instead of them if points of
-/// the slice coincide on the grid, because two faces may then share more than one edge.
+/// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. Assigns each triangle to the
+/// cell of the slice face with the most similar normal. The hull is used instead of the faces if points of the slice
+/// coincide on the grid, because two faces may then share more than one edge.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
     Mesh hull = hullOf(faces.points, grid);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
         normals.emplace_back(directionOf(slices, i, f), slices.faceSource[f]);
     for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
-        const glm::dvec3 normal = normalOf(hull, hull.triangles[t]);
+        const glm::dvec3 normal = doubleAreaNormalOf(hull, hull.triangles[t]);
         hull.cells[t] = std::ranges::max_element(normals, {}, [&](const auto& face) {
                             return glm::dot(face.first, normal);
                         })->second;
@@ -142,10 +143,10 @@ Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& g
     if (isConvex(slices, i)) {
         Mesh mesh = convexSolid(slices, i, scale, grid);
         if (!isClosedManifold(mesh)) mesh = convexHull(slices, i, mesh, grid);
-        return hasVolume(mesh, grid) ? mesh : Mesh{};
+        return isThickEnough(mesh, grid) ? mesh : Mesh{};
     }
     Mesh surface = outerSurfaceOf(slices, i, scale, grid, budget);
-    return hasVolume(surface, grid) ? surface : Mesh{};
+    return isThickEnough(surface, grid) ? surface : Mesh{};
 }
 
 }  // namespace oval4d::exports

@@ -11,8 +11,8 @@ namespace oval4d::exports {
 /// with coordinates rounded to the grid; if the rounded faces do not form a closed 2-manifold, the body is the convex
 /// hull of the rounded points. If the slice is not convex, its faces may intersect; its body is then bounded by its
 /// outer surface (see outer_surface.hpp). `scale` is in millimeters per unit of the polytope. Returns an empty mesh if
-/// the slice has fewer than four faces or if the rounded body has no volume (see hasVolume()). Throws ExportRefused if
-/// `budget` is exceeded.
+/// the slice has fewer than four faces or if the rounded body has no volume (see isThickEnough()). Throws ExportRefused
+/// if `budget` is exceeded.
 Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

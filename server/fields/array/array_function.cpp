@@ -39,7 +39,7 @@ ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, Samples samples
       eagerSamples_(eagerSamples),
       samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
       bricks_({lattice_, samples_.values().data()}, isEager()),
-      coarser_(isEager() && this->samples().size() > kCoarsestSamples ? downsampled() : nullptr) {
+      coarser_(isEager() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
     samples_.expect(Samples::Access::random);
     releasePages();
 }
@@ -54,7 +54,7 @@ void ArrayFunction::evaluateWithGradient(const PointBatch& points, std::span<flo
 }
 
 Bounds ArrayFunction::boundsIn(const Box& region) const {
-    SampleRange range{};
+    SampleIndexRange range{};
     for (std::size_t i = 0; i < 4; ++i) {
         const auto axis = static_cast<glm::length_t>(i);
         std::tie(range.first[i], range.last[i]) = samplesBetween(lattice_.axes[i], region.min[axis], region.max[axis]);
@@ -65,7 +65,7 @@ Bounds ArrayFunction::boundsIn(const Box& region) const {
     // 4.3 · 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). 2⁻¹⁴⁶ covers underflow. If max − min
     // overflows a float, the result may be NaN.
     const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
-    if (extent > double{std::numeric_limits<float>::max()}) bounds.total = false;
+    if (extent > double{std::numeric_limits<float>::max()}) bounds.hasValueEverywhere = false;
     bounds.min -= rounding;
     bounds.max += rounding;
     return bounds;

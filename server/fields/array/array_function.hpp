@@ -30,18 +30,18 @@ class ArrayFunction final : public ScalarFunction {
     /// The default of `eagerSamples` in the constructor.
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
     /// Arrays of up to this many samples have no coarser version, because they are already fast.
-    static constexpr std::size_t kCoarsestSamples = std::size_t{1} << 15U;
+    static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;
     /// The maximum number of samples in the selection that forSteps() returns for an array that the constructor does
     /// not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
     /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all of them if there are at
     /// most `eagerSamples`; otherwise, they are read when they are needed (see BrickBounds). Throws
-    /// std::invalid_argument as Lattice does, and if the number of samples is not that of the shape.
+    /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
     ArrayFunction(const Shape& shape, const Box& box, Samples samples, std::size_t eagerSamples = kEagerSamples);
 
-    /// See ScalarFunction. Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples are in a
-    /// cache.
+    /// See ScalarFunction. Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples are in the
+    /// processor's cache.
     void evaluate(const PointBatch& points, std::span<float> values) const override;
 
     /// See ScalarFunction. The gradient is that of the cell that contains the point; on a face between two cells, that
@@ -52,9 +52,9 @@ class ArrayFunction final : public ScalarFunction {
                               const GradientBatch& gradients) const override;
 
     /// See ScalarFunction. The bounds are those of all bricks that meet the region (see BrickBounds), widened by the
-    /// rounding error of the interpolation. `total` is also false if the difference of the bounds exceeds the largest
-    /// float. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend along the
-    /// whole axis.
+    /// rounding error of the interpolation. `hasValueEverywhere` is also false if the difference of the bounds exceeds
+    /// the largest float. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend
+    /// along the whole axis.
     Bounds boundsIn(const Box& region) const override;
 
     /// Returns the coarsest version of this array in which each step is at least one cell long: the array itself, or
@@ -91,6 +91,7 @@ class ArrayFunction final : public ScalarFunction {
     std::shared_ptr<const ArrayFunction> downsampled() const;
 
   private:
+    // Returns whether the constructor has read the samples.
     bool isEager() const { return samples().size() <= eagerSamples_; }
     Shape selectionSize() const;
     const ArrayFunction& selection() const;
@@ -99,8 +100,8 @@ class ArrayFunction final : public ScalarFunction {
     const std::size_t eagerSamples_;
     const Samples samples_;
     const BrickBounds bricks_;
-    const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null if this array is small, or not eager
-    // A selection of the samples, for an array that is not eager. It is made when it is first needed.
+    const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null if the array is small, or if !isEager()
+    // A selection of the samples, if !isEager(). It is made when it is first needed.
     mutable std::once_flag selected_;
     mutable std::shared_ptr<const ArrayFunction> selection_;
 };

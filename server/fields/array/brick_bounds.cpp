@@ -31,7 +31,7 @@ void join(Bounds& bounds, std::uint64_t entry) {
     const auto high = static_cast<std::uint32_t>(entry);
     bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
     bounds.max = std::max(bounds.max, double{std::bit_cast<float>(high)});
-    if ((high & 1U) != 0) bounds.total = false;
+    if ((high & 1U) != 0) bounds.hasValueEverywhere = false;
 }
 
 void add(SampleStatistics& statistics, const SampleStatistics& other) {
@@ -56,7 +56,7 @@ const float* rowAt(const SampledLattice& from, const std::array<std::size_t, 4>&
 
 // Calls `visit` for each row of `range` along x, with a pointer to its first sample and the indices of that sample.
 template <typename Visit>
-void visitRows(const SampledLattice& from, const SampleRange& range, const Visit& visit) {
+void visitRows(const SampledLattice& from, const SampleIndexRange& range, const Visit& visit) {
     auto at = range.first;
     for (at[3] = range.first[3]; at[3] <= range.last[3]; ++at[3]) {
         for (at[2] = range.first[2]; at[2] <= range.last[2]; ++at[2]) {
@@ -65,8 +65,8 @@ void visitRows(const SampledLattice& from, const SampleRange& range, const Visit
     }
 }
 
-SampleRange rangeOf(const Lattice& lattice, const std::array<std::size_t, 4>& brick) {
-    SampleRange range{};
+SampleIndexRange rangeOf(const Lattice& lattice, const std::array<std::size_t, 4>& brick) {
+    SampleIndexRange range{};
     for (std::size_t i = 0; i < 4; ++i) {
         range.first[i] = brick[i] * kCells;
         range.last[i] = std::min(range.first[i] + kCells, lattice.shape[i] - 1);
@@ -74,7 +74,7 @@ SampleRange rangeOf(const Lattice& lattice, const std::array<std::size_t, 4>& br
     return range;
 }
 
-SampleStatistics statisticsOf(const SampledLattice& from, const SampleRange& range) {
+SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange& range) {
     SampleStatistics statistics;
     const std::size_t count = range.last[0] - range.first[0] + 1;
     visitRows(from, range, [&](const float* row, const auto& /*at*/) {
@@ -85,8 +85,8 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleRange& ran
 
 // Writes the statistics of bricks that follow one another along x; `range` contains all of them. A brick with missing
 // samples is then read again, to leave these samples out of its bounds and to count them.
-void readRun(const SampledLattice& from, const SampleRange& range, std::span<SampleStatistics> bricks) {
-    std::array<float, kRun * kCells + 1> low, high, sum;  // sum: of zeros, or NaN if there is a missing sample
+void readRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
+    std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
     std::fill_n(low.begin(), count, kInfinityF);
     std::fill_n(high.begin(), count, -kInfinityF);
@@ -109,16 +109,16 @@ void readRun(const SampledLattice& from, const SampleRange& range, std::span<Sam
             zero += sum[i];
         }
         if (zero == 0) continue;
-        SampleRange one = range;
+        SampleIndexRange one = range;
         one.first[0] = range.first[0] + begin;
         one.last[0] = range.first[0] + end;
         statistics = statisticsOf(from, one);
     }
 }
 
-// Returns the number of missing samples of a brick, without those on its lower faces, which an earlier brick shares.
+// Returns the number of missing samples of a brick. Leaves out faces that the brick shares with an earlier brick.
 std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
-    SampleRange range = rangeOf(from.lattice, brick);
+    SampleIndexRange range = rangeOf(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
     return statisticsOf(from, range).missing;
 }
@@ -144,7 +144,7 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
     slots_.reset(static_cast<Slot*>(std::calloc(slotCount_, sizeof(Slot))));  // NOLINT(cppcoreguidelines-no-malloc)
     if (!slots_) throw std::bad_alloc();
     levels_.push_back(bricks);
-    sampleStatistics();
+    estimateStatistics();
 }
 
 void BrickBounds::readAll() {
@@ -156,7 +156,7 @@ void BrickBounds::readAll() {
         Index brick{0, row % size[1], row / size[1] % size[2], row / size[1] / size[2]};
         for (; brick[0] < size[0]; brick[0] += kRun) {
             const std::size_t count = std::min(kRun, size[0] - brick[0]);
-            SampleRange range = rangeOf(from_.lattice, brick);
+            SampleIndexRange range = rangeOf(from_.lattice, brick);
             range.last[0] = std::min(range.first[0] + count * kCells, from_.lattice.shape[0] - 1);
             readRun(from_, range, std::span(run).first(count));
             for (std::size_t i = 0; i < count; ++i) {
@@ -169,7 +169,7 @@ void BrickBounds::readAll() {
     }
 }
 
-void BrickBounds::sampleStatistics() {
+void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
     constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 are evenly spread, not equidistant
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
@@ -197,7 +197,8 @@ void BrickBounds::joinBricks() {
     }
     coarse.entries = eagerEntries_.emplace_back(joined.size());
     std::transform(joined.begin(), joined.end(), coarse.entries.begin(), [](const Bounds& bounds) {
-        return pack({static_cast<float>(bounds.min), static_cast<float>(bounds.max), bounds.total ? 0U : 1U});
+        return pack(
+            {static_cast<float>(bounds.min), static_cast<float>(bounds.max), bounds.hasValueEverywhere ? 0U : 1U});
     });
     levels_.push_back(coarse);
 }
@@ -217,7 +218,7 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const Index& brick) const
     return known;
 }
 
-Bounds BrickBounds::boundsOf(const SampleRange& range) const {
+Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
     Index first{}, last{};
     for (std::size_t i = 0; i < 4; ++i) {
         first[i] = std::min(range.first[i] / kCells, levels_.front().size[i] - 1);

@@ -23,7 +23,7 @@ struct SampleStatistics {
 };
 
 /// A part of a lattice: the indices of its first and last samples along x, y, z, w, both inclusive.
-struct SampleRange {
+struct SampleIndexRange {
     std::array<std::size_t, 4> first, last;
 };
 
@@ -34,8 +34,8 @@ struct SampleRange {
 /// the level below, then answers queries of any size from at most kMaxEntries entries (an entry is the bounds of one
 /// brick). Large arrays may be files that are larger than the memory; a brick of them is read when a query first needs
 /// it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because it would have to
-/// read a large part of the file. The bounds of these bricks are kept in a cache of at most kMaxLazyBytes, in which a
-/// brick may replace another one. Thread-safe.
+/// read a large part of the file. The bounds of bricks that were read are kept in a cache of at most kMaxLazyBytes, in
+/// which a brick may replace another one. Thread-safe.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -49,9 +49,9 @@ class BrickBounds {
     BrickBounds(const BrickBounds&) = delete;
     BrickBounds& operator=(const BrickBounds&) = delete;
 
-    /// Returns bounds of the samples in `range`, which must lie within the lattice. In the result, `total` is false if
-    /// a sample may be missing.
-    Bounds boundsOf(const SampleRange& range) const;
+    /// Returns bounds of the samples in `range`, which must lie within the lattice. In the result, `hasValueEverywhere`
+    /// is false if a sample may be missing.
+    Bounds boundsOf(const SampleIndexRange& range) const;
 
     /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
     const SampleStatistics& statistics() const { return statistics_; }
@@ -69,8 +69,9 @@ class BrickBounds {
     };
 
     void readAll();
-    /// Adds samples that are spread evenly over the array to the statistics, if the array is too large to read whole.
-    void sampleStatistics();
+    /// For an array that is too large to read whole: computes the statistics of a selection of samples that are spread
+    /// evenly over the array.
+    void estimateStatistics();
     void joinBricks();
     std::uint64_t entryAt(const Level& level, const Index& brick) const;
 

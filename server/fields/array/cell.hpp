@@ -36,7 +36,8 @@ inline RowOffsets rowOffsets(const Lattice& lattice) {
 /// Returns (1 − t) a + t b. If a and b are equal, the result is exactly equal to them.
 inline float mix(float a, float b, float t) { return a + t * (b - a); }
 
-/// The value of the interpolant and its derivatives with respect to the position along each axis.
+/// The interpolated value at a point, and its derivatives along each axis with respect to CellPoint::t, not to the
+/// coordinates of the point.
 struct Jet {
     float value;
     std::array<float, 4> derivatives;

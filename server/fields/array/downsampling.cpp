@@ -35,8 +35,8 @@ double hatIntegral(double x) {
     return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
 }
 
-// Returns the weights for an axis that is downsampled from `fine` to `coarse` samples. The weights with which fine
-// samples contribute to a coarse sample sum to 1.
+// Returns the weights for an axis that is downsampled from `fine` to `coarse` samples. For each coarse sample, the sum
+// of the weights of all fine samples is 1.
 AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
     AxisWeights weights;
     const double length =

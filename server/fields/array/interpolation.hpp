@@ -18,7 +18,7 @@ enum class InstructionSet : std::uint8_t {
 /// Returns the fastest instruction set that this processor has.
 InstructionSet fastestInstructions();
 
-/// A lattice, and the samples at its points, which are interpolated.
+/// The samples to be interpolated, and the lattice at whose points they lie.
 struct SampledLattice {
     const Lattice& lattice;
     const float* samples;  ///< sampleCount(lattice.shape) numbers, in the order of Lattice

@@ -93,7 +93,7 @@ inline double pairAt(const float* at) {
     return pair;
 }
 
-// Loads a row of four cells. On some processors, gather instructions are slower than these loads.
+// Loads one row from each of four cells. On some processors, gather instructions are slower than these loads.
 OVAL4D_AVX2 inline Pairs rowAt(const float* samples, const std::int64_t* first) {
     return _mm256_castpd_ps(_mm256_set_pd(pairAt(samples + first[3]), pairAt(samples + first[2]),
                                           pairAt(samples + first[1]), pairAt(samples + first[0])));
@@ -166,7 +166,7 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
     const RowOffsets offsets = rowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
-    Cells upcoming[kAhead];  // the cells of the groups from point i on; those of group g are at g % kAhead
+    Cells upcoming[kAhead];  // the cells of the next kAhead groups; those of group g are at g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
         locate(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {

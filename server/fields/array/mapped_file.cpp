@@ -23,7 +23,7 @@ struct MappedRange {
     std::atomic<std::size_t> size = 0;
     std::atomic<int> protection = 0;
     std::atomic<bool> lost = false;
-    timespec modified{};  // when the file was last written before it was mapped; not read by the handler
+    timespec modified{};  // the file's time of modification when it was mapped; not read by the handler
 };
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 

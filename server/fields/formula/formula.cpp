@@ -30,7 +30,7 @@ Formula::Formula(ParsedFormula parsed, const FormulaLimits& limits)
     tape_ = std::make_shared<const Tape>(compile(graph, result));
 }
 
-std::string Formula::excess() const {
+std::string Formula::exceededLimitMessage() const {
     if (tape_->instructions.size() > limits_.instructions) {
         return "the formula needs " + std::to_string(tape_->instructions.size()) +
                " instructions; the most allowed are " + std::to_string(limits_.instructions);
@@ -57,8 +57,8 @@ Result<Formula> Formula::with(std::span<const FormulaConstant> values) const {
         found->value = value;
     }
     Formula changed({parsed_->tree, std::move(constants)}, limits_);
-    if (std::string excess = changed.excess(); !excess.empty())
-        return Error{ErrorCode::out_of_range, std::move(excess)};
+    if (std::string message = changed.exceededLimitMessage(); !message.empty())
+        return Error{ErrorCode::out_of_range, std::move(message)};
     return changed;
 }
 
@@ -75,7 +75,8 @@ Result<Formula> parseFormula(std::string_view text, FormulaMistake* mistake, con
     auto parsed = parseSyntax(text, limits, shared == nullptr ? nullptr : &shared->parsed());
     if (auto* wrong = std::get_if<FormulaMistake>(&parsed)) return error(text, std::move(*wrong), mistake);
     Formula formula(std::move(std::get<ParsedFormula>(parsed)), limits);
-    if (std::string excess = formula.excess(); !excess.empty()) return error(text, {1, std::move(excess)}, mistake);
+    if (std::string message = formula.exceededLimitMessage(); !message.empty())
+        return error(text, {1, std::move(message)}, mistake);
     return formula;
 }
 

@@ -20,8 +20,9 @@ class Formula {
     /// The named constants: first those of a shared formula (see parseFormula()), then those of the text, in its order.
     const std::vector<FormulaConstant>& constants() const { return parsed_->constants; }
 
-    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if a name is not that
-    /// of a constant of the formula; `out_of_range` if a value is not finite, or if the result exceeds a limit.
+    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if the formula has no
+    /// constant of this name; `out_of_range` if a value is not finite, or if the result exceeds a limit (see
+    /// FormulaLimits).
     Result<Formula> with(std::span<const FormulaConstant> values) const;
 
     /// Returns the formula as normalized text, with the values of its constants. parseFormula() reads it as the same
@@ -42,7 +43,7 @@ class Formula {
 
     Formula(ParsedFormula parsed, const FormulaLimits& limits);
     // Returns a message if the formula exceeds a limit, else an empty string.
-    std::string excess() const;
+    std::string exceededLimitMessage() const;
 
     std::shared_ptr<const ParsedFormula> parsed_;
     FormulaLimits limits_;

@@ -26,8 +26,8 @@ float* scratch(std::size_t size) {
     return memory.empty() ? nullptr : memory.front().values.data();
 }
 
-// Returns the points from index `begin` on, which must be fewer than kKernelLanes, and copies of the last one, so that
-// there are kKernelLanes in all.
+// Returns kKernelLanes points: the points from index `begin` on, of which there must be fewer, and then copies of the
+// last point.
 using PaddedPoints = std::array<Lanes, 4>;
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
@@ -146,7 +146,7 @@ Bounds FormulaFunction::boundsIn(const Box& region) const {
         // The members are copied one by one, not as a whole: fields/CMakeLists.txt says why.
         intervals[next.result].min = result.min;
         intervals[next.result].max = result.max;
-        intervals[next.result].total = result.total;
+        intervals[next.result].hasValueEverywhere = result.hasValueEverywhere;
     }
     return intervals[Tape::kResult];
 }

@@ -20,10 +20,10 @@ class GradientLoops : private ValueLoops<Math> {
         float ones[kGradientBlockPoints];
         for (std::size_t i = 0; i < block.size; ++i) ones[i] = 1;
         for (const Instruction* next = instructions; next != instructions + count; ++next) {
-            const float* a = read(block, next->a);
-            const float* b = read(block, next->b);
+            const float* a = inputRegister(block, next->a);
+            const float* b = inputRegister(block, next->b);
             if (next->axes == 0) {
-                compute(*next, written(block, next->result), a, b, block.size);
+                compute(*next, outputRegister(block, next->result), a, b, block.size);
                 continue;
             }
             Partials partials;
@@ -31,12 +31,12 @@ class GradientLoops : private ValueLoops<Math> {
             for (unsigned axis = 0; axis < 4; ++axis) {
                 const bool byA = (next->axesOfA >> axis & 1U) != 0, byB = (next->axesOfB >> axis & 1U) != 0;
                 if (!byA && !byB) continue;
-                float* out = writtenDerivative(block, next->result, axis);
-                const float* ofA = readDerivative(block, ones, next->a, axis);
-                const float* ofB = readDerivative(block, ones, next->b, axis);
+                float* out = outputDerivative(block, next->result, axis);
+                const float* ofA = inputDerivative(block, ones, next->a, axis);
+                const float* ofB = inputDerivative(block, ones, next->b, axis);
                 combine(*next, partials, byA, byB, out, ofA, ofB, block.size);
             }
-            map([](float x) { return x; }, written(block, next->result), partials.value, block.size);
+            map([](float x) { return x; }, outputRegister(block, next->result), partials.value, block.size);
         }
         finish(instructions[count - 1], block);
     }
@@ -55,20 +55,20 @@ class GradientLoops : private ValueLoops<Math> {
     using typename Loops::Array;
     using typename Loops::Number;
 
-    static float* written(const GradientBlock& block, unsigned index) {
+    static float* outputRegister(const GradientBlock& block, unsigned index) {
         return index == Tape::kResult ? block.values
                                       : block.scratch + (index - Tape::kFirstScratch) * 5 * kGradientBlockPoints;
     }
-    static const float* read(const GradientBlock& block, unsigned index) {
-        return index < Tape::kResult ? block.coordinates[index] : written(block, index);
+    static const float* inputRegister(const GradientBlock& block, unsigned index) {
+        return index < Tape::kResult ? block.coordinates[index] : outputRegister(block, index);
     }
-    static float* writtenDerivative(const GradientBlock& block, unsigned index, unsigned axis) {
+    static float* outputDerivative(const GradientBlock& block, unsigned index, unsigned axis) {
         return index == Tape::kResult ? block.gradients[axis]
-                                      : written(block, index) + (1 + axis) * kGradientBlockPoints;
+                                      : outputRegister(block, index) + (1 + axis) * kGradientBlockPoints;
     }
     // A coordinate has the derivative 1 (the array `ones`) with respect to itself.
-    static const float* readDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
-        return index < Tape::kResult ? ones : writtenDerivative(block, index, axis);
+    static const float* inputDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
+        return index < Tape::kResult ? ones : outputDerivative(block, index, axis);
     }
 
     // The values of an operation, and its partial derivatives with respect to its operands.
@@ -80,8 +80,8 @@ class GradientLoops : private ValueLoops<Math> {
     };
 
     // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
-    // operands; they are not 0 everywhere if `byA` and `byB`, respectively. min and max take the derivative of one
-    // operand, even if the other derivative is not finite.
+    // operands. `byA` and `byB`: whether these derivatives may differ from 0; if not, they are not read. min and max
+    // take the derivative of one operand, even if the other derivative is not finite.
     static void combine(const Instruction& instruction, const Partials& partials, bool byA, bool byB, float* out,
                         const float* ofA, const float* ofB, Size size) {
         const Number zero{0};

@@ -22,7 +22,7 @@ struct RoundingError {
 };
 constexpr RoundingError kCorrectlyRounded{0x1p-23, 0x1p-148}, kFunction{0x1p-20, 0x1p-125};
 
-constexpr Bounds kEmpty{.min = kInfinity, .max = -kInfinity, .total = false};
+constexpr Bounds kEmpty{.min = kInfinity, .max = -kInfinity, .hasValueEverywhere = false};
 
 bool isEmpty(const Bounds& a) { return a.min > a.max; }
 bool contains(const Bounds& a, double value) { return a.min <= value && value <= a.max; }
@@ -37,77 +37,80 @@ double upperBound(double max, RoundingError error) {
 }
 
 // Returns the interval of floats computed for the real results [min, max]. An end that is NaN becomes infinite.
-Bounds rounded(double min, double max, bool total, RoundingError error) {
+Bounds widened(double min, double max, bool hasValueEverywhere, RoundingError error) {
     return {std::isnan(min) ? -kInfinity : -upperBound(-min, error),
-            std::isnan(max) ? kInfinity : upperBound(max, error), total};
+            std::isnan(max) ? kInfinity : upperBound(max, error), hasValueEverywhere};
 }
 
 // Returns the interval from the smallest to the largest of the candidates. Any NaN makes it unbounded.
-Bounds hull(std::initializer_list<double> candidates, bool total, RoundingError error) {
+Bounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
     double min = kInfinity, max = -kInfinity;
     for (const double candidate : candidates) {
-        if (std::isnan(candidate)) return {-kInfinity, kInfinity, total};
+        if (std::isnan(candidate)) return {-kInfinity, kInfinity, hasValueEverywhere};
         min = std::min(min, candidate);
         max = std::max(max, candidate);
     }
-    return rounded(min, max, total, error);
+    return widened(min, max, hasValueEverywhere, error);
 }
 
-// Requires that f is monotonic.
+// Returns the interval of f on `a`. f must be monotonic.
 template <typename F>
 Bounds monotonic(F f, const Bounds& a, RoundingError error = kFunction) {
-    return hull({f(a.min), f(a.max)}, a.total, error);
+    return hull({f(a.min), f(a.max)}, a.hasValueEverywhere, error);
 }
 
 Bounds add(const Bounds& a, const Bounds& b) {
     const bool mayCancel = (a.max == kInfinity && b.min == -kInfinity) || (a.min == -kInfinity && b.max == kInfinity);
-    return rounded(a.min + b.min, a.max + b.max, a.total && b.total && !mayCancel, kCorrectlyRounded);
+    return widened(a.min + b.min, a.max + b.max, a.hasValueEverywhere && b.hasValueEverywhere && !mayCancel,
+                   kCorrectlyRounded);
 }
 
-Bounds negate(const Bounds& a) { return {-a.max, -a.min, a.total}; }
+Bounds negate(const Bounds& a) { return {-a.max, -a.min, a.hasValueEverywhere}; }
 
 Bounds multiply(const Bounds& a, const Bounds& b) {
-    const bool total =
-        a.total && b.total && !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
-    // An infinite end stands for large finite numbers, whose products with 0 are 0. `total` covers 0 · ∞, which is NaN.
+    const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
+                                    !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
+    // An infinite end stands for large finite numbers, whose products with 0 are 0. `hasValueEverywhere` covers 0 · ∞,
+    // which is NaN.
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
-    return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)}, total,
-                kCorrectlyRounded);
+    return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)},
+                hasValueEverywhere, kCorrectlyRounded);
 }
 
 Bounds divide(const Bounds& a, const Bounds& b) {
-    const bool total =
-        a.total && b.total && !(contains(a, 0) && contains(b, 0)) && !(mayBeInfinite(a) && mayBeInfinite(b));
-    if (contains(b, 0)) return {-kInfinity, kInfinity, total};
-    return hull({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, total, kCorrectlyRounded);
+    const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
+                                    !(contains(a, 0) && contains(b, 0)) && !(mayBeInfinite(a) && mayBeInfinite(b));
+    if (contains(b, 0)) return {-kInfinity, kInfinity, hasValueEverywhere};
+    return hull({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, hasValueEverywhere, kCorrectlyRounded);
 }
 
 Bounds abs(const Bounds& a) {
     const double min = contains(a, 0) ? 0 : std::min(std::abs(a.min), std::abs(a.max));
-    return {min, std::max(std::abs(a.min), std::abs(a.max)), a.total};
+    return {min, std::max(std::abs(a.min), std::abs(a.max)), a.hasValueEverywhere};
 }
 
 Bounds square(const Bounds& a) {
     const Bounds size = abs(a);
-    return rounded(size.min * size.min, size.max * size.max, a.total, kCorrectlyRounded);
+    return widened(size.min * size.min, size.max * size.max, a.hasValueEverywhere, kCorrectlyRounded);
 }
 
 Bounds integerPower(const Bounds& a, int exponent) {
     const int n = std::abs(exponent);
     const Bounds base = n % 2 == 0 ? abs(a) : a;
-    const Bounds power =
-        rounded(std::pow(base.min, n), std::pow(base.max, n), a.total, {n * kCorrectlyRounded.relative, n * 0x1p-148});
+    const Bounds power = widened(std::pow(base.min, n), std::pow(base.max, n), a.hasValueEverywhere,
+                                 {n * kCorrectlyRounded.relative, n * 0x1p-148});
     return exponent > 0 ? power : divide({1, 1, true}, power);
 }
 
 Bounds sqrt(const Bounds& a) {
     if (a.max < 0) return kEmpty;
-    return rounded(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.total && a.min >= 0, kCorrectlyRounded);
+    return widened(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.hasValueEverywhere && a.min >= 0,
+                   kCorrectlyRounded);
 }
 
 Bounds log(const Bounds& a) {
     if (a.max < 0) return kEmpty;
-    return rounded(std::log(std::max(a.min, 0.0)), std::log(a.max), a.total && a.min >= 0, kFunction);
+    return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
 }
 
 // Returns whether, for some integer k, phase + k · period is in `a`, or so near to `a` that rounding errors matter.
@@ -120,39 +123,42 @@ bool containsPhase(const Bounds& a, double phase, double period) {
 template <typename F>
 Bounds sine(F f, double top, const Bounds& a) {
     constexpr double kLarge = 1e6;  // beyond it, the slack of containsPhase() is too large to be useful
-    const bool total = a.total && !mayBeInfinite(a);
-    if (a.min < -kLarge || a.max > kLarge) return rounded(-1, 1, total, kFunction);
+    const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
+    if (a.min < -kLarge || a.max > kLarge) return widened(-1, 1, hasValueEverywhere, kFunction);
     const double first = f(a.min), last = f(a.max);
     const bool hasMin = containsPhase(a, top + pi, 2 * pi), hasMax = containsPhase(a, top, 2 * pi);
-    return rounded(hasMin ? -1 : std::min(first, last), hasMax ? 1 : std::max(first, last), total, kFunction);
+    return widened(hasMin ? -1 : std::min(first, last), hasMax ? 1 : std::max(first, last), hasValueEverywhere,
+                   kFunction);
 }
 
 Bounds tangent(const Bounds& a) {
-    const bool total = a.total && !mayBeInfinite(a);
-    if (mayBeInfinite(a) || a.max - a.min >= pi || containsPhase(a, pi / 2, pi)) return {-kInfinity, kInfinity, total};
-    return rounded(std::tan(a.min), std::tan(a.max), total, kFunction);
+    const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
+    if (mayBeInfinite(a) || a.max - a.min >= pi || containsPhase(a, pi / 2, pi))
+        return {-kInfinity, kInfinity, hasValueEverywhere};
+    return widened(std::tan(a.min), std::tan(a.max), hasValueEverywhere, kFunction);
 }
 
 // The interval of asin or acos.
 template <typename F>
 Bounds arc(F f, const Bounds& a) {
     if (a.max < -1 || a.min > 1) return kEmpty;
-    const bool total = a.total && a.min >= -1 && a.max <= 1;
-    return hull({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, total, kFunction);
+    const bool hasValueEverywhere = a.hasValueEverywhere && a.min >= -1 && a.max <= 1;
+    return hull({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, hasValueEverywhere, kFunction);
 }
 
 Bounds hyperbolicCosine(const Bounds& a) {
     const Bounds size = abs(a);
-    return rounded(std::cosh(size.min), std::cosh(size.max), a.total, kFunction);
+    return widened(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
 // The interval of a^b for a ≥ 0. Its extrema over the rectangle of all (a, b) are at the corners, because a^b has none
 // inside, and is monotonic along each side.
 Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
-    const bool total = a.total && b.total;
-    if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, total};  // −0 to an odd negative power is −∞
-    return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)}, total,
-                kFunction);
+    const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
+    // −0 to an odd negative power is −∞.
+    if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, hasValueEverywhere};
+    return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)},
+                hasValueEverywhere, kFunction);
 }
 
 Bounds power(const Bounds& a, const Bounds& b) {
@@ -166,16 +172,17 @@ Bounds power(const Bounds& a, const Bounds& b) {
     }
     const double largest = powerOfPositive(abs(a), b).max;
     const bool isInteger = b.min == b.max;
-    return {isInteger && std::fmod(b.min, 2) == 0 ? 0 : -largest, largest, a.total && b.total && isInteger};
+    return {isInteger && std::fmod(b.min, 2) == 0 ? 0 : -largest, largest,
+            a.hasValueEverywhere && b.hasValueEverywhere && isInteger};
 }
 
 Bounds arctangent2(const Bounds& y, const Bounds& x) {
-    const bool total = y.total && x.total;
+    const bool hasValueEverywhere = y.hasValueEverywhere && x.hasValueEverywhere;
     const bool containsCut = contains(y, 0) && x.min <= 0;
-    if (containsCut) return rounded(-pi, pi, total, kFunction);
+    if (containsCut) return widened(-pi, pi, hasValueEverywhere, kFunction);
     return hull(
-        {std::atan2(y.min, x.min), std::atan2(y.min, x.max), std::atan2(y.max, x.min), std::atan2(y.max, x.max)}, total,
-        kFunction);
+        {std::atan2(y.min, x.min), std::atan2(y.min, x.max), std::atan2(y.max, x.min), std::atan2(y.max, x.max)},
+        hasValueEverywhere, kFunction);
 }
 
 // a − b⌊q⌋, where the computed q differs from a/b by a factor of at most 1 ± 2⁻²⁴. So the result is between 0 and b,
@@ -184,7 +191,8 @@ Bounds modulo(const Bounds& a, const Bounds& b) {
     const Bounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};
     const double slack = 0x1p-22 * (abs(a).max + abs(b).max) + kFunction.absolute;
-    Bounds result{std::min(b.min, 0.0) - slack, std::max(b.max, 0.0) + slack, a.total && b.total};
+    Bounds result{std::min(b.min, 0.0) - slack, std::max(b.max, 0.0) + slack,
+                  a.hasValueEverywhere && b.hasValueEverywhere};
     if (std::floor(quotient.min) == std::floor(quotient.max)) {
         const Bounds whole{std::floor(quotient.min), std::floor(quotient.min), true};
         const Bounds exact = add(a, negate(multiply(b, whole)));
@@ -251,7 +259,7 @@ Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exp
         case Operation::step:
         case Operation::sign:
         case Operation::floor:
-            return {apply(operation, a.min, 0), apply(operation, a.max, 0), a.total};
+            return {apply(operation, a.min, 0), apply(operation, a.max, 0), a.hasValueEverywhere};
         case Operation::add:
             return add(a, b);
         case Operation::subtract:
@@ -261,9 +269,9 @@ Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exp
         case Operation::divide:
             return divide(a, b);
         case Operation::min:
-            return {std::min(a.min, b.min), std::min(a.max, b.max), a.total && b.total};
+            return {std::min(a.min, b.min), std::min(a.max, b.max), a.hasValueEverywhere && b.hasValueEverywhere};
         case Operation::max:
-            return {std::max(a.min, b.min), std::max(a.max, b.max), a.total && b.total};
+            return {std::max(a.min, b.min), std::max(a.max, b.max), a.hasValueEverywhere && b.hasValueEverywhere};
         case Operation::power:
             return power(a, b);
         case Operation::atan2:

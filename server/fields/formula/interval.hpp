@@ -14,8 +14,8 @@
 //   sign, so an end is never moved beyond 0.
 // - Functions such as sin have errors of at most 4 units in the last place (2⁻²¹, which the tests check). Their
 //   intervals are widened by 2⁻²⁰ and, because they may return 0 for a subnormal result, by 2⁻¹²⁵.
-// - aⁿ is computed by fewer than 2·n multiplications, whose errors add up to less than n · 2⁻²⁴; its interval is
-//   widened by n · 2⁻²³. A power to n + 1/2, n ≤ 8, is such a product times a square root.
+// - aⁿ is computed by multiplications, with a relative error of less than n · 2⁻²⁴; its interval is widened by
+//   n · 2⁻²³. A power with the exponent n + 1/2, n ≤ 8, is aⁿ times a square root; its interval is widened as for sin.
 // - Negation, abs, min, max, step, sign and floor are exact.
 
 #include "fields/formula/operation.hpp"
@@ -29,12 +29,12 @@ Bounds intervalOf(double number);
 
 /// Returns the interval of a coordinate between `min` and `max`. The ends are rounded outward to floats, so the
 /// interval also contains coordinates that were rounded to floats. If `min` or `max` is NaN, the interval is unbounded,
-/// and its `total` is false.
+/// and its `hasValueEverywhere` is false.
 Bounds intervalOfCoordinate(double min, double max);
 
 /// Returns the interval of the results of an operation, which must be neither `constant` nor `variable`. `a` and `b`
 /// are the intervals of the operands; `b` is ignored if there is only one. `exponent` is the exponent of integer_power.
-/// In the result, `total` is false if a result of the operation may be NaN.
+/// In the result, `hasValueEverywhere` is false if a result of the operation may be NaN.
 Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent);
 
 }  // namespace oval4d::fields

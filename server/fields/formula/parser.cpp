@@ -144,8 +144,8 @@ class Parser {
             return {add(Kind::power, {value, exponent}), isNegative};
         }
         if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
-        // The operand is a negation in parentheses. Its node is the last one; it is removed, because the result has the
-        // sign.
+        // The value is a negation in parentheses. The node of the negation is the last one; it is removed, because the
+        // returned Term holds the sign.
         const Index operand = tree_.operands.back();
         tree_.operands.pop_back();
         tree_.nodes.pop_back();
@@ -418,7 +418,7 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     bool isInDefinition_ = false;
-    bool isConstantDefinition_ = false;  // whether the current definition contains neither coordinates nor names
+    bool isConstantDefinition_ = false;  // whether the current definition contains neither variables nor names
     SyntaxTree tree_;                    // of the formula or the current definition
     SyntaxTree expressions_;             // of the shared definitions and the definitions before the current one
     std::vector<NameUse> uses_;

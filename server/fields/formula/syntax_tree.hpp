@@ -61,8 +61,8 @@ struct SyntaxTree {
     std::vector<NamedExpression> expressions;  ///< each uses only earlier ones; their nodes come before the formula's
     Relation relation = Relation::none;
     std::uint32_t left = 0, right = 0;  ///< the root nodes of both sides; without a comparison, only `left` is used
-    /// The number of constants and the number of expressions that another formula defines; these come first in their
-    /// lists.
+    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). They
+    /// come first in their lists.
     std::size_t sharedConstants = 0, sharedExpressions = 0;
 
     std::span<const std::uint32_t> operandsOf(const SyntaxNode& node) const {

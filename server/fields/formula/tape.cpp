@@ -94,7 +94,7 @@ class Compiler {
     void release(Ref operand, Ref user) {
         if (lastUse_[operand] != user || isLeaf(nodes_[operand])) return;
         free_.push_back(registers_[operand]);
-        lastUse_[operand] = kNever;  // an operand that is used twice is released once
+        lastUse_[operand] = kNever;  // an operand that the operation uses twice is released once
     }
     std::uint16_t allocate() {
         if (free_.empty()) return static_cast<std::uint16_t>(Tape::kFirstScratch + tape_.scratchRegisters++);

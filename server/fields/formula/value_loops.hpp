@@ -19,7 +19,8 @@ class ValueLoops {
   public:
     static void evaluate(const Instruction* instructions, std::size_t count, const Block& block) {
         for (const Instruction* next = instructions; next != instructions + count; ++next)
-            compute(*next, written(block, next->result), read(block, next->a), read(block, next->b), block.size);
+            compute(*next, outputRegister(block, next->result), inputRegister(block, next->a),
+                    inputRegister(block, next->b), block.size);
     }
 
   protected:
@@ -37,11 +38,11 @@ class ValueLoops {
 
     static constexpr float kNotANumber = __builtin_nanf("");
 
-    static float* written(const Block& block, unsigned index) {
+    static float* outputRegister(const Block& block, unsigned index) {
         return index == Tape::kResult ? block.values : block.scratch + (index - Tape::kFirstScratch) * kBlockPoints;
     }
-    static const float* read(const Block& block, unsigned index) {
-        return index < Tape::kResult ? block.coordinates[index] : written(block, index);
+    static const float* inputRegister(const Block& block, unsigned index) {
+        return index < Tape::kResult ? block.coordinates[index] : outputRegister(block, index);
     }
 
     template <typename F>

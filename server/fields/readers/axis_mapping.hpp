@@ -65,13 +65,14 @@ class AxisMapping {
     /// Lattice).
     bool isInOrder() const;
 
-    /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. Each slab has as many
-    /// numbers as possible, because each may decompress the same parts of a compressed file again.
+    /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. The slabs are as large as
+    /// possible, because a part of a compressed file may be decompressed again for each slab that needs it.
     std::vector<Slab> slabs(std::size_t maxCount) const;
 
-    /// Returns the samples whose stored numbers are `bytes`, a part of the file with at least count() numbers. Uses the
-    /// bytes in place if they are aligned, in order, and plain 32-bit floats (see NumberFormat::isPlain()) in this
-    /// processor's byte order; otherwise, converts them. Errors: those of SampleBuffer.
+    /// Returns the samples. `bytes` is the part of the file that stores them, in the format `format`; it must contain
+    /// at least count() numbers. Uses the bytes in place if they are aligned, in order (see isInOrder()), and plain
+    /// 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order; otherwise, converts them. Errors:
+    /// those of SampleBuffer.
     Result<Samples> samples(const FileContents& file, std::span<const std::byte> bytes, const NumberFormat& format,
                             const ReadOptions& options) const;
 

@@ -27,7 +27,8 @@ inline constexpr std::size_t kRecognizedBytes = 352;
 std::span<const FieldFormat> fieldFormats();
 
 /// Returns the format of a file; null if it has none of the formats. `start` must be the first kRecognizedBytes bytes
-/// of the file, or the whole file if it is shorter. A gzip file counts as NIfTI, which is the only compressed format.
+/// of the file, or the whole file if it is shorter. A gzip file counts as NIfTI, the only format whose files may be
+/// compressed as a whole.
 const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
 /// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of the format.

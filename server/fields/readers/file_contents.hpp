@@ -19,7 +19,7 @@ struct FileContents {
     std::span<const std::byte> bytes;
     MappedFilePtr file = {};  ///< the file of which the bytes are a part, if it is mapped; null if they are in memory
 
-    /// Takes the pages of a mapped file out of the resident memory.
+    /// Releases the resident pages of the mapped file, if there is one: see MappedFile::releasePages().
     void releasePages() const {
         if (file) file->releasePages();
     }

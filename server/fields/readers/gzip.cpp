@@ -40,7 +40,7 @@ GzipReader::GzipReader(std::span<const std::byte> compressed, Wrapper wrapper) :
 
 GzipReader::~GzipReader() = default;
 
-Result<bool> GzipReader::readUpTo(std::size_t size, std::vector<std::byte>& to) {
+Result<bool> GzipReader::extendTo(std::size_t size, std::vector<std::byte>& to) {
     while (to.size() < size) {
         const std::size_t before = to.size();
         to.resize(std::min(size, before + kStep));

@@ -26,14 +26,14 @@ class GzipReader {
     GzipReader(const GzipReader&) = delete;
     GzipReader& operator=(const GzipReader&) = delete;
 
-    /// Appends the next decompressed bytes to `to` until it has `size` bytes. Error: `bad_field` if the file is faulty
-    /// or ends earlier.
-    Result<bool> readUpTo(std::size_t size, std::vector<std::byte>& to);
+    /// Appends the next decompressed bytes to `to` until `to` has `size` bytes in all. Error: `bad_field` if the file
+    /// is faulty or ends earlier.
+    Result<bool> extendTo(std::size_t size, std::vector<std::byte>& to);
 
-    /// Fills `to` with the next decompressed bytes. Errors: those of readUpTo().
+    /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
     Result<bool> fill(std::span<std::byte> to);
 
-    /// Returns whether all bytes have been read and their checksum is correct.
+    /// Returns whether all decompressed bytes have been read and their checksum is correct.
     bool isAtEnd();
 
   private:

@@ -22,7 +22,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxDatasets = 10'000;  // a file with as many datasets is refused
+constexpr std::size_t kMaxDatasets = 10'000;  // a file with this many datasets, or more, is refused
 
 // An identifier of an object of the library; the destructor closes it.
 class Handle {
@@ -151,7 +151,7 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
     return file.bytes.subspan(offset, size);
 }
 
-// Reads the dataset as floats by slabs.
+// Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers.
 Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, hid_t dataset, hid_t stored,
                           const AxisMapping& mapping, const NumberFormat& format) {
     const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -180,8 +180,9 @@ Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, 
     return buffer->take();
 }
 
-// Returns the path of the dataset with the most dimensions, of those that contain numbers and have 1 to 4 dimensions;
-// an empty string if there is none. Adds a warning if there are several.
+// Chooses among the datasets that contain numbers and have 1 to 4 dimensions. Returns the path of the one with the most
+// dimensions, and of several such, the first; an empty string if there is none to choose from. Adds a warning if there
+// are several to choose from.
 std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
     std::size_t dimensions = 0, candidates = 0;

@@ -23,7 +23,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes of a text that are kept
+constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes that are kept of a text
 
 // A file that the library has opened; the destructor closes it.
 class OpenFile {
@@ -152,7 +152,7 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
 
 // Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
 // bounds of a coordinate variable.
-bool isCoordinate(const Variable& variable) {
+bool isAuxiliary(const Variable& variable) {
     if (variable.dimensions.empty()) return true;
     const std::string dimension = dimensionName(variable.group, variable.dimensions.front());
     if (variable.dimensions.size() == 1) return variable.name == dimension;
@@ -168,7 +168,7 @@ Result<Variable> defaultVariable(int file, ReadField& field) {
     std::size_t candidates = 0;
     for (int id = 0; id < count; ++id) {
         const auto variable = variableAt(file, id);
-        if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 || isCoordinate(*variable))
+        if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 || isAuxiliary(*variable))
             continue;
         ++candidates;
         if (variable->dimensions.size() > chosen.dimensions.size()) chosen = *variable;
@@ -205,7 +205,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
 }
 
 // Assigns dimensions to axes, and finds the box and the units.
-Result<std::vector<Dimension>> place(const Variable& variable, const ReadOptions& options, ReadField& field) {
+Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, ReadField& field) {
     std::vector<CfDimension> stated;
     std::vector<Dimension> dimensions;
     for (const int id : variable.dimensions) {
@@ -284,7 +284,7 @@ Result<ReadField> readNetcdf(const FileContents& file, const ReadOptions& option
     const auto variable =
         options.variable.empty() ? defaultVariable(open.id(), field) : variableAtPath(open.id(), options.variable);
     if (!variable) return variable.error();
-    const auto dimensions = place(*variable, options, field);
+    const auto dimensions = mapDimensions(*variable, options, field);
     if (!dimensions) return dimensions.error();
     const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
     if (!mapping) return mapping.error();

@@ -14,17 +14,17 @@ namespace oval4d::fields {
 /// NetCDF-4 files are HDF5 files: readHdf5() recognizes them and passes them to readNetcdf().
 bool isNetcdfStart(std::span<const std::byte> start);
 
-/// Reads a variable of integers or real numbers with 1 to 4 dimensions. `options.variable` is its name, after the path
-/// of its group. If that is empty, the variable with the most dimensions in the root group is read, and if several have
-/// the most, the first of these; coordinate variables are left out.
+/// Reads a variable of integers or real numbers with 1 to 4 dimensions. `options.variable` is its path, such as
+/// "pressure" or "group/pressure". If that is empty, the variable with the most dimensions in the root group is read,
+/// and if several have the most, the first of these; coordinate variables and their bounds are left out.
 ///
 /// Follows the CF conventions 1.10. The axis of a dimension is given by the attributes `axis`, `standard_name`, `units`
 /// and `positive` of its coordinate variable, or else by the dimension's name. The first and the last coordinate give
 /// the box; if the coordinates decrease, the array is reversed. Coordinates that are not evenly spaced are treated as
 /// if they were, with a warning. An axis without coordinates extends from 0 to n − 1 for n samples; if there are no
-/// coordinates at all, the box is defaultBox(). Samples are NaN if they equal `_FillValue` (or the type's default) or
-/// `missing_value`, or lie outside `valid_min`, `valid_max` or `valid_range`. `scale_factor` and `add_offset` are
-/// applied.
+/// coordinates at all, the box is defaultBox(). A sample is NaN if its stored number equals `missing_value` or
+/// `_FillValue` (without this attribute, NetCDF's default for the type), is less than `valid_min` or greater than
+/// `valid_max`, or lies outside `valid_range`. `scale_factor` and `add_offset` are applied.
 ///
 /// Errors: `bad_field`, `too_large`, `not_found` for the variable, `out_of_range` for the other options. The library
 /// NetCDF is neither thread-safe nor made for hostile files: files from strangers should be read in a confined process.

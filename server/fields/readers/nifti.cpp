@@ -218,9 +218,10 @@ void setUnits(const NiftiHeader& header, ReadField& field) {
     if (time < kTimes.size()) field.units[3] = kTimes.at(time);
 }
 
-// Sets the box and the axes of the dimensions. `dimensions` must be in the order from the fastest to the slowest.
-std::optional<Error> place(const NiftiHeader& header, const ReadOptions& options, std::vector<Dimension>& dimensions,
-                           ReadField& field) {
+// Sets the box and the units of `field`, and the axes and directions of `dimensions`, which must be in the order from
+// the fastest to the slowest.
+std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions& options,
+                                   std::vector<Dimension>& dimensions, ReadField& field) {
     setUnits(header, field);
     const auto matrix = orientation(header);
     auto parallel = matrix ? parallelAxes(*matrix) : std::nullopt;
@@ -254,13 +255,13 @@ std::optional<Error> place(const NiftiHeader& header, const ReadOptions& options
     return {};
 }
 
-// Returns the first `size` bytes of a decompressed file. `unzipped` has the first of them, which `gzip` has read
-// already.
+// Returns the first `size` bytes of a decompressed file. `unzipped` must contain the bytes that `gzip` has already
+// decompressed.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
                            std::size_t size, const ReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;
     if (size / sizeof(float) <= options.maxInMemory || !options.newFile) {
-        if (const auto read = gzip.readUpTo(size, unzipped); !read) return read.error();
+        if (const auto read = gzip.extendTo(size, unzipped); !read) return read.error();
         return FileContents::of(std::move(unzipped));
     }
     auto to = options.newFile(size);
@@ -275,8 +276,8 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
     return FileContents::of(MappedFilePtr(std::move(*to)));
 }
 
-// Returns the stored numbers: `size` bytes, from the byte `begin` of the file on. If `gzip` is not null, this is the
-// decompressed file.
+// Returns the stored numbers: `size` bytes of the file, or of the decompressed file if `gzip` is not null, from the
+// byte `begin` on. `unzipped`: see unzip().
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
                             std::size_t begin, std::size_t size, const ReadOptions& options) {
     if (gzip != nullptr) {
@@ -308,7 +309,7 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
     std::optional<GzipReader> gzip;
     if (isGzipStart(file.bytes)) {
         gzip.emplace(file.bytes);
-        const auto begun = gzip->readUpTo(kHeader1, unzipped);
+        const auto begun = gzip->extendTo(kHeader1, unzipped);
         const auto isEmpty = [&] {
             return std::ranges::all_of(unzipped, [](std::byte b) { return b == std::byte{}; });
         };
@@ -317,7 +318,7 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
             return badField("the file is compressed with gzip and contains no NIfTI image; unpack it first");
         if (!begun) return begun.error();
         if (headerSize(unzipped) == kHeader2) {
-            if (const auto read = gzip->readUpTo(kHeader2, unzipped); !read) return read.error();
+            if (const auto read = gzip->extendTo(kHeader2, unzipped); !read) return read.error();
         }
     }
     const auto header = parse(gzip ? std::span<const std::byte>(unzipped) : file.bytes);
@@ -329,7 +330,7 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
     ReadField field;
     std::vector<Dimension> dimensions(static_cast<std::size_t>(header->dimensions));
     for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].size = static_cast<std::size_t>(header->size[i]);
-    if (auto error = place(*header, options, dimensions, field)) return *error;
+    if (auto error = mapDimensions(*header, options, dimensions, field)) return *error;
     std::reverse(dimensions.begin(), dimensions.end());
     const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
     if (!mapping) return mapping.error();

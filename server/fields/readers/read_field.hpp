@@ -29,11 +29,11 @@ struct ReadOptions {
     /// axes are those that the file states, or "tzyx", "zyx", "yx" or "x".
     std::string axes = {};
     std::optional<Box> box = {};  ///< used instead of the box that the file states
-    std::string variable = {};    ///< the variable of a NetCDF file, or the path of an HDF5 dataset; if empty, the
-                                  ///< one with the most dimensions, and of several such, the first
+    std::string variable = {};    ///< the path of the variable in a NetCDF file, of the dataset in an HDF5 file, or of
+                                  ///< the array in a Zarr folder; if empty, the reader chooses one
     std::size_t maxSamples = kMaxSamples;  ///< larger arrays are refused
-    /// The samples of arrays with more samples than this remain in the file or, if they must be converted, are written
-    /// to a file from `newFile`.
+    /// Arrays with more samples than this are not kept in memory: their samples remain in the file or, if they must be
+    /// converted, are written to a file that `newFile` makes.
     std::size_t maxInMemory = kMaxSamples;
     NewFile newFile = {};        ///< null if all converted samples are kept in memory
     std::span<float> into = {};  ///< the memory for converted samples, if it has exactly the size of the array

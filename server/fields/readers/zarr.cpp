@@ -114,9 +114,10 @@ class ChunkReader {
         });
     }
 
-    // Calls `visit` for each stored row of a chunk that begins within the array, with four numbers: the index in the
-    // chunk of the row's first item, the place of this item relative to that of the chunk, the number of items within
-    // the array, and the distance between their places.
+    // Visits the stored rows of a chunk that begin within the array. Calls `visit` for each row with four numbers: the
+    // index of the row's first number in the chunk; the place of this number in `to`, relative to the place of the
+    // chunk's first number; how many numbers of the row are within the array; and the distance between their places in
+    // `to`.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {
@@ -143,7 +144,8 @@ class ChunkReader {
 };
 
 // Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
-// dimension's name. Sets `units` and `stated` by its attributes. Returns an empty optional if there is no such array.
+// dimension's name. Sets `units` and `stated` from its attributes. Returns an empty optional if there is no such array,
+// or if it cannot be read.
 std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {
@@ -185,13 +187,13 @@ void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
 }
 
 // Assigns dimensions to axes, and finds the box and the units.
-Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolder& zarr, const ZarrArray& array,
-                                     const std::vector<std::size_t>& kept, const ReadOptions& options,
-                                     ReadField& field) {
+Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const ZarrFolder& zarr, const ZarrArray& array,
+                                             const std::vector<std::size_t>& kept, const ReadOptions& options,
+                                             ReadField& field) {
     auto axes = axesOf(options.axes, kept.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
-    const bool isImage = ofImage && ofImage->dimensions.size() == array.shape.size();
+    const bool isTransformed = ofImage && ofImage->dimensions.size() == array.shape.size();
     const std::size_t slash = array.path.rfind('/');
     const std::string group = slash == std::string::npos ? "" : array.path.substr(0, slash + 1);
     struct Range {
@@ -208,7 +210,7 @@ Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolde
         CfDimension each;
         Range range{0, last, false};
         std::string unit;
-        if (isImage) {
+        if (isTransformed) {
             const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];
             each.name = name;
             unit = text::printable(statedUnit, kMaxZarrText);
@@ -217,7 +219,7 @@ Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolde
             each.name = array.dimensionNames[i];
         }
         named = named || !each.name.empty();
-        if (!isImage && !each.name.empty() && !array.path.empty()) {
+        if (!isTransformed && !each.name.empty() && !array.path.empty()) {
             if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
                 const auto ends = endsOfCoordinates(*at, each.name, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
@@ -271,7 +273,7 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     ZarrArray& array = **found;
     std::vector<std::size_t> kept;
     squeeze(array, kept);
-    const auto dimensions = place(folder, zarr, array, kept, options, field);
+    const auto dimensions = mapDimensions(folder, zarr, array, kept, options, field);
     if (!dimensions) return dimensions.error();
     const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
     if (!mapping) return mapping.error();

@@ -20,11 +20,12 @@ using FolderReader = std::function<Result<std::optional<FileContents>>(const std
 /// A Zarr folder contains at least one of these files.
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
 
-/// Reads an array from a Zarr folder, chunk by chunk: `options.variable` is its path in the folder. If that is empty,
-/// the array is the folder itself. If the folder is a group, it is the finest level of a multiscale image (OME-Zarr),
-/// or else the array with the most dimensions that the group's consolidated metadata list. Types: Booleans, integers
-/// and floats of either byte order. Chunks may be compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran
-/// order; in missing chunks, all numbers are the fill value.
+/// Reads an array from a Zarr folder, chunk by chunk. `options.variable` is the path of the array in the folder. If
+/// that is empty and the folder is an array, reads this array. If it is empty and the folder is a group, reads the
+/// finest level of a multiscale image (OME-Zarr); if the group is no such image, the group's consolidated metadata must
+/// list its arrays, and the one with the most dimensions is read. Types: Booleans, integers and floats of either byte
+/// order. Chunks may be compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all
+/// numbers are the fill value.
 ///
 /// The axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr). The box is
 /// given by the arrays of coordinates beside the array, or by the scales of a multiscale image. CF attributes apply:

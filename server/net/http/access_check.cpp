@@ -33,9 +33,9 @@ AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget&
             field("Sec-Fetch-Dest")};
 }
 
-// Returns whether the offered subprotocols include the one of the server, or none is offered. Names are case-sensitive
-// (RFC 6455, section 11.5).
-bool offersSubprotocol(const std::string& offered) {
+// Returns whether `offered`, a list of subprotocols, contains the server's subprotocol or is empty. Names are
+// case-sensitive (RFC 6455, section 11.5).
+bool acceptsSubprotocol(const std::string& offered) {
     const http::token_list names(offered);
     return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
 }
@@ -108,7 +108,7 @@ std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessCont
     std::string cookie;
     if (auto refusal = checkAccess(request, *target, access, client, cookie)) return refusal;
     if (auto fault = validateHandshake(request)) return refusalReply(*fault);
-    if (!offersSubprotocol(combinedFieldValue(request, "Sec-WebSocket-Protocol")))
+    if (!acceptsSubprotocol(combinedFieldValue(request, "Sec-WebSocket-Protocol")))
         return refusalReply(400, "the only supported WebSocket subprotocol is " + std::string(kSubprotocol) + "\n");
     if (hasFurtherBytes) return refusalReply(400, "a client must send nothing before the reply to its handshake\n");
     session = *wanted;

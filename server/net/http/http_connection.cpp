@@ -16,7 +16,7 @@
 #include "net/http/access_check.hpp"
 #include "net/http/request_validation.hpp"
 #include "net/http/upload.hpp"
-#include "net/ws/min_read_rate.hpp"
+#include "net/transfer_deadline.hpp"
 #include "net/ws/websocket_connection.hpp"
 #include "text/message_text.hpp"
 #include "wire/messages.hpp"
@@ -142,7 +142,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
 asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     http::request_parser<http::empty_body> parser;
     parser.header_limit(kMaxHeaderBytes);
-    parser.body_limit(boost::none);  // no limit is needed: bodies are never read
+    parser.body_limit(boost::none);  // no limit is needed: the parser never reads a body
     // The timeout applies to the whole header.
     stream_.expires_after(toSteadyDuration(first_ ? options().helloTimeout : options().idleTimeout));
     reading_ = true;
@@ -161,7 +161,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     if (fault || !context_.services.clients.isTrustedProxy(peer.address())) return;
     const auto origin =
         context_.services.clients.clientAddress(combinedFieldValue(request, "X-Forwarded-For"), peer.address());
-    const ClientPtr client = context_.services.clients.at(origin);
+    const ClientPtr client = context_.services.clients.findOrCreate(origin);
     if (client == client_) return;
     registration_.setClient(client);
     client_ = client;
@@ -210,9 +210,9 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     co_return reply;
 }
 
-/// Receives an uploaded file, and loads it into a session or restores the state in it. Checks everything else before it
-/// reads the body. If the upload is refused before that, the connection is closed, because the body was not read.
-/// Returns whether another request may follow on this connection.
+/// Receives an uploaded file, and loads its field into a session or restores the state that it contains. Checks the
+/// header of the request, and joins the session, before it reads the body. If the upload is refused before the whole
+/// body is read, the connection is closed. Returns whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     Upload upload;
     std::string token;
@@ -243,7 +243,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     if (upload.load) {
         upload.load->file = file;
         applied = co_await session->apply(client_, std::move(*upload.load));
-    } else if (auto set = stateIn(*file, options().maxMessage)) {
+    } else if (auto set = setCommandFromUpload(*file, options().maxLoadMessageBytes)) {
         applied = co_await session->apply(client_, std::move(*set));
     } else {
         applied = set.error();
@@ -303,23 +303,23 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
 /// Closes the stream if the client has disconnected or sends too slowly.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
-    MinReadRate rate(options());
+    TransferDeadline deadline(options());
     if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
         constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-        stream_.expires_after(rate.timeout());
+        stream_.expires_after(deadline.timeout());
         const auto [fault, size] = co_await asio::async_write(stream_, asio::buffer(kContinue), kAsTuple);
         if (fault) stream_.close();
     }
     while (left > 0 && stream_.socket().is_open()) {
         if (buffer_.size() == 0) {
-            stream_.expires_after(rate.timeout());
+            stream_.expires_after(deadline.timeout());
             reading_ = true;
             const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
             reading_ = false;
-            if (fault == beast::error::timeout) context_.services.metrics.slowReaders.Increment();
+            if (fault == beast::error::timeout) context_.services.metrics.droppedSlowClients.Increment();
             if (fault) stream_.close();
             buffer_.commit(size);
-            rate.count(size);
+            deadline.count(size);
         }
         const std::size_t taken = std::min(left, buffer_.size());
         if (auto error = body.append({static_cast<const char*>(buffer_.cdata().data()), taken})) {
@@ -387,15 +387,15 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     spdlog::debug("request method={} path=\"{}\" status={}", std::string_view(request.method_string()),
                   target.substr(0, target.find('?')), reply.status);
     http::response_serializer<http::span_body<const char>> serializer(response);
-    MinReadRate rate(options());
+    TransferDeadline deadline(options());
     while (!serializer.is_done()) {
-        stream_.expires_after(rate.timeout());
+        stream_.expires_after(deadline.timeout());
         const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kAsTuple);
         if (fault) {
-            if (fault == beast::error::timeout) context_.services.metrics.slowReaders.Increment();
+            if (fault == beast::error::timeout) context_.services.metrics.droppedSlowClients.Increment();
             co_return false;
         }
-        rate.count(size);
+        deadline.count(size);
     }
     co_return response.keep_alive();
 }
@@ -438,7 +438,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     context.services.metrics.connections.Increment();
     auto& connections = context.services.metrics.connections;
     try {
-        ClientPtr client = context.services.clients.at(peer.address());
+        ClientPtr client = context.services.clients.findOrCreate(peer.address());
         // Many clients share the connections of a trusted proxy; each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
         const auto admission = context.connections.admit(*client, 0, isProxy);

@@ -32,10 +32,11 @@ Reply jsonReply(std::string message);
 /// derived from the error code.
 Reply errorReply(const Error& error, unsigned status = 0);
 
-/// Returns a reply with a plain text and no other headers, for requests that are refused before a route answers them.
+/// Returns a reply with a plain text and empty `headers`, for requests that are refused before a route answers them.
 Reply refusalReply(unsigned status, std::string text);
 
-/// Like the function above, for a fault in the request's header: the reply has its status and its reason.
+/// Like the function above, with the status and the reason of a fault in the request's header. If the status is
+/// kUpgradeRequired, the header fields of the reply name the WebSocket protocol.
 Reply refusalReply(const HttpError& fault);
 
 /// Like refusalReply(), with status 429 and a header field that tells the client to wait for ten seconds.

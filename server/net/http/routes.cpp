@@ -69,8 +69,8 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
     return pipeline::checkViewport(viewport, limits);
 }
 
-/// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons, which they do not
-/// contain. Replaces minus signs by hyphens, because clients read header fields as ASCII or ISO 8859-1.
+/// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons (no warning contains
+/// one). Replaces minus signs by hyphens, because clients read header fields as ASCII or ISO 8859-1.
 std::string warningsField(const std::vector<std::string>& warnings) {
     std::string value;
     for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
@@ -92,7 +92,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         scene::Viewport viewport,
                                                                         const ClientPtr& client, Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // PNG files are rarely larger
+        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // PNG files are rarely larger than that
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
@@ -268,7 +268,7 @@ Reply Routes::metrics() {
     shown.clients.Set(static_cast<double>(services_.clients.size()));
     shown.polytopes.Set(static_cast<double>(services_.polytopes.bytes()));
     shown.dataFields.Set(static_cast<double>(services_.data.bytes()));
-    shown.fieldFiles.Set(static_cast<double>(services_.fieldCache.bytes()));
+    shown.fieldFiles.Set(static_cast<double>(services_.sampleFiles.bytes()));
     shown.critical.Set(static_cast<double>(services_.critical.bytes()));
     return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }

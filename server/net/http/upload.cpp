@@ -41,9 +41,9 @@ std::optional<Error> setMember(session::LoadObject& load, const std::string& nam
     } else if (name == "variable") {
         load.variable = value;
     } else if (name == "values") {
-        load.values = value;
+        load.secondFormula = value;
     } else if (name == "values_variable") {
-        load.valuesVariable = value;
+        load.secondVariable = value;
     } else if (name == "box") {
         const auto box = session::parseBox(value);
         if (!box) return box.error();
@@ -111,11 +111,11 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     return upload;
 }
 
-Result<session::Set> stateIn(const fields::FileHandle& file, std::size_t maxMessage) {
+Result<session::Set> setCommandFromUpload(const fields::FileHandle& file, std::size_t maxMessage) {
     const auto contents = fields::FileContents::map(file.descriptor());
     if (!contents) return contents.error();
-    return wire::setFromFile({reinterpret_cast<const char*>(contents->bytes.data()), contents->bytes.size()},
-                             maxMessage);
+    return wire::setCommandFromFile({reinterpret_cast<const char*>(contents->bytes.data()), contents->bytes.size()},
+                                    maxMessage);
 }
 
 Reply uploadErrorReply(const Error& error) {

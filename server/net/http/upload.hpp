@@ -30,10 +30,10 @@ bool isUpload(std::string_view method, std::string_view path);
 
 /// Parses a request, for which isUpload() must be true. PUT …/fields/{name} loads a field; POST …/fields/{name}/moments
 /// adds time steps to a loaded field. The query of these requests may have `format`, `axes`, `box`, `variable`,
-/// `values` and `values_variable`. PUT …/state restores the state in a picture or a `state` message; its query must be
-/// empty. The server's `token` in a query is ignored. Errors: `not_found` for any other path; `unsupported_format` if
-/// the format is not an array format; `bad_message` for an unknown or repeated name in the query; those of
-/// session::parseBox() and session::checkLoad().
+/// `values` and `values_variable`. PUT …/state restores the state that the uploaded picture or `state` message
+/// contains; its query must be empty. The server's `token` in a query is ignored. Errors: `not_found` for any other
+/// path; `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated name in
+/// the query; those of session::parseBox() and session::checkLoad().
 Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
 /// The maximum number of bytes of an uploaded picture or `state` message. The largest picture that oval4d makes is
@@ -41,8 +41,8 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
 /// Returns the command that restores the state in an uploaded file. `maxMessage`: the maximum number of bytes of the
-/// `state` message in it. Errors: those of wire::setFromFile(); `bad_field` if the file is empty.
-Result<session::Set> stateIn(const fields::FileHandle& file, std::size_t maxMessage);
+/// `state` message in it. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is empty.
+Result<session::Set> setCommandFromUpload(const fields::FileHandle& file, std::size_t maxMessage);
 
 /// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format`, and with
 /// status 429 and a time to wait for `too_many`.

@@ -12,7 +12,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr Seconds kListing{0.002};  // a rough estimate
+constexpr Seconds kListing{0.002};  // a rough estimate of the time to read the folder
 
 std::function<Names(std::size_t worker)> listJob(const DataFolder& data) {
     return [&data](std::size_t /*worker*/) { return data.names(); };

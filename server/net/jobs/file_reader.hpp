@@ -5,8 +5,8 @@
 
 namespace oval4d::net {
 
-/// Returns a function that reads an object in a file reader process: an array of the data folder if LoadObject::path is
-/// set, otherwise a client's file. The services must outlive the function.
+/// Returns a function that reads an object in a file reader process: an array of the data folder if
+/// LoadObject::dataName is set, otherwise a client's file. The services must outlive the function.
 session::FileReader fileReader(const Services& services);
 
 }  // namespace oval4d::net

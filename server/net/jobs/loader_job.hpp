@@ -10,11 +10,11 @@
 
 namespace oval4d::net {
 
-/// Returns a job for a worker pool that calls loadPendingObject(stop) of `loader`.
+/// Returns a job that calls loader->completePending(stop).
 inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
                                                                    std::stop_token stop = {}) {
     return [loader, stop = std::move(stop)](std::size_t /*worker*/) {
-        loader->loadPendingObject(stop);
+        loader->completePending(stop);
         return std::monostate{};
     };
 }

@@ -4,15 +4,16 @@
 
 namespace oval4d::net {
 
-CriticalSearchRun::CriticalSearchRun(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop)
+CriticalSearchHandle::CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state,
+                                           std::stop_token workersStop)
     : by_(std::move(by)),
       arguments_(session::criticalArguments(state)),
       whenWorkersStop_(std::move(workersStop), RequestStop{stop_}) {}
 
-std::shared_ptr<CriticalSearchRun> CriticalSearches::add(const std::shared_ptr<Peer>& by, const session::State& state,
-                                                         std::stop_token workersStop) {
+std::shared_ptr<CriticalSearchHandle> CriticalSearches::add(const std::shared_ptr<Peer>& by,
+                                                            const session::State& state, std::stop_token workersStop) {
     std::erase_if(searches_, [](const auto& each) { return each.expired(); });
-    auto search = std::make_shared<CriticalSearchRun>(by, state, std::move(workersStop));
+    auto search = std::make_shared<CriticalSearchHandle>(by, state, std::move(workersStop));
     searches_.push_back(search);
     return search;
 }
@@ -31,8 +32,8 @@ void CriticalSearches::stopOthers(const session::State& state) {
     }
 }
 
-std::vector<std::shared_ptr<CriticalSearchRun>> CriticalSearches::running() const {
-    std::vector<std::shared_ptr<CriticalSearchRun>> found;
+std::vector<std::shared_ptr<CriticalSearchHandle>> CriticalSearches::running() const {
+    std::vector<std::shared_ptr<CriticalSearchHandle>> found;
     for (const auto& each : searches_) {
         if (auto search = each.lock()) found.push_back(std::move(search));
     }

@@ -12,10 +12,10 @@
 namespace oval4d::net {
 
 /// A queued or running search for critical values of w.
-class CriticalSearchRun {
+class CriticalSearchHandle {
   public:
     /// `by`: the connection that requested the search, or null. `workersStop`: its stop request stops the search, too.
-    CriticalSearchRun(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
+    CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
     /// Returns the arguments that determine the result of the search.
@@ -39,17 +39,17 @@ class CriticalSearches {
   public:
     /// Registers a search for the critical values of w of a state. The caller must run the search, and keep the
     /// returned pointer as long as it runs.
-    std::shared_ptr<CriticalSearchRun> add(const std::shared_ptr<Peer>& by, const session::State& state,
-                                           std::stop_token workersStop);
-    /// Requests a stop of the searches that this connection has begun.
+    std::shared_ptr<CriticalSearchHandle> add(const std::shared_ptr<Peer>& by, const session::State& state,
+                                              std::stop_token workersStop);
+    /// Requests a stop of the searches that this connection has requested.
     void stop(const std::shared_ptr<Peer>& by);
     /// Requests a stop of the searches whose results this state does not need.
     void stopOthers(const session::State& state);
 
   private:
-    std::vector<std::shared_ptr<CriticalSearchRun>> running() const;
+    std::vector<std::shared_ptr<CriticalSearchHandle>> running() const;
 
-    std::vector<std::weak_ptr<CriticalSearchRun>> searches_;  // ended ones are removed when the next one begins
+    std::vector<std::weak_ptr<CriticalSearchHandle>> searches_;  // ended ones are removed when one is added
 };
 
 }  // namespace oval4d::net

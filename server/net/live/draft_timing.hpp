@@ -6,9 +6,9 @@
 
 namespace oval4d::net {
 
-/// Tells whether pictures of a field must be drafts (slicing::Quality::draft), because the session changes in quick
-/// succession. A period of quick changes begins with a change that follows another one within kBurst. It ends when the
-/// session has not changed for kRest, or with a change that is not quick.
+/// Tells whether a session changes in quick succession, so that pictures of a field must be drafts
+/// (slicing::Quality::draft). A period of quick changes begins with a change that follows another one within kBurst. It
+/// ends when the session has not changed for kRest, or with a change that is not quick.
 class DraftTiming {
   public:
     using Clock = std::chrono::steady_clock;
@@ -31,7 +31,7 @@ class DraftTiming {
     bool isQuick() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point changed() const { return changed_; }
-    /// Returns the time at which rest() ends a period of quick changes, unless there is another change.
+    /// Returns the time from which rest() ends a period of quick changes, if the session does not change before.
     Clock::time_point restEnds() const { return changed_ + kRest; }
 
   private:

@@ -26,8 +26,8 @@ class HeldSession {
 
   private:
     const ClientPtr client_;
-    std::size_t objectMemory_;             // for objectMemory_ and the memory of the history
-    ByteBudget::Reservation reservation_;  // of objectMemory_ and the memory of the history
+    std::size_t objectMemory_;             // result of session::ownObjectMemory(), in bytes
+    ByteBudget::Reservation reservation_;  // for objectMemory_ and the memory of the history
 };
 
 }  // namespace oval4d::net

@@ -70,7 +70,7 @@ std::shared_ptr<LiveSession> LiveSession::create(Services services, store::Write
 }
 
 asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
-    return asio::co_spawn(strand_, run(std::move(peer), std::move(hello), id), asio::use_awaitable);
+    return execute(std::move(peer), {id, std::move(hello)});
 }
 
 asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Request request) {
@@ -120,8 +120,8 @@ void LiveSession::scheduleSave() {
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
-/// Returns a function that writes the session, or only its head, to the store. The returned function calls its argument
-/// when the write is done: see WriteBehindStore::save().
+/// Returns a function that writes the session, or only its head (the state and the revision), to the store. This
+/// function calls its argument when the write is done: see WriteBehindStore::save().
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -135,6 +135,7 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
     };
 }
 
+template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
     streams_->add(peer, {hello.stream, hello.encoding, hello.viewport, hello.scheme});
@@ -144,18 +145,14 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello h
     co_return;
 }
 
-asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
-    assertOnStrand();
-    // This does not compile if a kind of request has no function `run`.
-    co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);
-}
-
+template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id) {
     if (id) peer->send(doneMessage(id, revision()));
     streams_->pictureShown(*peer, shown.revision);
     co_return;
 }
 
+template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*ping*/, RequestId id) {
     const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
     peer->send(textMessage(wire::pongMessage({workers.size(), workers.waiting(), workers.busyTime().count(),
@@ -164,6 +161,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*
     co_return;
 }
 
+template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Command command, RequestId id) {
     const auto applied = co_await perform(peer->client(), peer, command, id.has_value());
     if (!applied) {
@@ -209,9 +207,9 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
             loaded = session_.loaded;
             done = session::apply(session_, command, services_.options.session, *loader);
             if (!loader->isPending()) break;
-            std::shared_ptr<CriticalSearchRun> search;
+            std::shared_ptr<CriticalSearchHandle> search;
             if (loader->isSearchPending()) {
-                search = beginSearch(peer);
+                search = registerSearch(peer);
                 // Without this call, nothing would be read from the client, because its next message waits for this
                 // command.
                 if (peer) peer->watchWhileExecuting();
@@ -252,8 +250,9 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by,
     co_return applied;
 }
 
-/// Begins a search for the critical values of w of the current state.
-std::shared_ptr<CriticalSearchRun> LiveSession::beginSearch(const std::shared_ptr<Peer>& peer) {
+/// Registers a search for the critical values of w of the current object (see slicing/critical/), so that it can be
+/// stopped. loadPending() runs it.
+std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::shared_ptr<Peer>& peer) {
     assertOnStrand();
     return searches_.add(peer, session_.current, services_.exportWorkers.stopToken());
 }
@@ -262,7 +261,7 @@ std::shared_ptr<CriticalSearchRun> LiveSession::beginSearch(const std::shared_pt
 /// its registration, otherwise null. Returns an error if there is no room for the result, else an empty optional.
 asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
                                                                std::shared_ptr<session::ObjectLoader> loader,
-                                                               std::shared_ptr<CriticalSearchRun> search) {
+                                                               std::shared_ptr<CriticalSearchHandle> search) {
     auto reservation = held_->client()->byteAccount().reserve(loader->bytesNeeded());
     if (!reservation) co_return kTooManyBytes;
     if (loader->pendingNeedsFile()) {
@@ -280,6 +279,7 @@ asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
     co_return std::nullopt;
 }
 
+template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
     const StreamKey* const stream = streams_->streamOf(*peer);
     if (stream == nullptr) co_return;
@@ -384,7 +384,7 @@ asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCritical(std::sha
     const session::State asked = session_.current;
     auto found = loader->criticalSections(asked);
     if (!loader->isPending()) co_return found;
-    auto search = beginSearch(peer);
+    auto search = registerSearch(peer);
     if (auto refused = co_await loadPending(peer->client(), loader, std::move(search))) co_return *refused;
     co_return loader->criticalSections(asked);
 }
@@ -423,6 +423,12 @@ std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const Stre
         metrics.observe(pipeline.times());
         return picture;
     };
+}
+
+// The last function, because the specializations of run() must be declared before it.
+asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
+    assertOnStrand();
+    co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);
 }
 
 }  // namespace oval4d::net

@@ -89,12 +89,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
-    // Each overload executes requests of one kind, and answers them.
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, session::Command command, RequestId id);
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id);
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Ping ping, RequestId id);
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
+    /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; the
+    /// program does not link without one.
+    template <typename Body>
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, Body body, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     void answerWithAddress(Peer& peer, RequestId id);
@@ -102,7 +100,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCritical(std::shared_ptr<Peer> peer, RequestId id);
     boost::asio::awaitable<Result<slicing::CriticalPtr>> findCritical(std::shared_ptr<Peer> peer);
-    std::shared_ptr<CriticalSearchRun> beginSearch(const std::shared_ptr<Peer>& peer);
+    std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(ClientPtr by, session::Command command);
@@ -111,7 +109,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::shared_ptr<session::ObjectLoader> makeLoader() const;
     boost::asio::awaitable<std::optional<Error>> loadPending(ClientPtr by,
                                                              std::shared_ptr<session::ObjectLoader> loader,
-                                                             std::shared_ptr<CriticalSearchRun> search);
+                                                             std::shared_ptr<CriticalSearchHandle> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void scheduleSave();
     /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is

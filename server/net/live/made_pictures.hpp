@@ -32,8 +32,9 @@ class MadePictures {
         return found == pictures_.end() ? nullptr : &found->second;
     }
 
-    /// Adds pictures of `snapshot`. If this snapshot is newer than the one that is kept, it replaces that one and its
-    /// pictures; if it is older, does nothing. `snapshot` may be null if there are no pictures.
+    /// Adds pictures of `snapshot`; does nothing if the snapshot that is kept is newer. If `snapshot` is not the
+    /// snapshot that is kept, first replaces that snapshot and drops its pictures. `snapshot` may be null if there are
+    /// no pictures.
     void add(const SnapshotPtr& snapshot, List pictures) {
         const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;

@@ -18,7 +18,8 @@ class MotionTiming {
     /// client that shows only one picture per second.
     static constexpr Clock::duration kLongestStep = std::chrono::milliseconds(250);
 
-    /// Makes a step if one is due. Returns the time that the step covers, or an empty optional if no step is due yet.
+    /// Records that the object makes a step now, if one is due. Returns the time that the step covers, or an empty
+    /// optional if no step is due yet.
     std::optional<Clock::duration> step(Clock::time_point now) {
         if (last_ && now < due()) return std::nullopt;
         const Clock::duration covered = last_ ? std::min(now - *last_, kLongestStep) : kInterval;

@@ -2,18 +2,18 @@
 
 namespace oval4d::net {
 
-void Pacing::sent(std::uint64_t revision) {
+void Pacing::recordSent(std::uint64_t revision) {
     newest_ = revision;
     unshown_.push_back({revision, {}});
 }
 
-void Pacing::written(std::uint64_t revision, Clock::time_point now) {
+void Pacing::recordWritten(std::uint64_t revision, Clock::time_point now) {
     for (Picture& picture : unshown_) {
         if (picture.revision == revision) picture.written = now;
     }
 }
 
-void Pacing::shown(std::uint64_t revision) {
+void Pacing::recordShown(std::uint64_t revision) {
     while (!unshown_.empty() && unshown_.front().revision <= revision) unshown_.pop_front();
 }
 

@@ -22,13 +22,13 @@ class Pacing {
     std::optional<std::uint64_t> newest() const { return newest_; }
 
     /// Records that the picture of this revision was queued for the client.
-    void sent(std::uint64_t revision);
+    void recordSent(std::uint64_t revision);
     /// Records that the client will receive no picture of this revision.
-    void skipped(std::uint64_t revision) { newest_ = revision; }
+    void recordSkipped(std::uint64_t revision) { newest_ = revision; }
     /// Records that the picture of this revision was written to the socket.
-    void written(std::uint64_t revision, Clock::time_point now);
+    void recordWritten(std::uint64_t revision, Clock::time_point now);
     /// Records that the client has shown this revision, and hence all earlier ones.
-    void shown(std::uint64_t revision);
+    void recordShown(std::uint64_t revision);
 
     /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.

@@ -39,18 +39,18 @@ PictureStreams::PictureStreams(Services services, Strand strand, std::string ses
 void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
     assertOnStrand();
     Lanes lanes = lanesOf(peer->client());
-    clients_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
+    subscribers_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
 }
 
 const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
     assertOnStrand();
-    const auto client = clients_.find(&peer);
-    return client == clients_.end() ? nullptr : &client->second.streamKey;
+    const auto subscriber = subscribers_.find(&peer);
+    return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
 PictureStreams::Lanes PictureStreams::lanesOf(const ClientPtr& own) const {
-    for (const auto& [key, client] : clients_) {
-        if (client.lanes.client == own) return client.lanes;
+    for (const auto& [key, subscriber] : subscribers_) {
+        if (subscriber.lanes.client == own) return subscriber.lanes;
     }
     return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureFlow()),
             std::make_shared<parallel::WorkerPool::Lane>(own->exportFlow())};
@@ -58,16 +58,16 @@ PictureStreams::Lanes PictureStreams::lanesOf(const ClientPtr& own) const {
 
 void PictureStreams::closeAll(std::uint16_t code, const std::string& reason) {
     assertOnStrand();
-    for (const auto& [key, client] : clients_) {
-        if (const auto peer = client.peer.lock()) peer->close(code, reason);
+    for (const auto& [key, subscriber] : subscribers_) {
+        if (const auto peer = subscriber.peer.lock()) peer->close(code, reason);
     }
 }
 
 void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
     assertOnStrand();
-    const auto client = clients_.find(&peer);
-    if (client == clients_.end()) return;
-    client->second.pacing.shown(ofRevision);
+    const auto subscriber = subscribers_.find(&peer);
+    if (subscriber == subscribers_.end()) return;
+    subscriber->second.pacing.recordShown(ofRevision);
     update();
 }
 
@@ -77,20 +77,20 @@ void PictureStreams::update() {
     std::vector<StreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
-    for (auto& [key, client] : clients_) {
-        if (client.pacing.newest() == revision() && client.quality >= wanted) continue;
-        if (client.streamKey.stream == Stream::none) {
-            if (!client.stateInFlight) sendState(client);
+    for (auto& [key, subscriber] : subscribers_) {
+        if (subscriber.pacing.newest() == revision() && subscriber.quality >= wanted) continue;
+        if (subscriber.streamKey.stream == Stream::none) {
+            if (!subscriber.stateInFlight) sendState(subscriber);
             continue;
         }
         allServed = false;
-        if (!client.pacing.hasRoom()) continue;
-        if (const Message* picture = pictures_.find(client.streamKey, revision(), wanted)) {
-            sendPicture(client, *picture);
-        } else if (!inProgress_.isEncoding(client.streamKey, revision(), wanted) &&
-                   client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey)) &&
-                   std::ranges::find(missing, client.streamKey) == missing.end()) {
-            missing.push_back(client.streamKey);
+        if (!subscriber.pacing.hasRoom()) continue;
+        if (const Message* picture = pictures_.find(subscriber.streamKey, revision(), wanted)) {
+            sendPicture(subscriber, *picture);
+        } else if (!inProgress_.isEncoding(subscriber.streamKey, revision(), wanted) &&
+                   subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey)) &&
+                   std::ranges::find(missing, subscriber.streamKey) == missing.end()) {
+            missing.push_back(subscriber.streamKey);
         }
     }
     if (!missing.empty()) requestPictures(std::move(missing));
@@ -101,13 +101,13 @@ void PictureStreams::update() {
 /// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
 slicing::Quality PictureStreams::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
-    return session_.current.moves() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
+    return session_.current.isMoving() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
 }
 
 /// Schedules pictures of full quality for the time when the session has rested. Until the timer expires,
 /// wantedQuality() remains `draft`: otherwise a busy server, which makes the draft late, would skip it.
 void PictureStreams::scheduleRefinement() {
-    if (session_.current.moves()) return;
+    if (session_.current.isMoving()) return;
     refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
         streams.draftTiming_.rest(Clock::now());
         streams.update();
@@ -118,12 +118,12 @@ void PictureStreams::scheduleRefinement() {
 /// the current revision can receive the next one.
 void PictureStreams::advanceMotion() {
     assertOnStrand();
-    if (!session_.current.moves()) {
+    if (!session_.current.isMoving()) {
         motionTiming_.stop();
         return;
     }
     if (inProgress_.isDrawing() ||
-        std::ranges::none_of(clients_, [this](const auto& entry) { return readyForNext(entry.second); }))
+        std::ranges::none_of(subscribers_, [this](const auto& entry) { return readyForNext(entry.second); }))
         return;
     const auto now = Clock::now();
     const auto passed = motionTiming_.step(now);
@@ -138,11 +138,12 @@ void PictureStreams::advanceMotion() {
     moved_();
 }
 
-bool PictureStreams::readyForNext(const Subscriber& client) const {
-    const bool hasNewest = client.pacing.newest() == revision();
-    if (!hasNewest && !inProgress_.isEncoding(client.streamKey, revision(), slicing::Quality::draft)) return false;
-    return client.streamKey.stream == Stream::none ? !client.stateInFlight
-                                                   : client.pacing.hasRoom(inProgress_.countEncoding(client.streamKey));
+bool PictureStreams::readyForNext(const Subscriber& subscriber) const {
+    const bool hasNewest = subscriber.pacing.newest() == revision();
+    if (!hasNewest && !inProgress_.isEncoding(subscriber.streamKey, revision(), slicing::Quality::draft)) return false;
+    return subscriber.streamKey.stream == Stream::none
+               ? !subscriber.stateInFlight
+               : subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey));
 }
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
@@ -151,7 +152,7 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
     const bool isNew = !inProgress_.isDrawing();
-    const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
+    const parallel::WorkerPool::LanePtr lane = subscriberToCharge(wanted).lanes.pictures;
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
     PictureJob next{inProgress_.job(),      session_.current, revision(),
@@ -165,7 +166,7 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     if (!isNew) return;
     const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
     if (services_.pictureWorkers.post(job, lane, cost)) {
-        inProgress_.queued();
+        inProgress_.recordQueued();
     } else {
         queuedJob_.reset();
         scheduleRetry();
@@ -174,10 +175,10 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
 
 /// Returns the client to whose lane a job for the pictures `wanted` is charged. The clients that receive the pictures
 /// of a job take turns.
-const PictureStreams::Subscriber& PictureStreams::clientToCharge(const std::vector<StreamKey>& wanted) const {
+const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
-    for (const auto& [peer, client] : clients_) {
-        if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);
+    for (const auto& [peer, subscriber] : subscribers_) {
+        if (std::ranges::find(wanted, subscriber.streamKey) != wanted.end()) payers.push_back(&subscriber);
     }
     return *payers[inProgress_.job() % payers.size()];
 }
@@ -217,7 +218,7 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
 void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
     asio::post(strand_, [self = shared_from_this(),
                          drawn = PicturesInProgress::Encoding{job.number, job.revision, job.quality, key}] {
-        self->inProgress_.drawn(drawn);
+        self->inProgress_.recordDrawn(drawn);
         self->update();
     });
 }
@@ -227,43 +228,43 @@ void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
 /// time to make.
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
-    inProgress_.done(result.job);
+    inProgress_.recordDone(result.job);
     pictures_.add(result.snapshot, std::move(result.pictures));
-    for (auto& [key, client] : clients_) {
-        if (client.streamKey.stream == Stream::none || !client.pacing.hasRoom()) continue;
-        const auto newest = client.pacing.newest();
-        if (newest && std::tie(*newest, client.quality) >= std::tie(result.revision, result.quality)) continue;
-        if (const Message* picture = pictures_.find(client.streamKey, result.revision, result.quality)) {
-            sendPicture(client, *picture);
-        } else if (const auto failed = std::ranges::find(result.failed, client.streamKey, &FailedPicture::first);
+    for (auto& [key, subscriber] : subscribers_) {
+        if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
+        const auto newest = subscriber.pacing.newest();
+        if (newest && std::tie(*newest, subscriber.quality) >= std::tie(result.revision, result.quality)) continue;
+        if (const Message* picture = pictures_.find(subscriber.streamKey, result.revision, result.quality)) {
+            sendPicture(subscriber, *picture);
+        } else if (const auto failed = std::ranges::find(result.failed, subscriber.streamKey, &FailedPicture::first);
                    failed != result.failed.end()) {
-            client.pacing.skipped(result.revision);
-            client.quality = result.quality;
-            if (const auto peer = client.peer.lock()) sendError(*peer, services_.metrics, failed->second, {});
+            subscriber.pacing.recordSkipped(result.revision);
+            subscriber.quality = result.quality;
+            if (const auto peer = subscriber.peer.lock()) sendError(*peer, services_.metrics, failed->second, {});
         }
     }
     update();
 }
 
 /// Sends the state of the newest snapshot, followed by `picture`, which was made of this snapshot.
-void PictureStreams::sendPicture(Subscriber& client, const Message& picture) {
-    const auto peer = client.peer.lock();
+void PictureStreams::sendPicture(Subscriber& subscriber, const Message& picture) {
+    const auto peer = subscriber.peer.lock();
     if (!peer) return;
     const Snapshot& snapshot = *pictures_.snapshot();
-    client.pacing.sent(snapshot.revision);
-    client.quality = snapshot.quality;
-    services_.metrics.countPicture(client.streamKey.stream);
-    peer->send({snapshot.stateTextFor(client.streamKey.scheme), false});
+    subscriber.pacing.recordSent(snapshot.revision);
+    subscriber.quality = snapshot.quality;
+    services_.metrics.countPicture(subscriber.streamKey.stream);
+    peer->send({snapshot.stateTextFor(subscriber.streamKey.scheme), false});
     peer->send(picture,
-               [weak = weak_from_this(), to = client.peer, sent = snapshot.revision, since = snapshot.changed] {
+               [weak = weak_from_this(), to = subscriber.peer, sent = snapshot.revision, since = snapshot.changed] {
                    const auto now = Clock::now();
                    const auto self = weak.lock();
                    if (!self) return;
                    self->services_.metrics.latency.Observe(Seconds(now - since).count());
                    asio::post(self->strand_, [self, to, sent, now] {
-                       const auto written = self->clients_.find(to.lock().get());
-                       if (written == self->clients_.end()) return;
-                       written->second.pacing.written(sent, now);
+                       const auto written = self->subscribers_.find(to.lock().get());
+                       if (written == self->subscribers_.end()) return;
+                       written->second.pacing.recordWritten(sent, now);
                        self->schedulePacing();
                    });
                });
@@ -271,28 +272,28 @@ void PictureStreams::sendPicture(Subscriber& client, const Message& picture) {
 
 /// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
 /// client's socket accepts messages, states in between are skipped.
-void PictureStreams::sendState(Subscriber& client) {
-    const auto peer = client.peer.lock();
+void PictureStreams::sendState(Subscriber& subscriber) {
+    const auto peer = subscriber.peer.lock();
     if (!peer) return;
     SharedBytes text;
-    if (client.streamKey.scheme == scene::Scheme::dark) {
+    if (subscriber.streamKey.scheme == scene::Scheme::dark) {
         if (stateRevision_ != revision()) {
             stateText_ = SharedBytes(stateText(session_, {}, scene::Scheme::dark));
             stateRevision_ = revision();
         }
         text = stateText_;
     } else {
-        text = SharedBytes(stateText(session_, {}, client.streamKey.scheme));
+        text = SharedBytes(stateText(session_, {}, subscriber.streamKey.scheme));
     }
-    client.pacing.skipped(revision());
-    client.quality = slicing::Quality::full;
-    client.stateInFlight = true;
-    peer->send({text, false}, [weak = weak_from_this(), to = client.peer] {
+    subscriber.pacing.recordSkipped(revision());
+    subscriber.quality = slicing::Quality::full;
+    subscriber.stateInFlight = true;
+    peer->send({text, false}, [weak = weak_from_this(), to = subscriber.peer] {
         const auto self = weak.lock();
         if (!self) return;
         asio::post(self->strand_, [self, to] {
-            const auto written = self->clients_.find(to.lock().get());
-            if (written == self->clients_.end()) return;
+            const auto written = self->subscribers_.find(to.lock().get());
+            if (written == self->subscribers_.end()) return;
             written->second.stateInFlight = false;
             self->update();
         });
@@ -302,15 +303,15 @@ void PictureStreams::sendState(Subscriber& client) {
 /// Starts a timer for expirePictures(), after which pictures that clients have not acknowledged in time count as shown.
 void PictureStreams::schedulePacing() {
     std::optional<Clock::time_point> first;
-    for (const auto& [key, client] : clients_) {
-        const auto deadline = client.pacing.deadline(shownTimeout());
+    for (const auto& [key, subscriber] : subscribers_) {
+        const auto deadline = subscriber.pacing.deadline(shownTimeout());
         if (deadline && (!first || *deadline < *first)) first = deadline;
     }
     if (first) paceTimer_.start(weak_from_this(), *first, &PictureStreams::expirePictures);
 }
 
 void PictureStreams::expirePictures() {
-    for (auto& [key, client] : clients_) client.pacing.assumeShown(Clock::now(), shownTimeout());
+    for (auto& [key, subscriber] : subscribers_) subscriber.pacing.assumeShown(Clock::now(), shownTimeout());
     update();
     schedulePacing();
 }

@@ -32,8 +32,8 @@ namespace oval4d::net {
 /// The clients of a session, and what each of them is sent. Pictures of the newest state follow as fast as workers make
 /// them and clients show them. To this end, a session has at most one picture job that is queued or being drawn. A
 /// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
-/// of a revision is made once and shared by all clients with the same stream, encoding and viewport. While the object
-/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
+/// of a revision is made once and shared by all clients with the same StreamKey. While the object moves, it makes a
+/// step whenever a client can receive the next picture. Every function runs on the session's strand.
 class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
@@ -53,7 +53,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Adds a client, or changes its stream if it was added before.
     void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
-    void remove(const Peer* peer) { clients_.erase(peer); }
+    void remove(const Peer* peer) { subscribers_.erase(peer); }
     /// Returns the stream of a client; null if it was not added. The pointer is valid until the next add() or remove().
     const StreamKey* streamOf(const Peer& peer) const;
     /// Returns the lanes of a client in this session. All connections of a client to a session share these lanes, so
@@ -64,7 +64,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Notes that the session has reached a new revision.
     void sessionChanged(Clock::time_point now) { draftTiming_.change(now); }
-    /// Begins with drafts, as if the session changed in quick succession.
+    /// Makes the next pictures of a field drafts, as if the session changed in quick succession.
     void beginDrafts() { draftTiming_.begin(); }
     /// Notes that a client shows the picture of this revision, and sends the next one.
     void pictureShown(const Peer& peer, std::uint64_t ofRevision);
@@ -118,15 +118,15 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     slicing::Quality wantedQuality() const;
     void scheduleRefinement();
     void requestPictures(std::vector<StreamKey> wanted);
-    const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
+    const Subscriber& subscriberToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
     void onJobDone(JobResult result);
-    void sendPicture(Subscriber& client, const Message& picture);
-    void sendState(Subscriber& client);
+    void sendPicture(Subscriber& subscriber, const Message& picture);
+    void sendState(Subscriber& subscriber);
     void schedulePacing();
     void expirePictures();
     Clock::duration shownTimeout() const;
-    bool readyForNext(const Subscriber& client) const;
+    bool readyForNext(const Subscriber& subscriber) const;
 
     // The following functions run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
@@ -141,7 +141,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     // Used only on the strand.
     const std::shared_ptr<HeldSession> held_;
     session::Session& session_;  // the value of held_
-    std::map<const Peer*, Subscriber> clients_;
+    std::map<const Peer*, Subscriber> subscribers_;
     DraftTiming draftTiming_;
     MotionTiming motionTiming_;
     PicturesInProgress inProgress_;

@@ -26,14 +26,14 @@ class PicturesInProgress {
     /// Returns the number of the job that is queued or being drawn, or else that of the next one. The first is 1.
     std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
     /// Records that the job with the number job() was queued. No other job may be queued or being drawn.
-    void queued() { drawing_ = ++jobs_; }
+    void recordQueued() { drawing_ = ++jobs_; }
     /// Records that the last picture of a job has been drawn and is being encoded.
-    void drawn(const Encoding& picture) {
+    void recordDrawn(const Encoding& picture) {
         if (drawing_ == picture.job) drawing_ = 0;
         encoding_.push_back(picture);
     }
     /// Records that a job is done.
-    void done(std::uint64_t job) {
+    void recordDone(std::uint64_t job) {
         if (drawing_ == job) drawing_ = 0;
         std::erase_if(encoding_, [&](const Encoding& each) { return each.job == job; });
     }

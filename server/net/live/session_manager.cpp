@@ -23,7 +23,7 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
 /// of the decoded objects.
 class RecordObjects {
   public:
-    RecordObjects(const store::Record& record, store::FileOpener open) : open_(std::move(open)) {
+    RecordObjects(const store::Record& record, store::DataFolderReader open) : open_(std::move(open)) {
         for (const auto& [key, bytes] : record.objects) bytes_[key] = bytes;
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
@@ -40,7 +40,7 @@ class RecordObjects {
     }
 
   private:
-    store::FileOpener open_;
+    store::DataFolderReader open_;
     std::map<std::string, std::string_view> bytes_;
     std::map<std::string, std::optional<slicing::Object>> decoded_;
 };
@@ -85,9 +85,9 @@ std::optional<Error> SessionManager::admitSession(Client& client) {
         evict(*unmodified);
     }
     if (!client.admitNewSession(now)) {
-        return Error{ErrorCode::too_many, "one address may open at most " +
-                                              std::to_string(static_cast<long long>(options.client.newSessions)) +
-                                              " sessions per minute; try again soon"};
+        const auto most = static_cast<long long>(options.client.newSessionsPerMinute);
+        return Error{ErrorCode::too_many,
+                     "one address may open at most " + std::to_string(most) + " sessions per minute; try again soon"};
     }
     if (writeBehind_.count() >= options.maxSessions) {
         const auto unmodified = byClient_.oldestUnmodified(now);
@@ -160,8 +160,8 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
     } else {
         const Seconds cost = decodingCost(fetch->record);
         // Opening a file of the data folder may take long.
-        const bool opensFile = std::ranges::any_of(fetch->record.objects,
-                                                   [](const auto& object) { return store::namesFile(object.second); });
+        const bool opensFile = std::ranges::any_of(
+            fetch->record.objects, [](const auto& object) { return store::refersToFile(object.second); });
         parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
         const bool accepted = pool.post([self = shared_from_this(), pending, record = std::move(fetch->record)](
                                             std::size_t /*worker*/) { self->decode(pending, record); },

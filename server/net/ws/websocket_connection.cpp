@@ -7,7 +7,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "net/coroutine_helpers.hpp"
-#include "net/jobs/parse_job.hpp"
+#include "net/jobs/parse_long_message_job.hpp"
 #include "net/jobs/run_on_pool.hpp"
 #include "net/live/errors.hpp"
 #include "store/secret.hpp"
@@ -42,7 +42,7 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       client_(std::move(client)),
       requestedId_(std::move(session)),
       joined_(std::move(joined)),
-      rate_(services.options.maxRequests, RateLimit::Clock::now()),
+      rate_(services.options.maxRequestsPerSecond, RateLimit::Clock::now()),
       deadline_(stream_.get_executor()),
       drainedSignal_(stream_.get_executor()),
       executedSignal_(stream_.get_executor()),
@@ -73,7 +73,7 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
         response.set(beast::http::field::server, "oval4d");
         if (offersSubprotocol) response.set(beast::http::field::sec_websocket_protocol, kSubprotocol);
     }));
-    stream_.read_message_max(services_.options.maxRequestBytes);  // raised to maxMessage after the hello
+    stream_.read_message_max(services_.options.maxRequestBytes);  // raised to maxLoadMessageBytes after the hello
     stream_.auto_fragment(false);
 }
 
@@ -103,9 +103,9 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
     spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
 }
 
-/// Starts to handle the message in `message_`; `executing_` is true until it has been handled. Does not combine the
-/// coroutine with readAhead() by Asio's operator &&: its cancellation is not thread-safe if a coroutine awaits another
-/// strand, here that of the session (https://github.com/chriskohlhoff/asio/issues/1348).
+/// Starts to handle the message in `message_`; `executing_` is true until it has been handled. Asio's operator && could
+/// run the coroutine together with readAhead(), but the cancellation by this operator is not thread-safe if a coroutine
+/// awaits another strand, here the session's (https://github.com/chriskohlhoff/asio/issues/1348).
 void WebSocketConnection::startMessage(Incoming incoming) {
     executing_ = true;
     watching_ = false;
@@ -118,10 +118,9 @@ void WebSocketConnection::startMessage(Incoming incoming) {
                    });
 }
 
-/// Reads the next message when the current one has been executed. In a session, also reads it earlier, if the current
-/// one has taken so long that the client's pong may be due, or after watchWhileExecuting(). Does not read at once, so
-/// that a client that closes the connection right after a request still receives the answer, except that of a long
-/// search.
+/// Reads the next message when the current one has been executed. In a session, reads it earlier if the current one has
+/// taken so long that the client's pong may be due, or after watchWhileExecuting(), which is called for long searches.
+/// Otherwise waits, so that a client that closes the connection right after a request still receives the answer.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -183,8 +182,8 @@ void WebSocketConnection::checkLongMessage(Incoming& incoming) {
         wire::peekRequest({static_cast<const char*>(buffer_.cdata().data()), services_.options.maxRequestBytes});
     incoming.id = seen.id;
     if (seen.type && *seen.type != "load") {
-        incoming.refusal = tooLong(services_.options);
-    } else if (auto held = client_->byteAccount().reserve(kCopies * services_.options.maxMessage)) {
+        incoming.refusal = messageTooLong(services_.options);
+    } else if (auto held = client_->byteAccount().reserve(kCopies * services_.options.maxLoadMessageBytes)) {
         incoming.held = std::move(*held);
     } else {
         incoming.refusal = kTooManyBytes;
@@ -209,7 +208,7 @@ asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
     RequestId id;
     try {
         if (const auto verdict = rate_.take(RateLimit::Clock::now()); verdict != RateLimit::Verdict::allowed) {
-            sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequests) +
+            sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequestsPerSecond) +
                                                 " messages per second are allowed; this one was ignored"},
                       wire::peekRequest(text.substr(0, services_.options.maxRequestBytes)).id);
             if (verdict == RateLimit::Verdict::abusive) close(close_code::kPolicy, "too many requests");
@@ -236,7 +235,7 @@ asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
 asio::awaitable<Parsed> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
-    auto work = parseJob(text, services_.options);
+    auto work = parseLongMessageJob(text, services_.options);
     co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->pictureLane(),
                                          Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
@@ -275,7 +274,7 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
     if (!session_) {
         session_ = *joined;
         helloDeadline_.cancel();
-        stream_.read_message_max(services_.options.maxMessage);
+        stream_.read_message_max(services_.options.maxLoadMessageBytes);
         if (joined_) joined_();
     }
     co_await session_->welcome(shared_from_this(), std::move(hello), id);
@@ -327,7 +326,7 @@ void WebSocketConnection::send(Message message, std::function<void()> written) {
                    const std::size_t size = message.bytes.size();
                    auto& account = self->client_->byteAccount();
                    auto held = account.reserve(size);
-                   if (!held && self->unsent_ + size > kMinQueue) return self->dropSlowReader();
+                   if (!held && self->unsent_ + size > kMinQueue) return self->closeForUnreadBytes();
                    self->unsent_ += size;
                    self->outbox_.push_back(
                        {std::move(message), std::move(written), held ? std::move(*held) : account.forceReserve(size)});
@@ -336,8 +335,8 @@ void WebSocketConnection::send(Message message, std::function<void()> written) {
 }
 
 /// Closes the connection because the messages that the client has not read exceed the byte limits.
-void WebSocketConnection::dropSlowReader() {
-    services_.metrics.slowReaders.Increment();
+void WebSocketConnection::closeForUnreadBytes() {
+    services_.metrics.droppedSlowClients.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
     startClosing(close_code::kTryLater, "too many unread bytes");
 }
@@ -357,7 +356,11 @@ void WebSocketConnection::close(std::uint16_t code, std::string reason) {
 
 void WebSocketConnection::closeForShutdown() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
-        while (self->outbox_.size() > (self->writing_ ? 1U : 0U)) self->outbox_.pop_back();
+        while (self->outbox_.size() > (self->writing_ ? 1U : 0U)) {
+            self->unsent_ -= self->outbox_.back().message.bytes.size();
+            self->outbox_.pop_back();
+        }
+        self->drainedSignal_.cancel();  // read() may wait for messages that are now discarded
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
     });
 }
@@ -378,7 +381,7 @@ void WebSocketConnection::writeNext() {
     writing_ = !outbox_.empty();
     if (writing_) {
         stream_.binary(outbox_.front().message.binary);
-        minReadRate_.emplace(services_.options);
+        transferDeadline_.emplace(services_.options);
         writeFragment(0);
     } else if (closing_ && !ended_) {
         stream_.async_close(*closing_, [self = shared_from_this()](boost::system::error_code) {});
@@ -386,7 +389,7 @@ void WebSocketConnection::writeNext() {
 }
 
 /// Writes the first message in the queue from the offset `from` to its end, in fragments. Each fragment has a deadline
-/// of its own, so that a slow client is not dropped as long as it reads fast enough (see MinReadRate).
+/// of its own, so that a slow client is not dropped as long as it reads fast enough (see TransferDeadline).
 void WebSocketConnection::writeFragment(std::size_t from) {
     const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
     const std::string_view fragment = rest.substr(0, kWriteFragment);
@@ -399,7 +402,7 @@ void WebSocketConnection::writeFragment(std::size_t from) {
                 self->onWritten(fault);
             } else {
                 ++self->writes_;
-                self->minReadRate_->count(kWriteFragment);
+                self->transferDeadline_->count(kWriteFragment);
                 self->writeFragment(to);
             }
         });
@@ -427,10 +430,10 @@ void WebSocketConnection::onWritten(boost::system::error_code fault) {
 
 /// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
 void WebSocketConnection::startWriteDeadline() {
-    deadline_.expires_after(minReadRate_->timeout());
+    deadline_.expires_after(transferDeadline_->timeout());
     deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code canceled) {
         if (canceled || self->writes_ != watched || !self->writing_ || self->ended_) return;
-        self->services_.metrics.slowReaders.Increment();
+        self->services_.metrics.droppedSlowClients.Increment();
         spdlog::warn("client dropped: it reads too slowly");
         beast::get_lowest_layer(self->stream_).close();
     });

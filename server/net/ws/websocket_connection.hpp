@@ -17,8 +17,8 @@
 #include "net/live/peer.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/services.hpp"
+#include "net/transfer_deadline.hpp"
 #include "net/ws/beast_close_code_fix.hpp"
-#include "net/ws/min_read_rate.hpp"
 #include "net/ws/rate_limit.hpp"
 #include "wire/parse.hpp"
 #include "wire/request.hpp"
@@ -90,7 +90,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::function<void(SessionManager::JoinHandler)> sessionOpener(const std::string& token);
     void sendError(const Error& error, RequestId id);
 
-    void dropSlowReader();
+    void closeForUnreadBytes();
     void startClosing(std::uint16_t code, std::string reason);
     void writeNext();
     void writeFragment(std::size_t from);
@@ -115,7 +115,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     bool writing_ = false, ended_ = false;
     std::uint64_t writes_ = 0;  // number of completed writes; tells deadline_ whether its write has completed
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
-    std::optional<MinReadRate> minReadRate_;  // gives the timeouts of the message that is being written
+    std::optional<TransferDeadline> transferDeadline_;  // gives the timeouts of the message that is being written
     // The deadlines of the current write and of the hello, and two timers that are canceled to wake waiting coroutines:
     // `drainedSignal_` when messages were written, `executedSignal_` when a message was handled.
     boost::asio::steady_timer deadline_, drainedSignal_, executedSignal_, helloDeadline_;

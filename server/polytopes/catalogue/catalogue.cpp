@@ -119,8 +119,8 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a name with this edit distance from a text of `length` letters may be a spelling of the text: whether
-// there is at most one mistake in three letters.
+// Returns whether a text of `length` letters may be a misspelling of a name at this edit distance: whether it has at
+// most one mistake in three letters.
 bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
 // Returns the names with the least edit distance from `text`, at most one for each entry; an empty list if no name is
@@ -157,13 +157,13 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
     };
     const std::uint64_t vertices = elementCounts(design).vertices;
     if (vertices > maxVertices) return error(" has " + std::to_string(vertices) + " vertices", maxVertices);
-    const std::uint64_t points = design.recipe->hullPoints();
+    const std::uint64_t points = design.recipe->hullPointCount();
     if (points > kMaxHullPoints)
         return error(" takes convex hulls of about " + std::to_string(points) + " points", kMaxHullPoints);
     return {};
 }
 
-// Returns designNamed() of a name within another name. Unlike there, an error always has a message.
+// Returns the result of designNamed() for a name within another name. Adds a message to an error that has none.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {

@@ -17,8 +17,8 @@ namespace oval4d::polytopes {
 /// An entry of the catalogue. The numbers and symbols come from the design; the polytope need not be built.
 struct CatalogueEntry {
     std::string name;                  ///< "24-cell"
-    std::string family;                ///< "regular", "star", "uniform A4" … "H4", "other", "prism", "antiprism prism",
-                                       ///< "duoprism"
+    std::string family;                ///< "regular", "star", "uniform A4" (or B4, F4, H4), "other", "prism",
+                                       ///< "antiprism prism", "duoprism"
     std::vector<std::string> aliases;  ///< other names, lower case: "icositetrachoron", "ico", "rectified 16-cell"
     std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, "x3o4o3o", or empty
     std::string schlaefli;             ///< Schläfli symbol, "{3,4,3}", or empty
@@ -41,8 +41,8 @@ const CatalogueEntry* findEntry(std::string_view text);
 /// Returns the design of the polytope that a text names: the design of an entry of the catalogue, or of any other
 /// polytope that the text describes in one of the notations (see describedBy() in names.hpp). Returns an error if the
 /// text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
-/// `maxVertices` vertices, if its convex hulls have more than kMaxHullPoints points (convex_hull.hpp), or if its
-/// canonical name has more than 256 bytes.
+/// `maxVertices` vertices, if the convex hulls that build it have more than kMaxHullPoints points in total
+/// (convex_hull.hpp), or if its canonical name has more than 256 bytes.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). Among equal

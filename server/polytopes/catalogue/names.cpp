@@ -10,8 +10,8 @@
 #include "polytopes/construction/dual.hpp"
 #include "polytopes/construction/over_polyhedra.hpp"
 #include "polytopes/construction/solids.hpp"
+#include "polytopes/construction/truncation_or_rectification.hpp"
 #include "polytopes/construction/uniform.hpp"
-#include "polytopes/construction/vertex_cuts.hpp"
 #include "text/message_text.hpp"
 #include "text/words.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using Rings = std::array<bool, 4>;
 
-// An operation on regular polychora: it rings these mirrors of their diagrams.
+// An operation on a regular polychoron: the diagram of the result is the same, but with rings around these nodes.
 struct Operation {
     std::string_view name;
     Rings rings;
@@ -155,7 +155,7 @@ constexpr auto kNotations = std::to_array<Notation>({
     // A polytope over a polyhedron: "prism of rhombic dodecahedron", "pyramid of cube", "bipyramid of icosahedron".
     overPolyhedronNamed,
     // A polytope with its vertices cut off: "truncation of grand antiprism", "rectification of pyramid of cube".
-    vertexCutNamed,
+    truncationOrRectificationNamed,
     // Two polytopes or polygons: "hull of tesseract and 16-cell", "intersection of …", "product of 5-gon and 7-gon".
     combinationNamed,
     // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
@@ -225,8 +225,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // Skips operations that leave the first node without a ring, except rectification and bitruncation: their
-            // results have names as operations on the dual.
+            // Skips operations that leave the first node without a ring, because their results also have names as
+            // operations on the dual. Rectification and bitruncation are not skipped.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

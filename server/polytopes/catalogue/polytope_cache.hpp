@@ -33,7 +33,8 @@ class PolytopeCache {
     /// calls for the same design wait until it is built. Throws std::invalid_argument as build() does.
     Shared get(const Design& design);
 
-    /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be built.
+    /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be
+    /// built, except for the first use of the 5-cell.
     Shared find(const Design& design);
 
     /// Returns the memory in bytes of the polytopes that the cache owns, which never exceeds the limit.

@@ -84,9 +84,9 @@ class HullOrIntersection : public Recipe {
         return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.cells + b.cells};
     }
     std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
-    std::uint64_t hullPoints() const override {
+    std::uint64_t hullPointCount() const override {
         const auto [vertices, edges, faces, cells] = counts();
-        return operands_[0].design.recipe->hullPoints() + operands_[1].design.recipe->hullPoints() +
+        return operands_[0].design.recipe->hullPointCount() + operands_[1].design.recipe->hullPointCount() +
                (intersection_ ? cells : vertices);
     }
 
@@ -94,7 +94,7 @@ class HullOrIntersection : public Recipe {
         std::vector<glm::dvec4> points;
         double circumradius = 0;
         for (const Operand& operand : operands_) {
-            const Polytope polytope = buildConvex(operand.design);
+            const Polytope polytope = buildRequiringConvex(operand.design);
             if (circumradius == 0 || operand.circumradius)
                 circumradius = operand.circumradius.value_or(polytope.circumradius);
             const double scale = circumradius / polytope.circumradius;
@@ -104,7 +104,7 @@ class HullOrIntersection : public Recipe {
         }
         if (!intersection_) return centeredHull(name, points);
         const Polytope hull = hullPolytope(name, points);
-        return centered(reciprocalOf(hull, name, polesOf(hull)));
+        return centered(dualWithVertices(hull, name, polesOf(hull)));
     }
 
   private:

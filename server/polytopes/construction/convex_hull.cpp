@@ -72,7 +72,7 @@ Polytope centered(Polytope polytope) {
                         std::move(polytope.cells));
 }
 
-Polytope buildConvex(const Design& design) {
+Polytope buildRequiringConvex(const Design& design) {
     Polytope polytope = build(design);
     if (!polytope.convex) {
         throw std::invalid_argument(

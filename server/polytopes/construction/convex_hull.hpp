@@ -46,6 +46,6 @@ Polytope centered(Polytope polytope);
 /// Builds a polytope from which the caller constructs another one by a convex hull. Throws std::invalid_argument if the
 /// polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides. Also throws the exceptions of
 /// build().
-Polytope buildConvex(const Design& design);
+Polytope buildRequiringConvex(const Design& design);
 
 }  // namespace oval4d::polytopes

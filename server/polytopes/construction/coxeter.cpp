@@ -90,11 +90,11 @@ struct Orbit {
 Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) {
     Orbit orbit;
     geometry::PointIndex index(1e-5 * glm::length(seed));
-    index.add(seed, orbit.points);
+    index.findOrAdd(seed, orbit.points);
     for (std::size_t i = 0; i < orbit.points.size(); ++i) {
         for (const auto& mirror : mirrors) {
             const glm::dvec4 p = orbit.points[i];
-            orbit.images.push_back(index.add(p - 2 * glm::dot(p, mirror) * mirror, orbit.points).first);
+            orbit.images.push_back(index.findOrAdd(p - 2 * glm::dot(p, mirror) * mirror, orbit.points).first);
         }
         if (orbit.points.size() > most)
             throw std::invalid_argument("the polytope has more than " + std::to_string(most) + " vertices");
@@ -233,7 +233,7 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
     }
     SetOrbits cells;
     std::vector<std::uint32_t> cellTypes;
-    const auto symmetries = symmetriesOf(diagram);
+    const auto symmetries = automorphismsOf(diagram);
     for (int left = 0; left < kMirrors; ++left) {
         const MirrorSet three = 0xfU & ~(1U << static_cast<unsigned>(left));
         if (!generatesElement(diagram, three)) continue;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr RegularPolygon kSquare{4, 1};
 
-Diagram known(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
+Diagram parseValidDiagram(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
 
 /// Wythoff's construction from a Coxeter–Dynkin diagram.
 class Wythoffian : public Recipe {
@@ -30,7 +30,7 @@ class Wythoffian : public Recipe {
     explicit Wythoffian(const Diagram& diagram) : diagram_(diagram) {}
 
     ElementCounts counts() const override { return elementCounts(diagram_); }
-    std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * symmetriesOf(diagram_).size(); }
+    std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * automorphismsOf(diagram_).size(); }
     std::string linearNotation() const override { return linearNotationOf(diagram_); }
     std::string schlaefli() const override { return schlaefliOf(diagram_); }
 
@@ -95,23 +95,23 @@ const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
         for (const UniformPolychoron& row : uniformPolychora()) {
-            const Design design{std::string(row.name), wythoffian(known(row.linearNotation))};
-            designs.emplace(canonical(known(row.linearNotation)), design);
+            const Design design{std::string(row.name), wythoffian(parseValidDiagram(row.linearNotation))};
+            designs.emplace(canonical(parseValidDiagram(row.linearNotation)), design);
             for (const std::string_view other : text::splitAtCommas(row.otherDiagrams))
-                designs.emplace(canonical(known(other)), design);
+                designs.emplace(canonical(parseValidDiagram(other)), design);
         }
         for (const NamedPolyhedron& base : namedPolyhedra()) {
             if (base.linearNotation.starts_with('s')) continue;
-            const Diagram diagram = known(std::string(base.linearNotation) + " x");
+            const Diagram diagram = parseValidDiagram(std::string(base.linearNotation) + " x");
             designs.emplace(canonical(diagram),
-                            base.name == "cube" ? designs.at(canonical(known("x4o3o3o")))
+                            base.name == "cube" ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
         // The tetrahedral group is contained in the octahedral group. Therefore the polytopes of these diagrams also
         // have a diagram of the octahedral group.
         for (const auto& [half, whole] :
              {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
-            designs.emplace(canonical(known(half)), designs.at(canonical(known(whole))));
+            designs.emplace(canonical(parseValidDiagram(half)), designs.at(canonical(parseValidDiagram(whole))));
         return designs;
     }();
     return kDesigns;
@@ -141,19 +141,20 @@ Design designOf(const Diagram& diagram) {
 }
 
 Design duoprism(RegularPolygon p, RegularPolygon q) {
-    if (p == kSquare && q == kSquare) return designOf(known("x4o3o3o"));
+    if (p == kSquare && q == kSquare) return designOf(parseValidDiagram("x4o3o3o"));
     if (q < p) std::swap(p, q);
     return {textOf(p) + "," + textOf(q) + "-duoprism",
             wythoffian(Diagram::linear(p, {}, q, {true, false, true, false}))};
 }
 
 Design antiprismPrism(int sides) {
-    if (sides == 3) return designOf(known("o4o3x x"));
+    if (sides == 3) return designOf(parseValidDiagram("o4o3x x"));
     return {adjectiveOf({sides, 1}) + " antiprism prism", std::make_shared<SnubPrism>(Branch{sides, 1}, Branch{2, 1})};
 }
 
 Design prismOf(const NamedPolyhedron& base) {
-    if (!base.linearNotation.starts_with('s')) return designOf(known(std::string(base.linearNotation) + " x"));
+    if (!base.linearNotation.starts_with('s'))
+        return designOf(parseValidDiagram(std::string(base.linearNotation) + " x"));
     const auto digit = [&](std::size_t i) { return Branch{base.linearNotation[i] - '0', 1}; };
     return {std::string(base.adjective) + " prism", std::make_shared<SnubPrism>(digit(1), digit(3))};
 }

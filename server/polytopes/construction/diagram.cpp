@@ -122,7 +122,7 @@ Diagram permuted(const Diagram& diagram, const Permutation& from) {
     return result;
 }
 
-std::vector<Permutation> symmetriesOf(const Diagram& diagram) {
+std::vector<Permutation> automorphismsOf(const Diagram& diagram) {
     std::vector<Permutation> symmetries;
     Permutation order{0, 1, 2, 3};
     do {

@@ -17,8 +17,8 @@ struct Branch {
 };
 
 /// The regular polygon {numerator/denominator}: it has `numerator` sides, and is a star polygon if the denominator is
-/// not 1. Its type is that of a branch because the branch p between a ringed and an unringed mirror generates the
-/// polygon {p}.
+/// not 1. The type is that of a branch because a branch p/q between a ringed mirror (see Diagram) and an unringed one
+/// generates the polygon {p/q}.
 using RegularPolygon = Branch;
 
 /// A set of mirrors of a diagram: bit i is set if it contains mirror i.
@@ -48,7 +48,7 @@ Diagram permuted(const Diagram& diagram, const Permutation& from);
 
 /// Returns the permutations of the mirrors that preserve branches and rings, the identity first. Each of them induces a
 /// symmetry of the polytope.
-std::vector<Permutation> symmetriesOf(const Diagram& diagram);
+std::vector<Permutation> automorphismsOf(const Diagram& diagram);
 
 /// Returns the canonical form of a diagram, which is the same for all diagrams that differ only in the order of their
 /// mirrors.

@@ -60,8 +60,8 @@ NameError badBranch() {
         "5/2");
 }
 
-// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Only counts nodes beyond the
-// fourth; checked() then returns an error.
+// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Nodes beyond the fourth are
+// counted but not stored; checked() then returns an error.
 class Builder {
   public:
     int nodes = 0;

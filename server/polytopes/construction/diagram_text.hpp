@@ -16,21 +16,21 @@ namespace oval4d::polytopes {
 struct NameError {
     enum class Reason : std::uint8_t {
         unknown,     ///< neither a known name nor a known notation; `message` may be empty
-        impossible,  ///< a known notation that describes no polytope, such as "2,5-duoprism"
-        too_large,   ///< the polytope has more vertices than allowed
+        impossible,  ///< in a known notation, but describes no polytope, such as "2,5-duoprism", or is too long
+        too_large,   ///< the polytope has too many vertices, or is built from convex hulls of too many points
     };
     Reason reason = Reason::unknown;
     std::string message;  ///< for the user: what is wrong and what is allowed
 
-    /// Returns an error for a known notation that describes no polytope.
+    /// Returns an error with Reason::impossible.
     static NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
 };
 
 /// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
 /// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; after "*b", the next
-/// branch starts at the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is
-/// finite, and every component has a ringed node. Also returns an error for a branch with an even denominator between
-/// two ringed nodes, because its polygons would cover themselves twice.
+/// branch starts at the second node, as in "x3o3o *b3o". Returns an error if there are not four nodes, if the group is
+/// not finite, if a component has no ringed node, or if a branch with an even denominator joins two ringed nodes; its
+/// polygons would cover themselves twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",

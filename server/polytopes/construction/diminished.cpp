@@ -127,7 +127,8 @@ Polytope buildGrandAntiprism(std::string name) {
     return diminished(std::move(name), whole, removed);
 }
 
-/// A diminished 600-cell. The element counts are given; they follow from the counts of the removed elements.
+/// A diminished 600-cell. The constructor takes the element counts, which follow from the counts of the removed
+/// elements.
 class Diminished600CellRecipe : public Recipe {
   public:
     using Builder = Polytope (*)(std::string name);

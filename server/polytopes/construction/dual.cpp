@@ -50,7 +50,7 @@ class DualRecipe : public Recipe {
     }
     std::uint64_t symmetryOrder() const override { return base_.recipe->symmetryOrder(); }
 
-    std::uint64_t hullPoints() const override { return base_.recipe->hullPoints(); }
+    std::uint64_t hullPointCount() const override { return base_.recipe->hullPointCount(); }
 
     Polytope build(const std::string& name) const override {
         const Polytope base = polytopes::build(base_);
@@ -58,7 +58,7 @@ class DualRecipe : public Recipe {
         double farthest = 0;
         for (const glm::dvec4& v : vertices) farthest = std::max(farthest, glm::length(v));
         for (glm::dvec4& v : vertices) v *= base.circumradius / farthest;
-        return reciprocalOf(base, name, std::move(vertices));
+        return dualWithVertices(base, name, std::move(vertices));
     }
 
   private:
@@ -68,7 +68,7 @@ class DualRecipe : public Recipe {
 }  // namespace
 
 std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
-    constexpr double kLeastDistance = 1e-6;  // relative to the circumradius: a shorter foot counts as 0
+    constexpr double kLeastDistance = 1e-6;  // of a hyperplane from the origin, relative to the circumradius
     std::vector<glm::dvec4> poles;
     for (std::uint32_t c = 0; c < polytope.cells.size(); ++c) {
         const glm::dvec4 foot = footOf(polytope, c);
@@ -80,7 +80,7 @@ std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
     return poles;
 }
 
-Polytope reciprocalOf(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices) {
+Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices) {
     geometry::JaggedArray faces;
     std::vector<std::vector<std::uint32_t>> facesAt(base.vertices.size());
     for (std::uint32_t e = 0; e < base.edges.size(); ++e) {

@@ -26,7 +26,7 @@ class Recipe {
 
     /// Returns the total number of points of all convex hulls that build() computes, or an estimate; 0 if it computes
     /// none.
-    virtual std::uint64_t hullPoints() const { return 0; }
+    virtual std::uint64_t hullPointCount() const { return 0; }
 
     /// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o" or, for a snub, "s3s4o3o"; empty if
     /// there is none.

@@ -31,9 +31,9 @@ TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
     return {m, mirror(m[0]) * mirror(m[1]), mirror(m[1]) * mirror(m[2])};
 }
 
-// Returns the point x between the mirrors that is moved by a distance of 2 by each of rotationP, rotationQ and their
-// product, so that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three g by Newton's
-// method.
+// Returns the point x between the mirrors such that each of rotationP, rotationQ and their product moves x by a
+// distance of 2; then all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three rotations g
+// by Newton's method.
 glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};
@@ -66,17 +66,17 @@ PolyhedronWithOrbits snubOf(Branch p, Branch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
     // The vertices are g · seed for all rotations g of the group. If g is the rotation of vertex i, next[i] holds the
-    // vertices of the rotations g·rotationP and g·rotationQ.
+    // indices of the vertices of the rotations g·rotationP and g·rotationQ.
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;
     std::vector<std::array<std::uint32_t, 2>> next;
     geometry::PointIndex index(1e-5 * glm::length(seed));
-    index.add(glm::dvec4(seed, 0), points);
+    index.findOrAdd(glm::dvec4(seed, 0), points);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
         next.emplace_back();
         for (const std::size_t k : {0U, 1U}) {
             const glm::dmat3 turned = rotations[i] * (k == 0 ? generators.rotationP : generators.rotationQ);
-            const auto [number, fresh] = index.add(glm::dvec4(turned * seed, 0), points);
+            const auto [number, fresh] = index.findOrAdd(glm::dvec4(turned * seed, 0), points);
             if (fresh) rotations.push_back(turned);
             next.back().at(k) = number;
         }

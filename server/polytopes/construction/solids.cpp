@@ -20,7 +20,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// The name of each convex named polyhedron, and the name of its dual (a Platonic or Catalan solid).
+// The name of each Platonic and Archimedean solid, and the name of its dual, a Platonic or Catalan solid.
 constexpr auto kDuals = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"tetrahedron", "tetrahedron"},
     {"cube", "octahedron"},
@@ -120,8 +120,8 @@ SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // For each directed edge: the face whose loop contains the edge in this direction, if all loops are
-    // counterclockwise seen from outside, and the vertex before the edge in this loop.
+    // All loops are made counterclockwise, seen from outside. For each directed edge: the face whose loop then contains
+    // the edge in this direction, and the vertex before the edge in this loop.
     struct Corner {
         std::uint32_t face, before;
     };

@@ -58,14 +58,14 @@ class Merger {
         unmerged_.assign(hyperplanes_.size(), false);
         MergedHull hull;
         do hull = mergeTriangles();
-        while (splitDegenerateCells(hull));
-        countAmbiguousRidges(hull);
+        while (markDegenerateCells(hull));
+        countAmbiguousCellPairs(hull);
         return hull;
     }
 
   private:
     // A triangle on the boundary of a group of simplices.
-    struct Facet {
+    struct BoundaryTriangle {
         Triangle corners;
         std::uint32_t simplex;
         double sign;  // +1 if its normal, by the right-hand rule, points out of the group, else −1
@@ -168,11 +168,11 @@ class Merger {
     std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const Hyperplane& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
-        std::vector<Facet> facets;
+        std::vector<BoundaryTriangle> triangles;
         for (const std::uint32_t s : group) {
             for (std::size_t i = 0; i < 4; ++i) {
                 if (mark_[simplices_[s].neighbors.at(i)] == latestMark_) continue;
-                facets.push_back({oppositeTo(i, simplices_[s]), s, i % 2 == 0 ? 1.0 * signs_[s] : -1.0 * signs_[s]});
+                triangles.push_back({oppositeTo(i, simplices_[s]), s, i % 2 == 0 ? 1.0 * signs_[s] : -1.0 * signs_[s]});
             }
         }
         const auto& own = simplices_[seed].vertices;
@@ -182,10 +182,10 @@ class Merger {
         };
         const double turn =
             glm::dot(at(own[1]) - at(own[0]), glm::cross(at(own[2]) - at(own[0]), at(own[3]) - at(own[0])));
-        for (Facet& facet : facets) facet.sign *= turn * signs_[seed] < 0 ? -1 : 1;
+        for (BoundaryTriangle& triangle : triangles) triangle.sign *= turn * signs_[seed] < 0 ? -1 : 1;
 
         const std::vector<TriangleEdge> triangleEdges =
-            edgesOfTriangles(facets, [](const Facet& f) -> const Triangle& { return f.corners; });
+            edgesOfTriangles(triangles, [](const BoundaryTriangle& t) -> const Triangle& { return t.corners; });
         std::vector<std::uint32_t> faults;
         const auto blame = [&](std::uint32_t one, std::uint32_t other) {
             if (one == seed || (other != seed && volumes_[other] < volumes_[one])) std::swap(one, other);
@@ -193,22 +193,24 @@ class Merger {
         };
         for (std::size_t i = 0, end = 0; i < triangleEdges.size(); i = end) {
             while (end < triangleEdges.size() && triangleEdges[end].edge == triangleEdges[i].edge) ++end;
-            const Facet& one = facets[triangleEdges[i].triangle];
+            const BoundaryTriangle& one = triangles[triangleEdges[i].triangle];
             if (end - i != 2) {
-                for (std::size_t k = i + 1; k < end; ++k) blame(one.simplex, facets[triangleEdges[k].triangle].simplex);
+                for (std::size_t k = i + 1; k < end; ++k)
+                    blame(one.simplex, triangles[triangleEdges[k].triangle].simplex);
                 continue;
             }
-            const Facet& other = facets[triangleEdges[i + 1].triangle];
+            const BoundaryTriangle& other = triangles[triangleEdges[i + 1].triangle];
             if (!isConvexEdge(one, other, triangleEdges[i].edge, hyperplane)) blame(one.simplex, other.simplex);
         }
         if (faults.empty()) {
             std::vector<std::uint32_t> corners;
-            for (const Facet& facet : facets) corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
+            for (const BoundaryTriangle& triangle : triangles)
+                corners.insert(corners.end(), triangle.corners.begin(), triangle.corners.end());
             std::sort(corners.begin(), corners.end());
             corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-            // The boundary is a sphere only if V~−~E~+~F = 2. For triangles, 2~E = 3~F, so the condition is 2~V =
-            // F~+~4.
-            if (2 * corners.size() != facets.size() + 4) {
+            // The boundary is a sphere only if V − E + F = 2 for its V corners, E edges and F triangles. With
+            // 2 E = 3 F, the condition is 2 V = F + 4.
+            if (2 * corners.size() != triangles.size() + 4) {
                 faults = group;
                 std::erase(faults, seed);
             }
@@ -219,7 +221,8 @@ class Merger {
     }
 
     // Returns whether two triangles of a boundary meet at a convex edge, within the error bounds of their corners.
-    bool isConvexEdge(const Facet& one, const Facet& other, const Edge& edge, const Hyperplane& hyperplane) const {
+    bool isConvexEdge(const BoundaryTriangle& one, const BoundaryTriangle& other, const Edge& edge,
+                      const Hyperplane& hyperplane) const {
         const auto place = [&](std::uint32_t v) {
             const auto along = hyperplane.project(points_[v]);
             return glm::dvec3(along[0], along[1], along[2]);
@@ -232,7 +235,7 @@ class Merger {
             // positive), the uncertainty of the height, and its distance from the common edge.
             double height = 0, uncertain = 0, reach = 0;
         };
-        const auto heightFrom = [&](const Facet& from, const Facet& to) {
+        const auto heightFrom = [&](const BoundaryTriangle& from, const BoundaryTriangle& to) {
             RelativeHeight height;
             const glm::dvec3 q = place(from.corners[0]);
             height.normal = from.sign * glm::cross(place(from.corners[1]) - q, place(from.corners[2]) - q);
@@ -248,8 +251,8 @@ class Merger {
             height.height = glm::dot(height.normal, third);
             const glm::dvec4 direction = height.normal.x * hyperplane.axis(0) + height.normal.y * hyperplane.axis(1) +
                                          height.normal.z * hyperplane.axis(2);
-            height.uncertain =
-                frame_.errorBound(direction) * (1 + Plane(from.corners, points_).errorAmplification(points_[v]));
+            height.uncertain = frame_.errorBound(direction) *
+                               (1 + PlaneThroughPoints(from.corners, points_).errorAmplification(points_[v]));
             return height;
         };
         const RelativeHeight there = heightFrom(one, other), back = heightFrom(other, one);
@@ -299,7 +302,7 @@ class Merger {
 
     // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles unmerged.
     // Returns false if there are no such cells.
-    bool splitDegenerateCells(const MergedHull& hull) {
+    bool markDegenerateCells(const MergedHull& hull) {
         bool any = false;
         for (std::size_t c = 0; c < hull.cells.size(); ++c) {
             if (hull.cells[c].size() >= 4) continue;
@@ -309,7 +312,7 @@ class Merger {
         return any;
     }
 
-    void countAmbiguousRidges(MergedHull& hull) const {
+    void countAmbiguousCellPairs(MergedHull& hull) const {
         for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
             while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
             const Hyperplane& one = hyperplanes_[sharedTriangles_[i].cells[0]];

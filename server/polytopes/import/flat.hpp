@@ -79,7 +79,7 @@ class Flat {
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
         const double distance = glm::length(rest);
         if (!(distance > 0)) return true;
-        constexpr double kMaxAmplification = 16;  // the factor by which extrapolation increases the bound at most
+        constexpr double kMaxAmplification = 16;  // the largest factor by which extrapolation may increase the bound
         return distance <=
                factor * frame.errorBound(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
     }
@@ -88,15 +88,15 @@ class Flat {
     Corners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
-    std::array<std::array<double, Dimension>, Dimension> edges_{};  // [j]: first corner to corner j + 1, along axes_
+    std::array<std::array<double, Dimension>, Dimension> edges_{};  // [j]: from corner 0 to j + 1, along axes_
     double volume_ = 1;
 };
 
-using Plane = Flat<2>;
+using PlaneThroughPoints = Flat<2>;
 using Hyperplane = Flat<3>;
 
-/// Greedily chooses points that span a large simplex: the first is the farthest from the mean of all points, and each
-/// further one is the farthest from the flat through the points chosen before.
+/// Chooses points among `from` that span a large simplex, and returns their indices. Chooses greedily: the first point
+/// is the farthest from the mean of `from`; each further one is the farthest from the flat through those chosen before.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
     glm::dvec4 middle(0);

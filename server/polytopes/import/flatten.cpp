@@ -27,33 +27,34 @@ using geometry::kNone;
 // kMaxRounding times doubleRounding(), and the goal is at least kGoalRounding times doubleRounding().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
-// If the cosine of the angle between two hyperplanes is larger, they do not determine the plane in which they meet.
+// If the cosine of the angle between two hyperplanes is larger than this, rounding errors make the plane in which they
+// meet too uncertain.
 constexpr double kNearlyParallel = 0.995;
 constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; a smaller extent along an axis counts as 0
 
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
 constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
-constexpr std::size_t kMaxWork = 150'000'000;   // the maximum: equations and unknowns, added up over all steps
-// A round solves its equations until the gradient of the error is less than its first value times a tolerance. The
-// first tolerance, kFirstTolerance, makes the result more precise by a few digits. If a round does not reduce the
-// deviation by the factor kGoodProgress, some unknowns have little effect on the equations; therefore the next round
-// multiplies the tolerance by kTighter, down to kLeastTolerance.
+constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, summed over all steps
+// A round of Newton's method solves its equations until the gradient of the error is less than its first value times a
+// tolerance. The first tolerance, kFirstTolerance, makes the result more precise by a few digits. If a round does not
+// reduce the deviation by the factor kGoodProgress, some unknowns have little effect on the equations; therefore the
+// next round multiplies the tolerance by kTighter, down to kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
 // A set of points that are moved into one hyperplane, and the hyperplane that fits them best; it contains their mean.
 // The vertices of each cell of more than four vertices are such a set. The vertices of a 2-face are one, too, if the
 // hyperplanes of its two cells are nearly parallel, because such hyperplanes do not determine the plane of the 2-face.
-// The hyperplane of a 2-face is perpendicular to the hyperplane of its cell.
+// The hyperplane of a 2-face is perpendicular to the hyperplane of `cell`, one of its two cells.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
-    glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, perpendicular to `normal`
+    glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`
     glm::dvec4 middle{0}, normal{0};
     double radius = 0;     // the largest distance of a point from the middle
     double deviation = 0;  // the largest distance of a point from the hyperplane
 };
 
-// The changes of one round: `moves` of all vertices and, for each flat, `tilts`, the change of its normal times its
-// radius, and `shifts`, the negative change of its middle along the normal.
+// The changes in one round of Newton's method: `moves` holds the move of each vertex; for each flat, `tilts` holds the
+// change of its normal times its radius, and `shifts` the negative change of its middle along the normal.
 struct Unknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
@@ -100,10 +101,10 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     return best;
 }
 
-// Finds nearby places of the vertices with which all flats are flat, by Newton's method. For each vertex v of a flat
-// with the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m. The conjugate gradient method
-// finds the least change that solves the linearized equations, without storing their matrix (CGLS: Björck, Numerical
-// Methods for Least Squares Problems, 7.4). The equations need not be independent.
+// Moves the vertices to nearby places at which the points of each FittedFlat lie in its hyperplane, by Newton's method.
+// For each vertex v of a flat with the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m.
+// The conjugate gradient method finds the least change that solves the linearized equations, without storing their
+// matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The equations need not be independent.
 class Flattener {
   public:
     Flattener(PolygonSoup& soup, double size) : soup_(soup) {

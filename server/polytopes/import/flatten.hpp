@@ -10,9 +10,10 @@ namespace oval4d::polytopes {
 
 /// What flatten() has changed.
 struct Flattening {
-    double deviation = 0;  ///< before: the largest distance of a vertex from the best-fitting hyperplane of its
-                           ///< cell or 2-face
-    std::uint32_t leastFlatCell = 0;  ///< a cell with this deviation: its number in the file, if known, or its index
+    double deviation = 0;  ///< the largest distance of a vertex from the best-fitting hyperplane of its cell or
+                           ///< 2-face before any change
+    std::uint32_t leastFlatCell = 0;  ///< the cell, or a cell of the 2-face, with this deviation: its number in the
+                                      ///< file, if known, else its index
     std::size_t moved = 0;            ///< the number of vertices that were moved by more than `rounding`
     double distance = 0;              ///< the largest distance by which a vertex was moved
     std::size_t split = 0;            ///< the number of cells that were divided into tetrahedra
@@ -25,9 +26,9 @@ struct Flattening {
 /// that do not fit together. The moves are about as small as possible: if the file is a rounded polytope, they are
 /// about as large as the rounding.
 ///
-/// If a vertex would have to be moved by more than `maxDistance`, or if there are no such places for the vertices,
-/// moves none. Then the 2-faces that are not flat are divided into triangles, and the cells that are not flat into
-/// tetrahedra, as by splitIntoSimplices().
+/// If a vertex would have to be moved by more than `maxDistance`, or if no places are found at which all cells and
+/// 2-faces are flat, moves no vertex. Instead, splitIntoSimplices() divides the 2-faces that are not flat into
+/// triangles, and the cells that are not flat into tetrahedra.
 ///
 /// Flattening::moved counts only moves by more than `rounding`, because smaller ones are not worth a warning. Takes
 /// time linear in the number of incidences of vertices and cells, up to a few seconds.

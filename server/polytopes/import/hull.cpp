@@ -132,7 +132,7 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
                             true};
         }
         if (!all && run.size() <= maxCells) continue;
-        frame.setPerturbation(perturbation);
+        frame.allowForPerturbation(perturbation);
         auto simplices = run.simplices();
         if (all) return simplices;
         if (mergeCoplanar(simplices, points, frame).cells.size() > maxCells) refuseSize(maxCells);
@@ -167,7 +167,7 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
 // Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
 // than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
 // perturbation have moved them outward and made them vertices of simplices.
-std::vector<bool> verticesOf(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
+std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
     for (std::uint32_t v = 0; v < points.size(); ++v) {
@@ -206,7 +206,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
             0, "a convex hull in four dimensions needs at least 5 points, not " + std::to_string(points.size()));
     }
     HullFrame frame(points, rounding);
-    frame.setPerturbation(kPerturbation);
+    frame.allowForPerturbation(kPerturbation);
     // Shuffle the points, so that the first ones are a random sample.
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -216,7 +216,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::vector<std::uint32_t> numbers;  // per place: the index of its point
     geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
-        if (index.add(frame(points[i]), places).second) numbers.push_back(i);
+        if (index.findOrAdd(frame(points[i]), places).second) numbers.push_back(i);
     }
     if (places.size() <= kDimensions) {
         throwFileError(0, "a convex hull in four dimensions needs at least 5 different points, not " +
@@ -225,7 +225,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
 
     std::vector<SimplexFacet> simplices = simplicialHull(places, frame, maxCells);
     for (int round = 0; round < kMaxRounds; ++round) {
-        const std::vector<bool> vertex = verticesOf(simplices, places, frame);
+        const std::vector<bool> vertex = vertexFlags(simplices, places, frame);
         std::vector<bool> onHull(places.size(), false);
         for (const SimplexFacet& simplex : simplices) {
             for (const std::uint32_t v : simplex.vertices) onHull[v] = true;
@@ -239,7 +239,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
         }
         places.resize(kept);
         numbers.resize(kept);
-        frame.setPerturbation(kPerturbation);
+        frame.allowForPerturbation(kPerturbation);
         simplices = simplicialHull(places, frame, maxCells);
     }
 

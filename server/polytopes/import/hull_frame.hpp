@@ -31,9 +31,9 @@ class HullFrame {
     /// Returns an upper bound of errorBound() for all directions.
     double largestErrorBound() const;
 
-    /// Adds to the errors a random perturbation of each coordinate of the frame by at most `amplitude`. Replaces an
-    /// amplitude set before.
-    void setPerturbation(double amplitude) { perturbation_ = amplitude; }
+    /// Makes the error bounds allow for a random perturbation of the points by at most `amplitude` along each axis of
+    /// the frame. Replaces an amplitude set before. Does not perturb the points itself.
+    void allowForPerturbation(double amplitude) { perturbation_ = amplitude; }
 
   private:
     glm::dvec4 origin_{0}, rounding_;

@@ -37,8 +37,8 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-// Throws a FileError if a 2-face of the file has fewer than three different vertices. repair() leaves such a 2-face
-// out; if the polytope is then not valid, a wrong vertex of the 2-face is the likely cause.
+// Looks for the reason why no valid polytope can be built from a file: throws a FileError if a 2-face has fewer than
+// three different vertices. repair() has left it out, and the polytope has probably become invalid because of that.
 void checkCorners(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
@@ -55,7 +55,7 @@ void checkCorners(const PolygonSoup& soup) {
 
 // Moves the origin of the coordinates to the point that `centering` chooses, and returns this point.
 glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
-    const glm::dvec4 center = geometry::centerFor(centering, points);
+    const glm::dvec4 center = geometry::newOriginFor(centering, points);
     for (glm::dvec4& p : points) p -= center;
     return center;
 }
@@ -66,7 +66,7 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
     const std::size_t faces = soup.faces.size();
-    const Flattening done = flatten(soup, size, kFlatInFile * size, std::max(rounding, kTiny * size));
+    const Flattening done = flatten(soup, size, kFlatnessTolerance * size, std::max(rounding, kTiny * size));
     if (done.moved > 0) {
         const bool one = done.moved == 1;
         warnings.push_back(
@@ -139,14 +139,14 @@ Imported importOff4(std::string_view text, const std::string& name, const Import
 }
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
-// numbers of few decimals, are normally treated as exact. They are treated as rounded if the hull of the rounded points
-// has no ambiguous ridges (see MergedHull) and at most half as many cells, as for a polytope that was scaled and then
-// rounded to whole numbers.
+// numbers of few decimals, are normally treated as exact. They are treated as rounded if the hull that allows for
+// rounding errors has no ambiguous cell pairs (see MergedHull), and at most half as many cells as the hull of the exact
+// points. This is so for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    // If `size` is less than this many units of the last digit, the cells of a rounded polytope are not flat enough to
-    // remain whole. Therefore the coordinates are then treated as exact.
-    constexpr double kMinUnits = 0.5 / kFlatInFile;
+    // If `size` is less than this many units of the last digit, rounding by half a unit exceeds the distance by which
+    // makeFlat() may move a vertex. Rounded cells might then remain uneven; therefore the coordinates count as exact.
+    constexpr double kMinUnits = 0.5 / kFlatnessTolerance;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
     if (!precision.whole() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);

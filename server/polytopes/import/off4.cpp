@@ -146,8 +146,8 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
             throwFileError(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
         const std::size_t line = file.line();
         const std::uint32_t size = parseCount(first, line, "the size of " + owner);
-        // A loop may pass through a vertex more than once, and repair() splits it there; therefore the limit is
-        // 2~·~`below`, not `below`. It bounds memory.
+        // The limit bounds memory. It is 2 · `below`, not `below`, because a loop may pass through a vertex more than
+        // once; repair() splits it there.
         if (size < least || size > 2 * below) {
             throwFileError(line, owner + " has " + std::to_string(size) + " " + member.many + "; " +
                                      std::to_string(least) + " to " + std::to_string(2 * below) + " are allowed");

@@ -15,20 +15,20 @@ namespace oval4d::polytopes {
 struct Off4 {
     PolygonSoup soup;
     std::uint32_t edges = 0;  ///< the number of edges that the file states
-    /// The fault of the first record whose line has too few words, if the file has a line for each record; otherwise
-    /// std::nullopt. The records were then read without regard to lines. If they do not form a polytope, this is the
-    /// reason.
+    /// Set if the file has a line for each record, but some of these lines have too few words: the fault of the first
+    /// such record. The records were then read without regard to lines; if they do not form a polytope, this fault is
+    /// the reason.
     std::optional<text_files::FileError> shortRecord;
 };
 
 /// Reads the text of a 4OFF file, as importPolytope() describes it. First assumes that each record begins on a line of
-/// its own, and ignores whatever follows the record on its line. If the file cannot be read in this way, the records of
-/// a kind may follow each other without regard to lines, as Geomview reads them. Throws a FileError if the file is
-/// malformed, or has more than `maxVertices` vertices. If the file has a line for each record, the error names the
-/// first record whose line has too few words.
+/// its own, and ignores whatever follows the record on its line. If the file cannot be read in this way, reads the
+/// records of some or all kinds without regard to lines, as Geomview does. Throws a FileError if the file is malformed,
+/// or has more than `maxVertices` vertices. If the file has a line for each record, the error names the first record
+/// whose line has too few words.
 Off4 readOff4(std::string_view text, std::size_t maxVertices);
 
-/// Returns whether the file begins with the keyword of an OFF file, such as 4OFF, COFF or 4off.
+/// Returns whether the first word of the file contains "OFF" in upper or lower case, as in 4OFF, COFF or 4off.
 bool isOff(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -63,7 +63,7 @@ std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std:
 }
 
 // Returns whether a loop in a plane turns the same way at all corners, within their error bounds.
-bool isConvex(std::span<const std::uint32_t> loop, const Plane& plane, std::span<const glm::dvec4> points,
+bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& plane, std::span<const glm::dvec4> points,
               const HullFrame& frame) {
     std::vector<glm::dvec2> places;
     for (const std::uint32_t v : loop) {
@@ -103,13 +103,13 @@ void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4
         join(triangleEdges[i + 1].triangle, triangleEdges[i].triangle);
     }
     std::vector<double> areas;
-    for (const Triangle& triangle : triangles) areas.push_back(Plane(triangle, points).volume());
+    for (const Triangle& triangle : triangles) areas.push_back(PlaneThroughPoints(triangle, points).volume());
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return areas[a] > areas[b]; });
     std::vector<bool> done(triangles.size(), false);
     std::vector<bool> taken;
-    const auto collect = [&](std::uint32_t seed, const Plane& plane) {
+    const auto collect = [&](std::uint32_t seed, const PlaneThroughPoints& plane) {
         taken.assign(triangles.size(), false);
         taken[seed] = true;
         std::vector<std::uint32_t> group{seed};
@@ -134,8 +134,8 @@ void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4
     };
     for (const std::uint32_t seed : order) {
         if (done[seed]) continue;
-        Plane plane(triangles[seed], points);
-        const auto collectIn = [&](const Plane& flat) { return collect(seed, flat); };
+        PlaneThroughPoints plane(triangles[seed], points);
+        const auto collectIn = [&](const PlaneThroughPoints& flat) { return collect(seed, flat); };
         auto group = growAndRefit(plane, triangles[seed], collectIn, cornersOf, points, frame);
         std::vector<std::uint32_t> loop;
         if (group.size() > 1) loop = boundaryOf(group, triangles);

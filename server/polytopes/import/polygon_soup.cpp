@@ -63,7 +63,7 @@ void checkFlat(const PolygonSoup& soup) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         const auto& position = soup.faceSourcePositions[f];
-        if (deviation(points, 2) > kFlatInFile * size)
+        if (deviation(points, 2) > kFlatnessTolerance * size)
             throwFileError(position.line, nameOf("2-face", position) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
@@ -72,7 +72,7 @@ void checkFlat(const PolygonSoup& soup) {
             for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         }
         const auto& position = soup.cellSourcePositions[c];
-        if (deviation(points, 3) > kFlatInFile * size)
+        if (deviation(points, 3) > kFlatnessTolerance * size)
             throwFileError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
     }
 }

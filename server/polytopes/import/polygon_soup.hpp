@@ -29,7 +29,7 @@ struct PolygonSoup {
 
 /// How far the vertices of a cell or 2-face in a file may be from one hyperplane or plane, relative to halfDiagonal().
 /// This allows for coordinates with three decimals.
-inline constexpr double kFlatInFile = 5e-3;
+inline constexpr double kFlatnessTolerance = 5e-3;
 
 /// Returns half the diagonal of the bounding box of the points; 0 if there are no points. The tolerances of the import
 /// are relative to this size.
@@ -40,7 +40,7 @@ double halfDiagonal(std::span<const glm::dvec4> points);
 double doubleRounding(std::span<const glm::dvec4> points);
 
 /// Throws a FileError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
-/// hyperplane, to within kFlatInFile times halfDiagonal(). Also throws a FileError if all vertices lie in one
+/// hyperplane, to within kFlatnessTolerance times halfDiagonal(). Also throws a FileError if all vertices lie in one
 /// hyperplane, to within 10⁻⁶ of halfDiagonal().
 void checkFlat(const PolygonSoup& soup);
 

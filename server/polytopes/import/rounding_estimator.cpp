@@ -11,14 +11,14 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
-constexpr int kMinSingleExponent = -149;     // the least exponent of two of its last bit
-constexpr double kSingleRounding = 0x1p-24;  // its maximum rounding error, relative to the number
+constexpr int kMinSingleExponent = -149;     // the least exponent of two of the last bit of such a number
+constexpr double kSingleRounding = 0x1p-24;  // the maximum rounding error of such a number, relative to the number
 // The least sufficient singleEvidence_: other numbers are taken for single-precision numbers with a probability of at
 // most 2 to the power of −this.
 constexpr double kSingleEvidence = 10;
-constexpr double kMaxExactUnits = 400;  // coordinates are exact if their size is at most this many last-digit units
+constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of the last digit
 
-constexpr int kMaxExponent = 10'000;  // the largest absolute value; other exponents are limited to it
+constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger ones are clamped to it
 
 // The precision of a single number.
 struct Digits {
@@ -73,8 +73,8 @@ void RoundingEstimator::addSingle(int lastPlace, int lastNonzeroPlace, int axis,
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // The fraction of all decimals with this last digit that are next to a single-precision number. Zeros at the end do
-    // not count as digits here: a number such as 0.50000000 is both a single-precision number and a short decimal.
+    // The fraction of the decimals of this length that are next to a single-precision number. Zeros at the end do not
+    // count as digits here: a number such as 0.50000000 is both a single-precision number and a short decimal.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }

@@ -10,14 +10,14 @@ namespace oval4d::polytopes {
 
 /// Infers from the digits of the coordinates in a file how they were rounded. Programs write numbers with a fixed
 /// number of decimals or a fixed number of significant digits, and may omit trailing zeros. Therefore the unit of the
-/// last digit before trailing zeros were omitted is estimated in two ways: from the maximum number of decimals in the
-/// file, and from the maximum number of significant digits. The larger estimate is used.
+/// last digit, which may be an omitted zero, is estimated in two ways: from the maximum number of decimals in the file,
+/// and from the maximum number of significant digits. The larger estimate is used.
 ///
 /// Single-precision numbers (IEEE 754 binary32) are often written with more digits than they have, such as 0.1 as
 /// 0.100000001. The coordinates count as rounded to single precision if two conditions are met. First, the distance of
 /// each coordinate from a single-precision number is at most half a unit of its last digit. Second, this is hardly a
 /// coincidence: other decimals with as many digits would meet the first condition with a probability of at most 2⁻¹⁰.
-/// Whole numbers never count as rounded to single precision.
+/// If all coordinates are whole numbers, they never count as rounded to single precision.
 class RoundingEstimator {
   public:
     /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedCoordinate::text) and as a number.

@@ -24,8 +24,8 @@ int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }
 
-void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const Projection& projection,
-                const scene::Scene& scene, Overlay& overlay) {
+void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const Projection& projection,
+              const scene::Scene& scene, Overlay& overlay) {
     const scene::Style& style = scene.style();
     const glm::vec3 at(toView * glm::dvec4(placement.labelAt, 1));
     if (at.z >= 0 || placement.label.empty()) return;
@@ -38,15 +38,15 @@ void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView
     const float marginX = std::round((placement.focus ? 0.9f : 0.25f) * digits);
     const float marginY = std::round((placement.focus ? 0.6f : 0.13f) * digits),
                 half = std::round(0.5f * width) + marginX;
-    const Box plate{x - half, baseline - marginY, x + half, baseline + digits + marginY};
+    const PixelRect plate{x - half, baseline - marginY, x + half, baseline + digits + marginY};
     const float corner = 0.5f * (plate.top - plate.bottom);
     overlay.box(plate, style.background, placement.focus ? 0.8f : 0.6f, corner);
     if (placement.focus) overlay.box(plate, style.focusText, 0.16f, corner);
     overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
 }
 
-/// Draws the labeled axes of the histogram of a field, the levels, and a mark for the focus slice in the panel of w.
-void paintHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
+/// Adds the labeled axes of the histogram of a field, the levels, and a mark for the focus slice in the panel of w.
+void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
@@ -80,8 +80,8 @@ void paintHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     }
 }
 
-/// Draws the labeled axes of the density strip, and a mark for the focus slice on the w axis.
-void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
+/// Adds the labeled axes of the density strip, and a mark for the focus slice on the w axis.
+void addStripAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
@@ -110,9 +110,9 @@ void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
 
 }  // namespace
 
-void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
+void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     // The axes have their own projection. Its view axis meets the axes' origin, and its eye is so far away that the
-    // projection is nearly parallel. The unit of these lengths is the length of an axis.
+    // projection is nearly parallel. The unit of the following lengths is the length of an axis.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
     const scene::Style& style = scene.style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
@@ -140,45 +140,45 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
         return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
     });
     shapes.setProjection(projection);
-    bool originPainted = false;
-    const auto paintOrigin = [&] {
-        if (!originPainted) shapes.addBall(origin, kBall, style.text);
-        originPainted = true;
+    bool originAdded = false;
+    const auto addOrigin = [&] {
+        if (!originAdded) shapes.addBall(origin, kBall, style.text);
+        originAdded = true;
     };
     const int size = wholePixels(style.textHeight, scene);
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
     for (const Axis& axis : axes) {
         const bool toward = axis.direction.z > 0;
         if (toward) {
-            paintOrigin();
+            addOrigin();
             shapes.addBar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
             shapes.addBall(origin + axis.direction, kTip, axis.color);
         } else {
             shapes.addBall(origin + axis.direction, kTip, axis.color);
             shapes.addBar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
         }
-        // The name of an axis that points at the viewer is drawn beside the axis.
+        // The name of an axis that points toward or away from the viewer is drawn beside the axis.
         glm::vec2 name = glm::vec2(axis.direction) * kName;
         if (glm::length(name) < 0.3f) name = {0.3f, -0.3f};
         const glm::vec2 at = center + name * length;
         overlay.text(at.x, at.y - 0.4f * digits, size, {&axis.name, 1}, axis.color);
     }
-    paintOrigin();
+    addOrigin();
 }
 
-void paintLabels(const scene::Scene& scene, Overlay& overlay) {
+void addLabels(const scene::Scene& scene, Overlay& overlay) {
     const glm::dmat4 toView = scene.camera.view();
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     for (const bool focus : {false, true})
         for (const scene::SlicePlacement& placement : scene.placements)
             if (!placement.label.empty() && placement.drawn && placement.focus == focus)
-                paintLabel(placement, toView, projection, scene, overlay);
+                addLabel(placement, toView, projection, scene, overlay);
 }
 
-void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
+void addCoordinates(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.look.parts.coordinates) return;
     if (!scene.coordinates.hasLines()) {
-        (scene.coordinates.density ? paintStripAxes : paintHistogramAxes)(scene, overlay);
+        (scene.coordinates.isDensityStrip ? addStripAxes : addHistogramAxes)(scene, overlay);
         return;
     }
     const scene::CoordinatesLayout& layout = scene.coordinates;

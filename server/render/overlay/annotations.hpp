@@ -1,5 +1,5 @@
 #pragma once
-// Draws the annotations of a picture: axes, labels and parallel coordinates. The functions add shapes and boxes to
+// The annotations of a picture: axes, labels and parallel coordinates. The functions add shapes, boxes and texts to
 // lists; the caller draws the lists.
 
 #include "render/overlay/overlay.hpp"
@@ -8,16 +8,17 @@
 
 namespace oval4d::render {
 
-/// Draws the x, y and z axes, with their names, as the camera sees them, at the place that Scene::axes specifies.
-void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
+/// Adds the x, y and z axes, as the camera sees them, to `shapes`, and their names to `overlay`, at the place that
+/// Scene::axes specifies.
+void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Draws the labels of the slices, which show the values of w. The label of the focus slice is highlighted, and is
-/// drawn after the others.
-void paintLabels(const scene::Scene& scene, Overlay& overlay);
+/// Adds the labels of the slices, which show the values of w. The label of the focus slice is highlighted, and is added
+/// after the others.
+void addLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// Draws the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
-/// field is shown instead, draws only its axes and marks; DensityStrip draws the rest. Does nothing if none of these is
-/// shown.
-void paintCoordinates(const scene::Scene& scene, Overlay& overlay);
+/// Adds the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
+/// field is shown instead, adds only its axes and marks; CoordinatesPlot draws the rest. Does nothing if none of these
+/// is shown.
+void addCoordinates(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

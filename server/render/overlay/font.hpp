@@ -70,8 +70,9 @@ class Font {
     std::unique_ptr<Face> face_;
     std::map<std::pair<int, char32_t>, Glyph> glyphs_;
     std::vector<std::uint8_t> texels_;
-    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;  // height of the texture; the last row of glyphs
-    bool changed_ = true;                                         // whether `texels_` has glyphs to upload
+    // The height of the texture; for the last row of glyphs: the x of the next glyph, the row's top, and its height.
+    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;
+    bool changed_ = true;  // whether `texels_` has glyphs to upload
     GLuint texture_ = 0;
 };
 

@@ -64,17 +64,17 @@ class SectionPainter {
 
     Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
 
-    Box panel() const {
+    PixelRect panel() const {
         const double half = scene_.matrix.panel / 2 * height_;
         return {static_cast<float>(std::round(center_.x - half)), static_cast<float>(std::round(center_.y - half)),
                 static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
     }
 
-    // Draws the lines in which the plane meets the other planes of its row and its column.
+    // Draws the lines in which the plane of the panel meets the planes of the other panels in this row and this column.
     void paintFocusLines(int row, int column) const {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
-        const Box box = panel();
+        const PixelRect box = panel();
         const float half = std::max(0.5F, static_cast<float>(std::round(0.0011 * height_)) / 2);
         if (at.y > box.bottom && at.y < box.top)
             overlay_.box({box.left, at.y - half, box.right, at.y + half}, colorOfAxis(column), kAxisOpacity);
@@ -85,7 +85,7 @@ class SectionPainter {
     void paintFill(const PlanarSection& from) {
         polygon_.clear();
         for (const std::uint32_t p : from.boundary) polygon_.push_back(points_[p]);
-        if (!scene_.isNonconvex) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
+        if (!scene_.facesMayCross) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
     }
 
     void paintEdges(std::size_t section) const {
@@ -124,8 +124,8 @@ class SectionPainter {
     std::vector<glm::vec2> points_, polygon_;
 };
 
-// Draws the focus point in the focus slice: a line along each of the axes x, y and z through it.
-void paintFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
+// Adds the focus point in the focus slice: a line along each of the axes x, y and z through it.
+void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
     const std::array<scene::Segment, 3> lines = scene::focusLines(scene, placement);
@@ -138,10 +138,10 @@ void paintFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& pla
 
 }  // namespace
 
-void paintMatrix(const scene::Scene& scene, Overlay& overlay) {
+void addMatrix(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.matrix.shown) return;
     for (const scene::SlicePlacement& placement : scene.placements)
-        if (placement.focus) paintFocusPoint(scene, placement, overlay);
+        if (placement.focus) addFocusPoint(scene, placement, overlay);
     SectionPainter painter(scene, overlay);
     for (int axis = 0; axis < 4; ++axis) painter.paintName(axis);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {

@@ -5,9 +5,10 @@
 
 namespace oval4d::render {
 
-/// Draws the matrix of planar sections. Does nothing if the scene shows none. The edges of a section have the colors of
-/// the cells from which they were cut. The lines through the focus point in a panel show where the plane of this panel
-/// meets the planes of the other panels in the same row and column.
-void paintMatrix(const scene::Scene& scene, Overlay& overlay);
+/// Adds the matrix of planar sections to `overlay`, and the lines that show the focus point in the focus slice. Does
+/// nothing if the scene shows no matrix. The edges of a section have the colors of the cells from which they were cut.
+/// The lines through the focus point in a panel show where the plane of this panel meets the planes of the other panels
+/// in the same row and column.
+void addMatrix(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

@@ -67,11 +67,14 @@ void Overlay::begin(scene::Viewport viewport) {
     toClip_ = {2.0f / static_cast<float>(viewport.width), 2.0f / static_cast<float>(viewport.height)};
 }
 
-void Overlay::quad(const Box& place, const OverlayVertex& vertex, const Box& fromCenter, const Box& texels) {
+void Overlay::quad(const PixelRect& place, const OverlayVertex& vertex, const PixelRect& fromCenter,
+                   const PixelRect& texels) {
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     for (unsigned i = 0; i < 4; ++i) {
         const bool right = (i & 1) != 0, top = (i & 2) != 0;
-        const auto corner = [&](const Box& b) { return glm::vec2(right ? b.right : b.left, top ? b.top : b.bottom); };
+        const auto corner = [&](const PixelRect& r) {
+            return glm::vec2(right ? r.right : r.left, top ? r.top : r.bottom);
+        };
         OverlayVertex v = vertex;
         v.at = corner(place) * toClip_ - 1.0f;
         v.fromCenter = corner(fromCenter);
@@ -81,7 +84,7 @@ void Overlay::quad(const Box& place, const OverlayVertex& vertex, const Box& fro
     for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
 }
 
-void Overlay::box(const Box& box, scene::Color color, float opacity, float cornerRadius) {
+void Overlay::box(const PixelRect& box, scene::Color color, float opacity, float cornerRadius) {
     const glm::vec2 half{0.5f * (box.right - box.left), 0.5f * (box.top - box.bottom)};
     const float x = half.x + 0.5f, y = half.y + 0.5f;  // half a pixel of margin for the antialiased edge
     const OverlayVertex vertex{.box = {half, std::min({cornerRadius, half.x, half.y})}, .color = rgba(color, opacity)};

@@ -15,8 +15,8 @@
 
 namespace oval4d::render {
 
-/// A corner of a box or of a glyph. The opacity of a pixel is the opacity of the color, times the fraction of the pixel
-/// that a box with rounded corners covers, times the coverage that the glyph texture contains.
+/// A corner of a box, line, polygon or glyph. The opacity of a pixel is the opacity of the color, times the fraction of
+/// the pixel that a box with rounded corners covers, times the coverage that the glyph texture contains.
 struct OverlayVertex {
     glm::vec2 at{0};          ///< clip coordinates, −1 … 1
     glm::vec2 fromCenter{0};  ///< the position relative to the center of the box, in pixels
@@ -26,7 +26,7 @@ struct OverlayVertex {
 };
 
 /// A rectangle in pixel coordinates.
-struct Box {
+struct PixelRect {
     float left, bottom, right, top;
 };
 
@@ -42,7 +42,7 @@ class Overlay {
     void begin(scene::Viewport viewport);
 
     /// Adds a box. `cornerRadius` is in pixels. The edges are antialiased unless they lie on pixel boundaries.
-    void box(const Box& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
+    void box(const PixelRect& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
 
     /// Adds a straight line with round ends, `width` pixels wide.
     void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
@@ -60,7 +60,8 @@ class Overlay {
     void draw();
 
   private:
-    void quad(const Box& place, const OverlayVertex& vertex, const Box& fromCenter, const Box& texels);
+    void quad(const PixelRect& place, const OverlayVertex& vertex, const PixelRect& fromCenter,
+              const PixelRect& texels);
 
     ShaderProgram program_;
     Font font_;

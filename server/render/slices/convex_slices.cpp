@@ -97,8 +97,8 @@ void ConvexShapeCollector::sortByDepth(const SliceView& slice) {
     const auto farther = [&](std::size_t e) { return std::min(rank_[slice.edge(e)[0]], rank_[slice.edge(e)[1]]); };
     for (std::size_t e = 0; e < slice.edges(); ++e) ++edgeBegin_[farther(e)];
     std::partial_sum(edgeBegin_.begin(), edgeBegin_.end(), edgeBegin_.begin());
-    // Entry i is now the end of the edges whose farther vertex has rank i. Filling backward turns it into their
-    // beginning.
+    // Entry i of edgeBegin_ is now the end, in edgeOrder_, of the edges whose farther vertex has rank i. Filling
+    // edgeOrder_ backward turns the entry into the beginning of these edges.
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 

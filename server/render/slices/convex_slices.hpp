@@ -1,5 +1,5 @@
 #pragma once
-// Draws convex slices with the painter's algorithm.
+// Prepares convex slices for drawing with the painter's algorithm.
 
 #include <cstdint>
 #include <functional>

@@ -14,7 +14,7 @@ namespace oval4d::render {
 inline constexpr std::uint32_t kCoverageBits = 255;
 
 /// Returns the depth buffer's value for a pixel that a shape with this nearness covers completely.
-inline float coveredAt(float nearness) {
+inline float packFullyCovered(float nearness) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearness) | kCoverageBits);
 }
 

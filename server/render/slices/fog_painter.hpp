@@ -43,9 +43,9 @@ class FogPainter {
 
     /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
     /// It must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
-    /// `before` is the rest: the fog in front of the nearest ball or bar, or all of the fog where there is no ball or
+    /// `in_front` is the rest: the fog in front of the nearest ball or bar, or all of the fog where there is no ball or
     /// bar.
-    enum class Part : std::uint8_t { behind, before };
+    enum class Part : std::uint8_t { behind, in_front };
     /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
     /// of occluders, and then draw the slices from far to near. Leaves the depth test enabled.
     void draw(const scene::Scene& scene, std::uint32_t slice, Part part);

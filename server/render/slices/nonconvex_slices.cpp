@@ -19,7 +19,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     DepthRange depths{std::numeric_limits<float>::max(), 0};
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         transforms_.emplace_back(viewOf(i));
-        if (scene.placements[i].drawn) collect(viewOf(i), depths);
+        if (scene.placements[i].drawn) collectSlice(viewOf(i), depths);
     }
     const auto radius = static_cast<float>(scene.ballRadius);
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
@@ -42,7 +42,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const auto paintAll = [&](const std::vector<Item>& items, ShapeBatch& shapes) {
         shapes.begin(scene.style());
         shapes.setProjection(projection);
-        for (const Item& item : items) paintItem(viewOf(item.slice), item, skeleton, shapes);
+        for (const Item& item : items) addShape(viewOf(item.slice), item, skeleton, shapes);
     };
     paintAll(faces_, out.faces);
     paintAll(skeleton_, out.skeleton);
@@ -50,7 +50,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 }
 
 // Collects the items of a slice, and extends `depths` to include the depths of its vertices.
-void NonconvexShapeCollector::collect(const SliceView& slice, DepthRange& depths) {
+void NonconvexShapeCollector::collectSlice(const SliceView& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];
@@ -80,9 +80,9 @@ void NonconvexShapeCollector::add(const Item& item, Visibility visibility) {
     if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
 }
 
-void NonconvexShapeCollector::paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
-                                        ShapeBatch& out) {
-    if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
+void NonconvexShapeCollector::addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
+                                       ShapeBatch& out) {
+    if (item.kind == Kind::patch) return addPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
         out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number),
@@ -95,7 +95,7 @@ void NonconvexShapeCollector::paintItem(const SliceView& slice, const Item& item
                     slice.edgeOpacity(item.number), out);
 }
 
-void NonconvexShapeCollector::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+void NonconvexShapeCollector::addPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::FilledFaces& fill = slice.scene.fill;
     const slicing::FilledFaces::Patch& patch = fill.patches[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);

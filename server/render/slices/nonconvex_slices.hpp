@@ -1,5 +1,5 @@
 #pragma once
-// Prepares slices whose shapes may intersect for drawing with a depth buffer.
+// Prepares slices for drawing with a depth buffer. The shapes of these slices may intersect.
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace oval4d::render {
 
-/// Sorts the shapes of slices that need not be convex into layers, and converts them to patches. Reuses its memory for
+/// Sorts the shapes of slices, which may be nonconvex, into layers, and converts them to patches. Reuses its memory for
 /// the next picture.
 class NonconvexShapeCollector {
   public:
@@ -35,10 +35,10 @@ class NonconvexShapeCollector {
         std::uint32_t slice, number;  // number: index of a patch in Scene::fill, or of a vertex or edge of the slice
     };
 
-    void collect(const SliceView& slice, DepthRange& depths);
+    void collectSlice(const SliceView& slice, DepthRange& depths);
     void add(const Item& item, slicing::Visibility visibility);
-    void paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
-    void paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
+    void addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
+    void addPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
 
     std::vector<SliceTransform> transforms_;   // one per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates

@@ -19,21 +19,22 @@ constexpr float kMaxSkew = 0.2F;
 constexpr int kLanes = PatchCanvas::kLanes;
 
 using Form = Patch::Form;
-using Depth = ShapeRasterizer::Depth;
+using DepthUse = ShapeRasterizer::DepthUse;
 
 /// A quantity that is linear in the picture: its value at the center of pixel (0, 0), and its differences to the next
 /// pixels to the right and above.
-struct Plane {
+struct LinearFunction {
     float origin = 0, x = 0, y = 0;
 };
 
 /// The properties that all pixels of a patch share.
 struct Paint {
-    Plane u{}, v{}, halfRadius{}, nearness{};  ///< u, v, halfRadius: the members of ShapeVertex::place
-    glm::vec3 diffuse, specular;               ///< as in ShapeVertex
-    glm::vec3 color;                           ///< 0 … 255
-    std::uint32_t alpha;                       ///< 0 … 255
-    float bulge;                               ///< the radius of the shape, relative to its distance from the eye
+    /// `u`, `v` and `halfRadius` are the members of ShapeVertex::place.
+    LinearFunction u{}, v{}, halfRadius{}, nearness{};
+    glm::vec3 diffuse, specular;  ///< as in ShapeVertex
+    glm::vec3 color;              ///< 0 … 255
+    std::uint32_t alpha;          ///< 0 … 255
+    float bulge;                  ///< the radius of the shape, relative to its distance from the eye
 };
 
 // The numbers 0 … 7.
@@ -92,27 +93,26 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
 }
 
 // Draws a patch. The formulas are those of the fragment shader in shape_batch.cpp.
-template <Form form, Depth depth>
+template <Form form, DepthUse depth>
 OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
     constexpr bool isRound = form == Form::strip || form == Form::disk;
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
     const __m256 alphaScale = _mm256_set1_ps(static_cast<float>(paint.alpha) / 255), half = _mm256_set1_ps(0.5F);
     const __m256 lane = _mm256_cvtepi32_ps(lanes());
-    const auto along = [&](const Plane& plane) OVAL4D_AVX2 { return _mm256_mul_ps(lane, _mm256_set1_ps(plane.x)); };
+    const auto along = [&](const LinearFunction& f) OVAL4D_AVX2 { return _mm256_mul_ps(lane, _mm256_set1_ps(f.x)); };
     const __m256 alongU = along(paint.u), alongV = along(paint.v), alongHalf = along(paint.halfRadius);
     const __m256 alongNearness = along(paint.nearness);
     for (int y = rows.begin; y < rows.end; ++y) {
         const int end = canvas.right[y];
         const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * canvas.width;
-        const auto rowOf = [y](const Plane& plane) { return plane.origin + plane.y * static_cast<float>(y); };
+        const auto rowOf = [y](const LinearFunction& f) { return f.origin + f.y * static_cast<float>(y); };
         const float rowU = rowOf(paint.u), rowV = rowOf(paint.v), rowHalf = rowOf(paint.halfRadius);
         const float rowNearness = rowOf(paint.nearness);
         for (int x = canvas.left[y]; x < end; x += kLanes) {
             const int at = std::min(x, canvas.width - kLanes);
             const auto column = static_cast<float>(at);
-            const auto valueOf = [&](float inRow, const Plane& plane, const __m256& rest) OVAL4D_AVX2 {
-                return _mm256_add_ps(_mm256_set1_ps(inRow + plane.x * column), rest);
-            };
+            const auto valueOf = [&](float inRow, const LinearFunction& f, const __m256& rest)
+                                     OVAL4D_AVX2 { return _mm256_add_ps(_mm256_set1_ps(inRow + f.x * column), rest); };
             __m256 inside = _mm256_castsi256_ps(between(x, end, at));
 
             // The normal (u, v, n), and q = 1 − u² − v².
@@ -133,7 +133,7 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
                 const __m256 coverage = _mm256_max_ps(_mm256_min_ps(_mm256_fmadd_ps(q, thickness, half), one), zero);
                 alpha = _mm256_mul_ps(alpha, coverage);
             }
-            if constexpr (depth == Depth::unused) {
+            if constexpr (depth == DepthUse::unused) {
                 alpha = _mm256_and_ps(alpha, inside);
             } else {
                 // A point of the shape is closer to the eye than the patch by r n. Its nearness is 1 / (d − r n), which
@@ -147,7 +147,7 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
                 inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
                 if (_mm256_testz_ps(inside, inside) != 0) continue;
                 alpha = _mm256_and_ps(alpha, inside);
-                if constexpr (depth == Depth::written) {
+                if constexpr (depth == DepthUse::written) {
                     const __m256 written = withUncoveredParts(_mm256_max_ps(nearness, old), rest);
                     _mm256_storeu_ps(place, _mm256_blendv_ps(old, written, inside));
                 }
@@ -226,7 +226,7 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
 
 // Returns the nearness of a face. The gradient is the mean of the gradients of the triangles of a fan, weighted by
 // their areas. `area`: twice the signed area of the polygon.
-OVAL4D_AVX2 Plane nearnessOf(std::span<const PatchCorner> corners, float area) {
+OVAL4D_AVX2 LinearFunction nearnessOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
     float x = 0, y = 0, sumX = first.x, sumY = first.y, sum = first.nearness;
     for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -245,10 +245,10 @@ OVAL4D_AVX2 Plane nearnessOf(std::span<const PatchCorner> corners, float area) {
 }
 
 template <Form form>
-OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint, Depth depth) {
-    if (depth == Depth::unused) return fillShape<form, Depth::unused>(canvas, rows, paint);
-    if (depth == Depth::tested) return fillShape<form, Depth::tested>(canvas, rows, paint);
-    fillShape<form, Depth::written>(canvas, rows, paint);
+OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint, DepthUse depth) {
+    if (depth == DepthUse::unused) return fillShape<form, DepthUse::unused>(canvas, rows, paint);
+    if (depth == DepthUse::tested) return fillShape<form, DepthUse::tested>(canvas, rows, paint);
+    fillShape<form, DepthUse::written>(canvas, rows, paint);
 }
 
 OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
@@ -262,7 +262,7 @@ OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
 }
 
 OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
-                          Depth depth, float pixelSize) {
+                          DepthUse depth, float pixelSize) {
     const PatchCorner& first = corners[0];
     float area = 0;
     for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -273,15 +273,15 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     const RowRange rows = findRows(canvas, corners, area > 0);
     if (rows.begin >= rows.end) return;
     Paint paint = paintOf(look, pixelSize);
-    if (depth == Depth::unused) return fillFace(canvas, rows, paint);
+    if (depth == DepthUse::unused) return fillFace(canvas, rows, paint);
     paint.nearness = nearnessOf(corners, area);
-    if (depth == Depth::written) paint.bulge = 0;
+    if (depth == DepthUse::written) paint.bulge = 0;
     fill<Form::face>(canvas, rows, paint, depth);
 }
 
 // Draws a triangle, or a quad that is almost a parallelogram, of a shape other than a face.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
-                          Form form, Depth depth, float pixelSize) {
+                          Form form, DepthUse depth, float pixelSize) {
     // Gradients follow from the differences along the diagonals. A triangle is treated as a quad whose fourth corner is
     // equal to the first.
     const PatchCorner &a = corners[0], &b = corners[1], &c = corners[2], &d = corners.size() == 4 ? corners[3] : a;
@@ -292,27 +292,27 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
     if (rows.begin >= rows.end) return;
     const float inverse = 1 / area, middleX = 0.25F * (a.x + b.x + c.x + d.x) - 0.5F,
                 middleY = 0.25F * (a.y + b.y + c.y + d.y) - 0.5F;
-    const auto planeOf = [&](float atA, float atB, float atC, float atD) OVAL4D_AVX2 {
+    const auto functionOf = [&](float atA, float atB, float atC, float atD) OVAL4D_AVX2 {
         const float first = atC - atA, second = atD - atB;
         const float x = (first * y2 - second * y1) * inverse, y = (second * x1 - first * x2) * inverse;
-        return Plane{0.25F * (atA + atB + atC + atD) - x * middleX - y * middleY, x, y};
+        return LinearFunction{0.25F * (atA + atB + atC + atD) - x * middleX - y * middleY, x, y};
     };
     Paint paint = paintOf(look, pixelSize);
-    if (depth != Depth::unused) paint.nearness = planeOf(a.nearness, b.nearness, c.nearness, d.nearness);
+    if (depth != DepthUse::unused) paint.nearness = functionOf(a.nearness, b.nearness, c.nearness, d.nearness);
     if (form == Form::rim) {
-        paint.halfRadius = planeOf(a.place.z, b.place.z, c.place.z, d.place.z);
+        paint.halfRadius = functionOf(a.place.z, b.place.z, c.place.z, d.place.z);
         return fill<Form::rim>(canvas, rows, paint, depth);
     }
-    paint.u = planeOf(a.place.x, b.place.x, c.place.x, d.place.x);
+    paint.u = functionOf(a.place.x, b.place.x, c.place.x, d.place.x);
     if (form == Form::strip) return fill<Form::strip>(canvas, rows, paint, depth);
-    paint.v = planeOf(a.place.y, b.place.y, c.place.y, d.place.y);
+    paint.v = functionOf(a.place.y, b.place.y, c.place.y, d.place.y);
     fill<Form::disk>(canvas, rows, paint, depth);
 }
 
 }  // namespace
 
 OVAL4D_AVX2 void drawPatch(const PatchCanvas& canvas, std::span<const ShapeVertex> vertices,
-                           std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::Depth depth,
+                           std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::DepthUse depth,
                            float pixelSize) {
     const float halfWidth = 0.5F * static_cast<float>(canvas.width),
                 halfHeight = 0.5F * static_cast<float>(canvas.height);

@@ -18,7 +18,7 @@ namespace oval4d::render {
 struct PatchCorner {
     float x, y;       ///< in pixels from the lower left corner
     float nearness;   ///< 1 / (the distance from the eye along the view axis)
-    int row;          ///< the first drawn row whose center is not below the corner; the end of these rows if none is
+    int row;          ///< the first drawn row whose center is not below the corner, or the end of the drawn rows
     glm::vec3 place;  ///< see ShapeVertex
 };
 
@@ -46,7 +46,7 @@ struct PatchCanvas {
 /// Draws a patch, a convex polygon. All its vertices must be in front of the eye. `corners` is working memory with as
 /// many entries as `vertices`. `pixelSize`: the size of a pixel, in view coordinates, at the distance 1 from the eye.
 OVAL4D_AVX2 void drawPatch(const PatchCanvas& canvas, std::span<const ShapeVertex> vertices,
-                           std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::Depth depth,
+                           std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::DepthUse depth,
                            float pixelSize);
 
 #endif

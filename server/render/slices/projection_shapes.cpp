@@ -28,7 +28,7 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 
     solid_.clear();
     translucent_.clear();
-    for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collect(scene, part);
+    for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collectPart(scene, part);
     // Ties are broken by index, so that equal scenes give equal pictures; std::stable_sort would allocate memory.
     const auto farther = [](const Item& a, const Item& b) {
         return a.depth != b.depth ? a.depth > b.depth
@@ -38,11 +38,11 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
         std::sort(items.begin(), items.end(), farther);
         shapes.begin(scene.style());
         shapes.setProjection(Projection::of(scene.camera, scene.viewport));
-        for (const Item& item : items) paintItem(scene, item, shapes);
+        for (const Item& item : items) addShape(scene, item, shapes);
     }
 }
 
-void ProjectionShapeCollector::collect(const scene::Scene& scene, std::uint32_t part) {
+void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint32_t part) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPart& look = scene.projection.parts[part];
     const auto add = [&](const Item& item, Visibility visibility) {
@@ -60,8 +60,8 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, std::uint32_t 
     if (look.barRadius > 0) {
         for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {
             const auto& [a, b] = elements.edges[e];
-            // A bar of the object is sorted by its far end. A bar of a section is sorted by its near end, so that it is
-            // drawn after the faces along it and is visible through them.
+            // A bar of the object is sorted by its far end. A bar of a section is sorted by its near end, so that the
+            // faces beside the bar are drawn before it and do not cover it.
             const auto [far, near] = std::minmax(points_[first + a].z, points_[first + b].z);
             add({-(part == 0 ? far : near), Kind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
@@ -77,7 +77,7 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, std::uint32_t 
     }
 }
 
-void ProjectionShapeCollector::paintItem(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
+void ProjectionShapeCollector::addShape(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPart& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];

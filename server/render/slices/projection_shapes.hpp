@@ -35,8 +35,8 @@ class ProjectionShapeCollector {
         std::uint32_t part, number;  // number: the index of a vertex, edge or face in ObjectProjection::elements
     };
 
-    void collect(const scene::Scene& scene, std::uint32_t part);
-    void paintItem(const scene::Scene& scene, const Item& item, ShapeBatch& out);
+    void collectPart(const scene::Scene& scene, std::uint32_t part);
+    void addShape(const scene::Scene& scene, const Item& item, ShapeBatch& out);
 
     std::vector<glm::vec3> points_, corners_;  // in view coordinates
     std::vector<Item> solid_, translucent_;

@@ -20,12 +20,15 @@ namespace oval4d::render {
 /// is X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z:
 /// - ball: the patch covers the unit disk of (u, v), and Z points to the eye;
 /// - bar: u runs across the bar from −1 to 1, and v = 0;
-/// - face: u = v = 0, so the normal is Z everywhere. Instead of r/2, a face has ½, or −½ at its soft outer edge.
+/// - face: u = v = 0, so the normal is Z everywhere.
 /// The vertices hold the dot products of X, Y and Z with the direction of light L and the half vector H, so that the
 /// shader need not compute normals.
 struct ShapeVertex {
-    glm::vec3 clip;       ///< clip coordinates x, y, w
-    glm::vec3 place;      ///< u, v and r/2, for the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½
+    glm::vec3 clip;  ///< clip coordinates x, y, w
+    /// u, v and r/2, for the radius r in pixels. The shape covers the fraction (1 − u² − v²) · r/2 + ½ of the pixel,
+    /// clamped to 0 … 1. A face has ½ instead of r/2, so that it covers whole pixels; at the outer edge of its soft
+    /// rim, it has −½, so that it covers nothing.
+    glm::vec3 place;
     glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
     glm::vec3 specular;   ///< X·H, Y·H, Z·H
     std::uint32_t color;  ///< as returned by rgba()
@@ -61,8 +64,8 @@ class ShapeBatch {
     /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or is almost transparent.
     void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. At this end, the bar has a round
-    /// foot, which joins it to the ball there, unless it is too thin; the other end is flat. Does nothing if an end is
+    /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. At this end, a bar that is thick
+    /// enough has a round foot, which joins it to the ball there; the other end is flat. Does nothing if an end is
     /// behind the eye or closer to it than `radius`, if the line through `from` and `to` passes the eye within
     /// `radius`, or if the bar is almost transparent.
     void addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
@@ -105,8 +108,10 @@ class ShapeProgram {
   public:
     /// The depths that drawWithDepth() writes to the depth buffer.
     enum class DepthSource : std::uint8_t {
-        patch,    ///< the depth of the flat patch
-        surface,  ///< the depth of the ball or bar that the patch represents; faces are closer by the size of a pixel
+        patch,  ///< the depth of the flat patch
+        /// The depth of the ball or bar that the patch represents. Faces count as closer to the eye by the size of a
+        /// pixel.
+        surface,
     };
     ShapeProgram(const scene::Style& style, DepthSource depth);
 

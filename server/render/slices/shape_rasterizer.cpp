@@ -24,7 +24,7 @@ namespace {
 constexpr float kNearPlane = 1e-3F;
 
 using Form = Patch::Form;
-using Depth = ShapeRasterizer::Depth;
+using DepthUse = ShapeRasterizer::DepthUse;
 
 // Writes to `out` the part of a convex polygon that is in front of the eye and not too close to it.
 void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVertex>& out) {
@@ -48,7 +48,7 @@ struct ShapeRasterizer::Impl {
     struct Layer {
         const ShapeBatch* shapes;  // null for triangles
         std::size_t first, end;    // the patches first … end − 1
-        Depth depth;
+        DepthUse depth;
         const SurfaceRasterizer* surfaces;         // null for patches
         std::span<const std::uint32_t> triangles;  // three indices of vertices each
         SurfaceRasterizer::Blending blending;
@@ -95,13 +95,13 @@ void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style,
     impl_->layers.clear();
 }
 
-void ShapeRasterizer::add(const ShapeBatch& shapes, std::size_t first, std::size_t end, Depth depth) {
+void ShapeRasterizer::add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth) {
     impl_->layers.push_back({&shapes, first, end, depth, nullptr, {}, {}});
 }
 
 void ShapeRasterizer::add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
                           SurfaceRasterizer::Blending blending) {
-    impl_->layers.push_back({nullptr, 0, 0, Depth::tested, &surfaces, indices, blending});
+    impl_->layers.push_back({nullptr, 0, 0, DepthUse::tested, &surfaces, indices, blending});
 }
 
 void ShapeRasterizer::setDepthArea(const PixelArea& area) {
@@ -123,9 +123,9 @@ void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
 }
 
-// Returns the mean row of the shapes. It divides the picture into two parts in which there is about the same to draw.
+// Returns the mean row of the shapes. It divides the picture into two parts that take about equally long to draw.
 int ShapeRasterizer::Impl::middleRow() const {
-    double sum = 0;  // of the heights of the shapes in the picture, from 0 to 1
+    double sum = 0;  // of the positions of the shapes: 0 at the lower edge of the picture, 1 at the upper
     std::size_t count = 0;
     for (const Layer& layer : layers) {
         for (const Patch& patch : layer.patches()) {
@@ -187,7 +187,8 @@ ShapeRasterizer::ShapeRasterizer() = default;
 bool ShapeRasterizer::isSupported() { return false; }
 void ShapeRasterizer::begin(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
                             std::span<std::uint8_t> /*pixels*/) {}
-void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, std::size_t /*first*/, std::size_t /*end*/, Depth /*depth*/) {}
+void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, std::size_t /*first*/, std::size_t /*end*/,
+                          DepthUse /*depth*/) {}
 void ShapeRasterizer::add(const SurfaceRasterizer& /*surfaces*/, std::span<const std::uint32_t> /*indices*/,
                           SurfaceRasterizer::Blending /*blending*/) {}
 void ShapeRasterizer::setDepthArea(const PixelArea& /*area*/) {}

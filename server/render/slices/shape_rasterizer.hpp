@@ -28,7 +28,7 @@ struct PixelArea {
 class ShapeRasterizer {
   public:
     /// How shapes use the depth buffer.
-    enum class Depth : std::uint8_t {
+    enum class DepthUse : std::uint8_t {
         unused,  ///< neither read nor written
         /// Read, not written: where a shape that was drawn with `written`, or an opaque surface, is nearer, the new
         /// shape changes only the part of each pixel that the nearer one leaves uncovered. Faces count as closer to the
@@ -55,7 +55,7 @@ class ShapeRasterizer {
 
     /// Adds the patches `first` … `end` − 1 of `shapes`, which must remain valid until finish() returns. They are drawn
     /// in order, after everything that was added before.
-    void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, Depth depth);
+    void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth);
 
     /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must
     /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until finish() returns.

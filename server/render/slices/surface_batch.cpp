@@ -25,10 +25,10 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half) {
     vertices_.clear();
-    opaque_.clear();
+    opaqueIndices_.clear();
     fringes_.clear();
     fringesBegin_ = 0;
-    translucent_.clear();
+    translucentIndices_.clear();
     order_.clear();
     translucentEnds_.clear();
     if (scene.surfaces.empty() && scene.fog.empty()) return;
@@ -61,13 +61,13 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
     if (!scene.surfaces.empty()) {
         for (const std::uint32_t slice : order_ | std::views::reverse) add(slice, true);
     }
-    fringesBegin_ = opaque_.size();
-    opaque_.insert(opaque_.end(), fringes_.begin(), fringes_.end());
+    fringesBegin_ = opaqueIndices_.size();
+    opaqueIndices_.insert(opaqueIndices_.end(), fringes_.begin(), fringes_.end());
     const bool isOpaque =
         std::ranges::all_of(scene.surfaces.levels, [](const auto& level) { return level.opacity == 1; });
     for (const std::uint32_t slice : order_) {
         if (!isOpaque) add(slice, false);
-        translucentEnds_.push_back(translucent_.size());
+        translucentEnds_.push_back(translucentIndices_.size());
     }
 }
 
@@ -94,7 +94,7 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
     const bool opaque = level.opacity == 1;
     // A closed surface hides its own triangles that face away from the eye. Without caps, a surface is open.
     const bool skipsBack = opaque && level.caps;
-    std::vector<std::uint32_t>& out = opaque ? opaque_ : translucent_;
+    std::vector<std::uint32_t>& out = opaque ? opaqueIndices_ : translucentIndices_;
     facing_.clear();
     front_.clear();
     if (skipsBack) touchesBack_.assign(surface.points.size(), 0);
@@ -103,13 +103,13 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         if (number_[point] == kNone) {
             number_[point] = static_cast<std::uint32_t>(vertices_.size());
             const glm::vec3& n = normals_[point];
-            vertices_.push_back({projection_.clip(points_[point]), glm::dot(n, points_[point]) > 0 ? -n : n,
+            vertices_.push_back({projection_.clipCoordinates(points_[point]), glm::dot(n, points_[point]) > 0 ? -n : n,
                                  colorOf(scene, slice, level, false, point, alpha)});
         }
         return number_[point];
     };
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (surface.level(t) != level.index || (surface.isCap(t) && !level.caps)) continue;
+        if (surface.levelIndex(t) != level.index || (surface.isCap(t) && !level.caps)) continue;
         const auto& [a, b, c] = surface.triangles[t];
         const glm::vec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
         const bool isBack = glm::dot(normal, points_[a]) > 0;
@@ -123,8 +123,8 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
             const glm::vec3 flat = glm::normalize(isBack ? -normal : normal);
             for (const std::uint32_t point : {a, b, c}) {
                 indices.push_back(static_cast<std::uint32_t>(vertices_.size()));
-                vertices_.push_back(
-                    {projection_.clip(points_[point]), flat, colorOf(scene, slice, level, true, point, alpha)});
+                vertices_.push_back({projection_.clipCoordinates(points_[point]), flat,
+                                     colorOf(scene, slice, level, true, point, alpha)});
             }
         } else {
             for (const std::uint32_t point : {a, b, c}) indices.push_back(vertex(point));
@@ -167,7 +167,7 @@ void SurfaceBatch::addFringes(const scene::Scene& scene, std::size_t slice, cons
         for (const std::uint32_t point : {from, to}) {
             const float length = glm::length(outward_[point]);
             const glm::vec2 out = length > 0 ? outward_[point] / length * pixel : glm::vec2(0);
-            const glm::vec3 clip = projection_.clip(points_[point]);
+            const glm::vec3 clip = projection_.clipCoordinates(points_[point]);
             const glm::vec3& n = normals_[point];
             const glm::vec3 normal = isCap ? flat : glm::dot(n, points_[point]) > 0 ? -n : n;
             vertices_.push_back({clip, normal, colorOf(scene, slice, level, isCap, point, 1)});

@@ -28,11 +28,12 @@ class SurfaceBatch {
     /// the triangles.
     enum class DepthHalf : std::uint8_t { whole, near, far };
 
-    /// Collects the surfaces of a scene, or of its nearer or farther slices. opaque() then has the opaque surfaces,
-    /// from the nearest slice to the farthest. If caps close a surface, opaque() omits the triangles of this surface
-    /// that face away from the eye, because the surface hides them. translucent() has the translucent surfaces, from
-    /// the farthest slice to the nearest; within a slice, from the innermost level to the outermost; and within a
-    /// level, first the triangles that face away from the eye. Extends `depths` to include the depths of the surfaces.
+    /// Collects the surfaces of a scene, or of its nearer or farther slices. opaqueIndices() then has the opaque
+    /// surfaces, from the nearest slice to the farthest. If caps close a surface, opaqueIndices() omits the triangles
+    /// of this surface that face away from the eye, because the surface hides them. translucentIndices() has the
+    /// translucent surfaces, from the farthest slice to the nearest; within a slice, from the innermost level to the
+    /// outermost; and within a level, first the triangles that face away from the eye. Extends `depths` to include the
+    /// depths of the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
     /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
@@ -41,13 +42,13 @@ class SurfaceBatch {
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
     /// Returns the opaque triangles, each as three indices of vertices. The entries from fringesBegin() on are the
     /// triangles of the fringes.
-    const std::vector<std::uint32_t>& opaque() const { return opaque_; }
+    const std::vector<std::uint32_t>& opaqueIndices() const { return opaqueIndices_; }
     std::size_t fringesBegin() const { return fringesBegin_; }
-    const std::vector<std::uint32_t>& translucent() const { return translucent_; }
+    const std::vector<std::uint32_t>& translucentIndices() const { return translucentIndices_; }
     /// Returns the indices of the collected slices, from the farthest to the nearest. Empty if the scene has neither
     /// surfaces nor fog.
     const std::vector<std::uint32_t>& order() const { return order_; }
-    /// Returns, for each slice of order(), the end of its triangles: an index in translucent().
+    /// Returns, for each slice of order(), the end of its triangles: an index in translucentIndices().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
 
   private:
@@ -70,7 +71,8 @@ class SurfaceBatch {
     std::vector<glm::vec3> points_, normals_;  // of the current slice, in view coordinates
     std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone
     std::vector<SurfaceVertex> vertices_;
-    std::vector<std::uint32_t> opaque_, translucent_, facing_, fringes_;  // three indices of vertices per triangle
+    // Three indices of vertices per triangle.
+    std::vector<std::uint32_t> opaqueIndices_, translucentIndices_, facing_, fringes_;
     std::size_t fringesBegin_ = 0;
     std::vector<std::uint32_t> front_;       // the triangles of the current slice and level that face the eye
     std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away

@@ -146,7 +146,7 @@ OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest
 }
 
 // Which of eight triangles may cover pixels, one bit per triangle.
-struct Covering {
+struct TriangleMasks {
     unsigned drawn;    // their bounding boxes contain centers of pixels, and all corners have a position
     unsigned clipped;  // the position of a corner is NaN: it is behind the eye or too close
 };
@@ -171,7 +171,8 @@ OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
             _mm256_permutevar8x32_epi32(pick(second, third, first), _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7))};
 }
 
-OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices, SetUp& out) {
+OVAL4D_AVX2 TriangleMasks setUp(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
+                                SetUp& out) {
     const auto& [a, b, c] = cornersOf(indices);
     const auto gather = [points](const float Point::* member, __m256i index) OVAL4D_AVX2 {
         const float* const base = &(points->*member);
@@ -198,8 +199,8 @@ OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, con
     const auto isNan = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(sum, sum, _CMP_UNORD_Q)));
     const __m256i covers = _mm256_and_si256(coversRows, _mm256_cmpgt_epi32(right, left));
     const auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(covers)));
-    const Covering covering{mask & ~isNan, isNan};
-    if (covering.drawn == 0) return covering;
+    const TriangleMasks masks{mask & ~isNan, isNan};
+    if (masks.drawn == 0) return masks;
 
     __m256 xP = xA, yP = yA, xQ = xB, yQ = yB, xR = xC, yR = yC;
     sort(xP, yP, xQ, yQ);
@@ -238,7 +239,7 @@ OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, con
     put(out.yC, _mm256_mul_ps(x1, inverse));
     put(out.originX, _mm256_sub_ps(xA, half));
     put(out.originY, _mm256_sub_ps(yA, half));
-    return covering;
+    return masks;
 }
 
 // Converts the upper half of a Point, a color with numbers from 0 to 255, to an RGBA pixel.
@@ -277,19 +278,19 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
             value = _mm256_fmadd_ps(alongX, _mm256_set1_ps(static_cast<float>(left) - s.originX[i]), value);
             const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(y) * canvas.width;
             std::uint32_t* const pixels = canvas.pixels + start;
-            float* const depths = canvas.depths + start;
+            float* const stored = canvas.nearness + start;
             for (int k = left; k < right; ++k, value = _mm256_add_ps(value, alongX)) {
                 const __m256 at = _mm256_min_ps(_mm256_max_ps(value, least), most);
                 const float nearness = _mm256_cvtss_f32(at);
-                const bool isNearer = nearness > depths[k];
+                const bool isNearer = nearness > stored[k];
                 __m128 color = _mm256_extractf128_ps(at, 1);
                 if constexpr (blending == Blending::none) {
                     if (!isNearer) continue;
-                    depths[k] = coveredAt(nearness);
+                    stored[k] = packFullyCovered(nearness);
                     pixels[k] = pixelOf(color);
                 } else {
                     if (!isNearer) {
-                        const float uncovered = uncoveredPart(depths[k]);
+                        const float uncovered = uncoveredPart(stored[k]);
                         if (!(uncovered > 0)) continue;
                         color = _mm_mul_ps(color, _mm_set1_ps(uncovered));
                     }
@@ -311,10 +312,10 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
 template <Blending blending>
 OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
                                unsigned wanted, SetUp& lanes) {
-    const Covering covering = setUp(canvas, points, indices, lanes);
-    const unsigned clipped = covering.clipped & wanted;
+    const TriangleMasks masks = setUp(canvas, points, indices, lanes);
+    const unsigned clipped = masks.clipped & wanted;
     // Triangles must be drawn in order, so those after a clipped one are drawn by a later call.
-    unsigned drawn = covering.drawn & wanted;
+    unsigned drawn = masks.drawn & wanted;
     if (clipped != 0) drawn &= (clipped & (0U - clipped)) - 1;
     for (; drawn != 0; drawn &= drawn - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(drawn));

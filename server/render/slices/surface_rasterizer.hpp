@@ -16,7 +16,7 @@ struct SurfaceCanvas {
     int width, height;      ///< the size of the whole picture, in pixels
     int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
     std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
-    float* depths;          ///< the depth buffer: see kCoverageBits
+    float* nearness;        ///< the depth buffer: see kCoverageBits
 };
 
 /// Rasterizes the triangles of a SurfaceBatch like SurfaceProgram. Surfaces consist of many triangles with a few pixels
@@ -27,7 +27,7 @@ class SurfaceRasterizer {
   public:
     /// How triangles are drawn to the picture and to the depth buffer.
     enum class Blending : std::uint8_t {
-        none,  ///< opaque, where nothing solid is nearer; the triangle then hides what is drawn later and farther away
+        none,  ///< where nothing solid is nearer, the triangle replaces the pixel and its value in the depth buffer
         /// The triangle is blended with the pixel; the depth buffer does not change. Where a solid shape is nearer, the
         /// triangle changes only the part of the pixel that this shape leaves uncovered.
         alpha,

@@ -12,11 +12,11 @@ namespace oval4d::slicing {
 namespace {
 
 constexpr double kDifference = 2e-3;  // the offset of the points of a difference quotient, in radii
-constexpr double kDamping = 1e-6;     // relative to the mean diagonal entry of the matrix of the least squares
+constexpr double kDamping = 1e-6;     // relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
 constexpr int kIterations = 30;
-// Lengths are in radii (see PlacedFunction::radius). A point counts as critical if these values are less than the
-// following bounds: the length of the last step, the gradient's part in the hyperplane relative to the gradient, and
-// the distance from the level set.
+// Upper bounds of three values at a point that counts as critical: the length of the next step, the gradient's part in
+// the hyperplane relative to the gradient, and the distance from the level set. Lengths are in radii (see
+// PlacedFunction::radius).
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
 /// The value and the derivatives of the function at a point. The unit of length is PlacedFunction::radius.
@@ -65,7 +65,7 @@ std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double
         const Expansion f = expand(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
-        // The rows of the Jacobian are the columns of its transpose.
+        // The gradients are the rows of the Jacobian. GLM takes them as columns, so this is its transpose.
         const glm::dmat4 transposed =
             glm::dmat4(f.second[0], f.second[1], f.second[2], f.gradient) * glm::dmat4(1 / scale);
         const glm::dmat4 product = glm::transpose(transposed) * transposed;

@@ -15,7 +15,7 @@ struct PlacedFunction {
     const fields::ScalarFunction& function;
     glm::dmat4 toFunction;
     glm::dvec4 center;
-    double radius;  ///< the circumradius of the object: the unit of length in the iteration
+    double radius;  ///< the circumradius of the object, which findCriticalPoint() uses as its unit of length
 };
 
 /// Finds a point near `start` at which a level set is tangent to a hyperplane w = const: a point where f = `level` and

@@ -22,7 +22,7 @@ namespace oval4d::slicing {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Topologies = std::vector<SectionTopology>;  // one for each level
+using TopologyByLevel = std::vector<SectionTopology>;
 
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
@@ -58,9 +58,9 @@ class SectionCutter {
     bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
     /// Returns, for each level, the topology of its body in the section at `w`, without the parts that are small.
-    Topologies topologies(double w) {
+    TopologyByLevel topologies(double w) {
         const SliceSurface& surface = cut(w, true);
-        Topologies result;
+        TopologyByLevel result;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             SectionTopology& topology = result.emplace_back();
             for (const auto& [volume, euler] : findParts(surface, level).parts) {
@@ -84,7 +84,7 @@ class SectionCutter {
 /// Two sections, and the interval of w between them.
 struct Interval {
     double from = 0, to = 0;
-    Topologies atFrom, atTo;
+    TopologyByLevel atFrom, atTo;
 
     double width() const { return to - from; }
     bool differs() const { return atFrom != atTo; }
@@ -103,7 +103,8 @@ SectionChange changeOf(const SectionTopology& before, const SectionTopology& aft
 /// Matches the parts of the surfaces in two sections at close values of w.
 class Correspondence {
   public:
-    /// A part has a partner if most of its points are within two lattice cubes of points of the other section.
+    /// A part has a partner if most of its points are close to points of the other section: at a distance of at most
+    /// twice the side of a lattice cube.
     Correspondence(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
         : cutter_(cutter), reach_(2 * cutter.cubeSide()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
         toB_ = partners(a, partsA_, b, partsB_);
@@ -232,7 +233,7 @@ class Search {
             const bool fine = widest.width() <= (widest.differs() ? found_.tolerance : gap);
             if (!fine && !mustEnd() && intervals_.size() + open.size() < kMaxChanges + kCriticalSections) {
                 const double middle = (widest.from + widest.to) / 2;
-                const Topologies between = cutter_.topologies(middle);
+                const TopologyByLevel between = cutter_.topologies(middle);
                 open.push({widest.from, middle, widest.atFrom, between});
                 open.push({middle, widest.to, between, widest.atTo});
                 continue;
@@ -311,7 +312,7 @@ class Search {
                                                     std::size_t count) {
         std::vector<std::uint32_t> candidates;
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-            if (surface.part[t] != level) continue;
+            if (surface.levelAndCap[t] != level) continue;
             for (const std::uint32_t point : surface.triangles[t]) candidates.push_back(point);
         }
         std::ranges::sort(candidates);
@@ -346,9 +347,9 @@ Result<CriticalSections> findCriticalSections(const Object& object, const geomet
     const auto range = rangeOfW(object, orientation);
     if (const fields::Field* field = fieldIn(object))
         return Search(*field, orientation, settings, options, range).run();
-    CriticalSections found{range.first, range.second, kOnPlane * infoOf(object).circumradius, 0, {}};
-    for (const auto& [w, vertices] : vertexHeights(object, orientation))
-        found.all.push_back({w, SectionChange::vertices, vertices, 0, {}, {}});
+    CriticalSections found{range.first, range.second, kOnPlaneTolerance * infoOf(object).circumradius, 0, {}};
+    for (const auto& [w, vertexCount] : vertexHeights(object, orientation))
+        found.all.push_back({w, SectionChange::vertices, vertexCount, 0, {}, {}});
     return found;
 }
 

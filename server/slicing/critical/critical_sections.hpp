@@ -49,7 +49,7 @@ struct CriticalSection {
     double w = 0;  ///< in the units of the object
     SectionChange change = SectionChange::vertices;
     std::size_t vertices = 0;                 ///< for a polytope or point cloud: the number of vertices at this w
-    std::size_t level = 0;                    ///< for a field: the index of the level whose body changes
+    std::size_t levelIndex = 0;               ///< for a field: the index of the level whose body changes
     SectionTopology before = {}, after = {};  ///< for a field: the topology below and above w
 };
 
@@ -60,7 +60,8 @@ struct CriticalSections {
     /// (see `resolution`).
     double tolerance = 0;
     /// For a field: successive changes of the body of a level count as one change if the distance between them in w is
-    /// at most this. Changes within 1/80 of the range from either of its ends are not found. 0 for other objects.
+    /// at most this. 0 for other objects. Changes of a field are not found if they are closer than 1/80 of the range of
+    /// w to one of its ends.
     double resolution = 0;
     std::vector<CriticalSection> all;  ///< in ascending order of w
 };

@@ -23,7 +23,7 @@ unsigned bitsOf(const Values& values, Condition condition) {
 }
 
 // Even permutations of the corners of a tetrahedron: kWithFirst[i] begins with corner i, and kWithFirstTwo contains one
-// for each pair of first corners.
+// for each unordered pair of first corners.
 using CornerPermutation = std::array<std::uint8_t, 4>;
 constexpr std::array<CornerPermutation, 4> kWithFirst{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
 constexpr std::array<CornerPermutation, 6> kWithFirstTwo{
@@ -42,10 +42,10 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
     caps_.clear();
     for (std::size_t axis = 0; axis < 4; ++axis) {
         heights_[axis].clear();
-        for (int i = 0; i < lattice_.points()[static_cast<int>(axis)]; ++i)
-            heights_[axis].push_back(lattice_.part(axis, i).w - (axis == 0 ? w : 0));
+        for (int i = 0; i < lattice_.pointCounts()[static_cast<int>(axis)]; ++i)
+            heights_[axis].push_back(lattice_.positionTerm(axis, i).w - (axis == 0 ? w : 0));
     }
-    visit({glm::ivec4(0), lattice_.points() - 1});
+    visit({glm::ivec4(0), lattice_.pointCounts() - 1});
     if (status_ == RunStatus::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
     if (status_ == RunStatus::too_large) {
         return Error{ErrorCode::too_large, "the surface of an exact slice has more than the allowed " +
@@ -64,7 +64,7 @@ void ExactSlicer::visit(const CellRange& range) {
         status_ = RunStatus::stopped;
         return;
     }
-    const fields::Bounds bounds = lattice_.bounds(range.first, range.end);
+    const fields::Bounds bounds = lattice_.valueBounds(range.first, range.end);
     if (bounds.min > bounds.max) return;  // the function has no value in the range
     if (!bounds.mayCross(sign_ * level_)) {
         const bool inside = sign_ > 0 ? bounds.max < level_ : -bounds.min < level_;
@@ -81,8 +81,9 @@ void ExactSlicer::visit(const CellRange& range) {
     visit(upper);
 }
 
-// The heights of lattice points and these bounds are sums of four terms in the same order. Rounded sums are monotone in
-// each term, so no height of a point in the range is outside the bounds.
+// Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares bounds
+// of their heights with 0. The bounds and the heights are sums of four terms in the same order. Rounded sums are
+// monotone in each term, so no height is outside the bounds.
 bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -94,7 +95,8 @@ bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
 }
 
 bool ExactSlicer::touchesBoundary(const CellRange& range) const {
-    return glm::any(glm::equal(range.first, glm::ivec4(0))) || glm::any(glm::equal(range.end, lattice_.points() - 1));
+    return glm::any(glm::equal(range.first, glm::ivec4(0))) ||
+           glm::any(glm::equal(range.end, lattice_.pointCounts() - 1));
 }
 
 double ExactSlicer::valueOf(float sample) const {
@@ -137,7 +139,7 @@ void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights
     if (inside == 0) return;
     const bool atBoundary = touchesBoundary({cell, cell + 1});
     if (inside == 0xffffU && !atBoundary) return;
-    const glm::ivec4 last = lattice_.points() - 2;
+    const glm::ivec4 last = lattice_.pointCounts() - 2;
     CutPentatope cut{};
     cut.cell = cell;
     for (const Pentatope& shape : kuhnPentatopes()) {
@@ -157,9 +159,9 @@ void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights
             }
             continue;
         }
-        // The facets on the boundary of the domain, as bits: bit i for the facet opposite to corner i. The facet
-        // opposite to corner 0 is at the upper end of an axis, and the facet opposite to corner 4 at the lower end of
-        // an axis.
+        // `upper` and `lower` mark the facets on the boundary of the domain: bit i stands for the facet opposite to
+        // corner i. Only two facets can lie there, because the others are inside the cell: the facet opposite to corner
+        // 0, at the upper end of an axis, and the facet opposite to corner 4, at the lower end of an axis.
         const unsigned upper = cell[shape.axis(0)] == last[shape.axis(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axis(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
@@ -202,11 +204,11 @@ void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned
     }
 }
 
-// Adds the cap in the facet opposite to corner `hole`, which has no value, if the pentatope on the other side of this
-// facet has values at all of its corners.
+// Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to it if the pentatope on the
+// other side of this facet has values at all of its corners.
 void ExactSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
-    if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.points())))
+    if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
         return;
     if (std::isnan(valueOf(lattice_.sample(other)))) return;
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
@@ -237,7 +239,8 @@ void ExactSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron&
     }
 }
 
-// Adds the part of a tetrahedron's face that is inside the body as a cap, with the opposite orientation if `reversed`.
+// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed`, its orientation is opposite to
+// that of the face.
 void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
                          bool reversed) {
     std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];
@@ -257,7 +260,7 @@ void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetr
 
 // Returns the index of the point where the hyperplane crosses an edge. Adds the point if it is new.
 std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
-    const auto [number, isNew] = numbers_.number(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
+    const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) out_->points.push_back(position(cut, edge));
     return number;
 }
@@ -267,7 +270,7 @@ std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge&
 std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
                                         const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
-    const auto [number, isNew] = numbers_.number(keyOf(cut, corners));
+    const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, corners));
     if (isNew) {
         const double from = cut.crossings[inner[0]][inner[1]].value, to = cut.crossings[outer[0]][outer[1]].value;
         out_->points.push_back(

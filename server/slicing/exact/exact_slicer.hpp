@@ -24,15 +24,16 @@ namespace oval4d::slicing {
 
 /// Slices the interpolated field by one hyperplane at a time. The function is linear in each pentatope (4-simplex) of
 /// the lattice (see kuhn_sections.hpp). The section of a pentatope by the hyperplane is divided into tetrahedra. The
-/// part of a tetrahedron that belongs to the body is bounded by at most two triangles of the level set and by parts of
-/// the faces of the tetrahedron. Those parts that lie on the boundary of the domain become caps.
+/// part of a tetrahedron that belongs to the body of the level (see fields::Inside) is bounded by at most two triangles
+/// of the level set and by parts of the faces of the tetrahedron. Those parts of faces that lie on the boundary of the
+/// domain become caps.
 ///
 /// The surface is closed in spite of rounding errors, for two reasons. First, each of its points is the intersection of
 /// a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second, each decision
-/// depends only on a simplex: whether a lattice point lies above the hyperplane, and whether the function at the point
-/// where a lattice edge crosses the hyperplane is inside the level. Lattice points in the hyperplane count as above it,
-/// and values equal to the level as outside. If all samples have values, the surface is a 2-manifold, because it
-/// separates the inside points of a triangulated 3-manifold from the others. Triangles may have zero area.
+/// depends only on a simplex: whether a lattice point lies above the hyperplane, and whether the point where a lattice
+/// edge crosses the hyperplane is inside the body. Lattice points in the hyperplane count as above it, and points whose
+/// value equals the level as outside. If all samples have values, the surface is a 2-manifold, because it separates the
+/// inside points of a triangulated 3-manifold from the others. Triangles may have zero area.
 ///
 /// Samples that are NaN or infinite have no value. Pentatopes with such a corner do not belong to the body; they form
 /// holes, and the body has caps there. Parts of the body that touch along an edge of a hole share this edge.
@@ -112,7 +113,7 @@ class ExactSlicer {
     // always below the level.
     Options options_;
     double level_ = 0, sign_ = 1;
-    std::array<std::vector<double>, 4> heights_;  // per axis and index: the summand of a lattice point's height
+    std::array<std::vector<double>, 4> heights_;  // per axis and index: its contribution to a lattice point's height
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;
     SimplexNumbering numbers_;

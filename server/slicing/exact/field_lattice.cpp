@@ -47,22 +47,22 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
     const double longest = *std::ranges::max_element(lengths);
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);
-        points_[a] = field.array != nullptr
-                         ? std::max(2, static_cast<int>(field.array->shape()[axis]))
-                         : std::max(kMinCells, static_cast<int>(std::lround(cells * lengths[axis] / longest))) + 1;
-        for (int i = 0; i < points_[a]; ++i) {
-            const double t = static_cast<double>(i) / (points_[a] - 1);
+        pointCounts_[a] = field.array != nullptr
+                              ? std::max(2, static_cast<int>(field.array->shape()[axis]))
+                              : std::max(kMinCells, static_cast<int>(std::lround(cells * lengths[axis] / longest))) + 1;
+        for (int i = 0; i < pointCounts_[a]; ++i) {
+            const double t = static_cast<double>(i) / (pointCounts_[a] - 1);
             coordinates_[axis].push_back(glm::mix(field.box.min[a], field.box.max[a], t));
-            parts_[axis].push_back((t - 0.5) * size[a] * toSlice[a]);
+            positionTerms_[axis].push_back((t - 0.5) * size[a] * toSlice[a]);
         }
     }
     positive_ = glm::determinant(toSlice) > 0;
-    // So far the parts are relative to the center of the box; the origin of the object is field.center.
+    // So far the terms are relative to the center of the box; the origin of the object is field.center.
     const glm::dvec4 shift = toSlice * (field.box.center() - field.center);
-    for (glm::dvec4& part : parts_[0]) part += shift;
+    for (glm::dvec4& term : positionTerms_[0]) term += shift;
 }
 
-fields::Bounds FieldLattice::bounds(glm::ivec4 first, glm::ivec4 last) const {
+fields::Bounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
     constexpr double kMargin = 1e-3;  // of a cell, because positions of samples are rounded
     fields::Box region;
     for (std::size_t axis = 0; axis < 4; ++axis) {

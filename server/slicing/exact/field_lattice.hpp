@@ -27,24 +27,27 @@ class FieldLattice {
     static constexpr int kMinCells = 4;
 
     /// Returns the number of points along each axis, at least 2.
-    glm::ivec4 points() const { return points_; }
+    glm::ivec4 pointCounts() const { return pointCounts_; }
     /// Returns a number less than 2⁴⁶ that identifies the point.
     std::uint64_t index(glm::ivec4 point) const {
-        const glm::u64vec4 p(point), n(points_);
+        const glm::u64vec4 p(point), n(pointCounts_);
         return p.x + n.x * (p.y + n.y * (p.z + n.z * p.w));
     }
-    /// Returns the coordinates of a point: the sum of its part() along each axis.
+    /// Returns the coordinates of a point: the sum of its positionTerm() along each axis.
     glm::dvec4 position(glm::ivec4 point) const {
-        return (part(0, point.x) + part(1, point.y)) + (part(2, point.z) + part(3, point.w));
+        return (positionTerm(0, point.x) + positionTerm(1, point.y)) +
+               (positionTerm(2, point.z) + positionTerm(3, point.w));
     }
     /// Returns the contribution of the index along one axis to the position of a point.
-    const glm::dvec4& part(std::size_t axis, int index) const { return parts_[axis][static_cast<std::size_t>(index)]; }
+    const glm::dvec4& positionTerm(std::size_t axis, int index) const {
+        return positionTerms_[axis][static_cast<std::size_t>(index)];
+    }
     /// Returns whether the axes of the lattice are a positively oriented basis in the coordinates of the rotated
     /// object.
     bool isPositive() const { return positive_; }
 
     /// Returns bounds of the function's values at the lattice points in the box from `first` to `last`, both included.
-    fields::Bounds bounds(glm::ivec4 first, glm::ivec4 last) const;
+    fields::Bounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
     /// Writes the samples in the box from `first` to `last`, both included; x varies fastest. `values` must have room
     /// for all of them.
     void sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const;
@@ -53,8 +56,8 @@ class FieldLattice {
 
   private:
     const fields::Field& field_;
-    glm::ivec4 points_{2};
-    std::array<std::vector<glm::dvec4>, 4> parts_;
+    glm::ivec4 pointCounts_{2};
+    std::array<std::vector<glm::dvec4>, 4> positionTerms_;
     std::array<std::vector<double>, 4> coordinates_;  // per axis and index: the function's coordinate
     bool positive_ = true;
 };

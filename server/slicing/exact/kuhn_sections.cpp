@@ -30,7 +30,7 @@ std::array<Pentatope, 24> makePentatopes() {
     return pentatopes;
 }
 
-// Returns corner i of the pentatope whose corners are 0, e_x, e_x + e_y, …
+// Returns corner i of the reference pentatope, whose corners are 0, e_x, e_x + e_y, …
 glm::dvec4 referenceCorner(std::size_t i) {
     glm::dvec4 corner(0);
     for (std::size_t axis = 0; axis < i; ++axis) corner[static_cast<int>(axis)] = 1;

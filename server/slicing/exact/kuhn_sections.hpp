@@ -40,8 +40,8 @@ struct SectionTetrahedron {
 
     /// Corner k of the tetrahedron lies on the edge edges[k] of the pentatope.
     std::array<PentatopeEdge, 4> edges{};
-    /// Entry k: the facet of the pentatope that contains the face of the tetrahedron opposite to corner k. Facet i is
-    /// opposite to corner i of the pentatope. kInner if the face lies in the interior of the section.
+    /// Entry k tells where the face opposite to corner k of the tetrahedron lies: i if it lies in the facet opposite to
+    /// corner i of the pentatope, kInner if it lies in the interior of the section.
     std::array<std::uint8_t, 4> facets{};
 };
 

@@ -13,7 +13,7 @@ namespace oval4d::slicing {
 class SimplexNumbering {
   public:
     /// Returns the number of the key, and whether this is the first lookup of the key.
-    std::pair<std::uint32_t, bool> number(std::uint64_t key) {
+    std::pair<std::uint32_t, bool> findOrAdd(std::uint64_t key) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         Slot& slot = slotOf(key);
         if (slot.key == key) return {slot.number, false};

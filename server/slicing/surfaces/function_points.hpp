@@ -25,8 +25,8 @@ struct FunctionPoints {
         for (int k = 0; k < 4; ++k) coordinates[static_cast<std::size_t>(k)][i] = static_cast<float>(at[k]);
     }
     /// Sets points i … i + size.x · size.y · size.z − 1 to those of a box-shaped part of a lattice; x varies fastest.
-    /// `first` is its lower corner, a point of the slice. `steps` are the vectors to the next points along x, y and z,
-    /// in the function's coordinates.
+    /// `first` is the lower corner of the box, in the slice's coordinates. `steps` are the vectors to the next points
+    /// along x, y and z, in the function's coordinates.
     void setBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
                 const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
         set(i, section, first);

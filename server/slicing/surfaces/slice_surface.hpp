@@ -11,10 +11,10 @@ namespace oval4d::slicing {
 
 /// The triangles of one slice of a field. For each level, they form a closed surface, oriented outward, around the body
 /// of the level (see fields::Inside): the part of the level set that lies in the domain of the field, and caps where
-/// the boundary of the domain cuts the body. If only the topology was extracted (see SurfaceDetail::topologyOnly),
-/// `normals`, `growth` and `values` are empty.
+/// the body ends at the boundary of the domain, or of a hole in which the function has no value. If only the topology
+/// was extracted (see SurfaceDetail::topologyOnly), `normals`, `growth` and `values` are empty.
 struct SliceSurface {
-    /// The bit of SliceSurface::part that marks the triangles of caps.
+    /// The bit of SliceSurface::levelAndCap that marks the triangles of caps.
     static constexpr std::uint8_t kCap = 0x80;
 
     std::vector<glm::vec3> points;   ///< in the units of the object
@@ -27,7 +27,7 @@ struct SliceSurface {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise, seen from outside the body
     /// Per triangle: the index of its level, plus kCap if it belongs to a cap. The triangles are sorted by level;
     /// within each level, those of the caps are last.
-    std::vector<std::uint8_t> part;
+    std::vector<std::uint8_t> levelAndCap;
 
     void clear() {
         points.clear();
@@ -36,14 +36,14 @@ struct SliceSurface {
         values.clear();
         secondValues.clear();
         triangles.clear();
-        part.clear();
+        levelAndCap.clear();
     }
     /// Returns the values that determine the colors of the points: those of the second function, if there are any, else
     /// those of the first.
     const std::vector<float>& coloringValues() const { return secondValues.empty() ? values : secondValues; }
     /// Returns the index of the level of triangle t.
-    std::size_t level(std::size_t t) const { return part[t] & ~kCap; }
-    bool isCap(std::size_t t) const { return (part[t] & kCap) != 0; }
+    std::size_t levelIndex(std::size_t t) const { return levelAndCap[t] & ~kCap; }
+    bool isCap(std::size_t t) const { return (levelAndCap[t] & kCap) != 0; }
 };
 
 }  // namespace oval4d::slicing

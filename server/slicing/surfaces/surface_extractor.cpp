@@ -45,7 +45,7 @@ constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
 }();
 
 /// Returns a bit for each wall that a point of this block of cubes may be beyond, even after it was moved onto other
-/// walls. `first` is the block's corner 0.
+/// walls. `first` is the block's corner 0, and `cubes` the number of cubes along each side of the block.
 std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
     const double half = 0.5 * cubes * step;
     const glm::dvec3 center = first + half;
@@ -92,7 +92,8 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
         out.clear();
 }
 
-// Extracts the surfaces with this step, or a larger one. Returns false if there are too many points.
+// Extracts the surfaces with this step, or a larger one. Returns false if there are too many points, and the lattice
+// can still become coarser.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                   const Options& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
@@ -140,7 +141,7 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
     step_ = std::max(step, std::max({size.x, size.y, size.z}) / (kMaxCubes - 5));
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
         const glm::dvec3 n = glm::abs(section.walls[i].normal);
-        wallReach_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
+        maxMoveOntoWall_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
     }
     // Two more layers of points on each side: one of points that may be moved onto walls, and one of points outside.
     base_ = glm::ivec3(glm::floor(section.min / step_)) - 2;
@@ -159,27 +160,28 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
 }
 
 // Returns a bit for each wall that a cube with this center may touch or lie beyond. Sets `outside` to true if the whole
-// cube lies so far beyond one of the walls that none of its points is moved onto this wall. `reaches` must be the
-// result of wallReaches() for the size of the cube.
-std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const WallReaches& reaches,
+// cube lies so far beyond one of the walls that none of its points is moved onto this wall. `extents` must be the
+// result of extentsTowardWalls() for the size of the cube.
+std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents,
                                        const glm::dvec3& center, bool& outside) const {
     unsigned walls = 0;
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
         const double distance = glm::dot(section.walls[i].normal, center) - section.walls[i].offset;
-        outside = outside || distance > reaches[i] + wallReach_[i];
-        if (distance >= -reaches[i]) walls |= 1U << i;
+        outside = outside || distance > extents[i] + maxMoveOntoWall_[i];
+        if (distance >= -extents[i]) walls |= 1U << i;
     }
     return static_cast<std::uint8_t>(walls);
 }
 
-// For each wall, returns how far a cube reaches from its center toward the wall. `half` is half the side of the cube.
-SurfaceExtractor::WallReaches SurfaceExtractor::wallReaches(const FieldSection& section, double half) const {
-    WallReaches reaches{};
+// For each wall, returns how far a cube extends from its center toward the wall. `half` is half the side of the cube.
+SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const FieldSection& section,
+                                                                          double half) const {
+    ExtentsTowardWalls extents{};
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
         const glm::dvec3 n = glm::abs(section.walls[i].normal);
-        reaches[i] = half * (n.x + n.y + n.z) + 1e-6 * step_;
+        extents[i] = half * (n.x + n.y + n.z) + 1e-6 * step_;
     }
-    return reaches;
+    return extents;
 }
 
 // Finds the blocks that may contain a surface, and notes which points of their upper neighbors they need. Looks at
@@ -190,11 +192,11 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     active_.clear();
     glm::dvec4 unit(0);  // half the size of the bounding box of a cube with the side 2, in the function's coordinates
     for (const glm::dvec4& axis : section.axes) unit += glm::abs(axis);
-    // Returns whether a cube of blocks may contain a surface. `half` is half the side of the cube, and `reaches` the
-    // result of wallReaches() for it.
-    const auto mayContain = [&](const glm::dvec3& center, double half, const WallReaches& reaches) {
+    // Returns whether a cube of blocks may contain a surface. `half` is half the side of the cube, and `extents` the
+    // result of extentsTowardWalls() for it.
+    const auto mayContain = [&](const glm::dvec3& center, double half, const ExtentsTowardWalls& extents) {
         bool outside = false;
-        const std::uint8_t walls = wallsAt(section, reaches, center, outside);
+        const std::uint8_t walls = wallsAt(section, extents, center, outside);
         if (outside) return false;
         // Half the size of the bounding box of the cube in the function's coordinates. Points that are moved onto a
         // wall may leave the cube.
@@ -212,7 +214,8 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     const fields::EvaluationCost cost = function.cost();
     const bool refines = cost.bounds < 0.5 * kBlockPoints * cost.value;
     const double half = 0.5 * kBlock * step_;
-    const WallReaches ofBlock = wallReaches(section, half), ofGroup = wallReaches(section, 2 * half);
+    const ExtentsTowardWalls ofBlock = extentsTowardWalls(section, half);
+    const ExtentsTowardWalls ofGroup = extentsTowardWalls(section, 2 * half);
     const glm::ivec3 last = blockCount_ - 1;  // the layer of unused blocks
     for (glm::ivec3 g(0); g.z < last.z; g.z += 2) {
         for (g.y = 0; g.y < last.y; g.y += 2) {
@@ -336,7 +339,7 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
                 for (std::size_t i = 0; i < kBlock; ++i) {
                     const double d = distance + static_cast<double>(i) * step;
                     beyond[i] |= d > -kOnWall * step_;
-                    tooFar[i] |= d > wallReach_[wall] + kOnWall * step_;
+                    tooFar[i] |= d > maxMoveOntoWall_[wall] + kOnWall * step_;
                 }
             }
             for (int i = 0; i < size.x; ++i, ++n) {
@@ -352,7 +355,7 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
 }
 
 // Returns whether a point is in the domain or just beyond some walls. In the latter case, moves the point onto these
-// walls: along an axis of the lattice if there is only one. `walls` has a bit for each wall to consider; these must
+// walls: along an axis of the lattice if it is a single wall. `walls` has a bit for each wall to consider; these must
 // include all walls near the point.
 bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
     const auto wall = [&](unsigned bits) -> const FieldSection::Wall& {
@@ -367,14 +370,14 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (std::has_single_bit(walls)) {
         const FieldSection::Wall& only = wall(walls);
         const double d = distance(only);
-        if (d > wallReach_[static_cast<std::size_t>(std::countr_zero(walls))]) return false;
+        if (d > maxMoveOntoWall_[static_cast<std::size_t>(std::countr_zero(walls))]) return false;
         if (d > 0) moveAlongAxis(only, d);
         return true;
     }
     unsigned beyond = 0;
     for (unsigned rest = walls; rest != 0; rest &= rest - 1) {
         const double d = distance(wall(rest));
-        if (d > wallReach_[static_cast<std::size_t>(std::countr_zero(rest))]) return false;
+        if (d > maxMoveOntoWall_[static_cast<std::size_t>(std::countr_zero(rest))]) return false;
         if (d > 0) beyond |= rest & -rest;
     }
     if (beyond == 0) return true;
@@ -405,10 +408,11 @@ std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level)
     return static_cast<std::uint8_t>(corners);
 }
 
-// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points.
+// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points, and the
+// lattice can still become coarser.
 bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
-    // About a row of lattice points along x. There is a byte for each of the four cubes along the row; the bits of the
-    // byte are those of inside_.
+    // Describes a row of lattice points along x. Each member has a byte for each of the four cubes along the row, and
+    // in this byte a bit for each level, as in inside_.
     constexpr std::size_t kRows = kBlock + 1;
     struct Row {
         std::uint32_t some, all;  // whether any, and whether both, of the cube's two corners in this row are inside
@@ -462,8 +466,9 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
     cubes_.push_back(cube);
 }
 
-// Appends the points of a cube that no wall passes, one for each patch: the mean of the places where the edges of the
-// patch meet the level set. Returns false, and appends nothing, if the function has no value at one of the corners.
+// Appends the points of a cube through which no wall passes, one for each patch: the mean of the places where those
+// edges of the cube that belong to the patch meet the level set. Returns false, and appends nothing, if the value of
+// the function at one of the corners is not finite.
 bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -526,7 +531,8 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
 }
 
 // Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
-// a wall. If it meets several of them, returns the place closest to its inner end.
+// a wall. If the function has no value at the outer end, the edge is taken to meet the boundary of the hole in its
+// middle. If the edge meets several of these, returns the place closest to its inner end.
 SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
                                                       const Corner& inner, float atInner, const Corner& outer,
                                                       float atOuter) const {
@@ -564,10 +570,11 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
     return {inner.position + first * way, constraint};
 }
 
-// Moves the points of the current level onto their constraints, and appends them to `out`.
+// Moves each point of the current level onto the level set and the walls on which it must lie (see
+// constraints_), and appends the points to `out`.
 void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, const FieldSection& section,
                                     SliceSurface& out) {
-    constexpr int kRimSteps = 2;  // steps at rims, which may be far from their first approximation
+    constexpr int kRimSteps = 2;  // Newton steps of points on rims, whose first positions may be far off
     starts_ = positions_;
     moving_.clear();
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
@@ -607,7 +614,8 @@ void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, cons
     }
 }
 
-// Makes one step of Newton's method for the points `moving_`, toward the level set and their other constraints.
+// Makes one step of Newton's method for the points `moving_`, toward the level set and the walls in their constraint
+// masks.
 void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section) {
     Evaluation at;
     for (std::size_t begin = 0; begin < moving_.size(); begin += FunctionPoints::kCapacity) {
@@ -650,7 +658,8 @@ void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) 
 void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     caps_.clear();
     const auto firstPoint = static_cast<std::uint32_t>(out.points.size() - positions_.size());
-    // The two axes after the axis of an edge, and the edge's number in the cube at the offset (−u, −v) along them.
+    // The two axes that follow the axis of an edge in the cyclic order x, y, z, and the edge's number in the cube at
+    // the offset (−u, −v) along these two axes.
     static constexpr std::array<std::array<int, 2>, 3> kOthers{{{1, 2}, {2, 0}, {0, 1}}};
     const auto edgeNumber = [](int axis, int u, int v) {
         return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
@@ -690,9 +699,9 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 triangles.push_back({corners[turn], corners[(turn + i) % 4], corners[(turn + i + 1) % 4]});
         }
     }
-    out.part.resize(out.triangles.size(), static_cast<std::uint8_t>(level));
+    out.levelAndCap.resize(out.triangles.size(), static_cast<std::uint8_t>(level));
     out.triangles.insert(out.triangles.end(), caps_.begin(), caps_.end());
-    out.part.resize(out.triangles.size(), static_cast<std::uint8_t>(level | SliceSurface::kCap));
+    out.levelAndCap.resize(out.triangles.size(), static_cast<std::uint8_t>(level | SliceSurface::kCap));
 }
 
 }  // namespace oval4d::slicing

@@ -89,7 +89,7 @@ class SurfaceExtractor {
         std::uint16_t constraint;  // a constraint mask
     };
 
-    using WallReaches = std::array<double, FieldSection::kMaxWalls>;
+    using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
 
     void layOut(const FieldSection& section, double step);
     bool tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
@@ -98,9 +98,9 @@ class SurfaceExtractor {
                        const Options& options);
     void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
     void activate(glm::ivec3 block);
-    std::uint8_t wallsAt(const FieldSection& section, const WallReaches& reaches, const glm::dvec3& center,
+    std::uint8_t wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents, const glm::dvec3& center,
                          bool& outside) const;
-    WallReaches wallReaches(const FieldSection& section, double half) const;
+    ExtentsTowardWalls extentsTowardWalls(const FieldSection& section, double half) const;
     void sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
     void moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
                        FunctionPoints& points, std::span<bool> inDomain) const;
@@ -143,7 +143,8 @@ class SurfaceExtractor {
     std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
-    std::array<double, FieldSection::kMaxWalls> wallReach_{};  // per wall: how far beyond it points are moved onto it
+    // Per wall: points up to this far beyond it are moved onto it.
+    std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps
     glm::ivec3 blockCount_{0};                      // including a layer of unused blocks at the upper end of each axis

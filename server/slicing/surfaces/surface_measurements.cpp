@@ -86,13 +86,15 @@ struct LevelTriangles {
     std::size_t firstCap;
 
     LevelTriangles(const SliceSurface& surface, std::size_t level) {
-        const auto first = std::ranges::find_if(
-            surface.part, [&](std::uint8_t part) { return (part & ~SliceSurface::kCap) == static_cast<int>(level); });
-        const auto cap = std::find(first, surface.part.end(), static_cast<std::uint8_t>(level | SliceSurface::kCap));
-        const auto end = std::find_if(first, surface.part.end(), [&](std::uint8_t part) {
-            return (part & ~SliceSurface::kCap) != static_cast<int>(level);
+        const auto first = std::ranges::find_if(surface.levelAndCap, [&](std::uint8_t levelAndCap) {
+            return (levelAndCap & ~SliceSurface::kCap) == static_cast<int>(level);
         });
-        const auto index = [&](auto at) { return static_cast<std::size_t>(at - surface.part.begin()); };
+        const auto cap =
+            std::find(first, surface.levelAndCap.end(), static_cast<std::uint8_t>(level | SliceSurface::kCap));
+        const auto end = std::find_if(first, surface.levelAndCap.end(), [&](std::uint8_t levelAndCap) {
+            return (levelAndCap & ~SliceSurface::kCap) != static_cast<int>(level);
+        });
+        const auto index = [&](auto at) { return static_cast<std::size_t>(at - surface.levelAndCap.begin()); };
         all = std::span(surface.triangles).subspan(index(first), index(end) - index(first));
         firstCap = std::min(index(cap), index(end)) - index(first);
     }

@@ -14,7 +14,7 @@
 
 namespace oval4d::slicing {
 
-/// The measurements of the body that a closed surface, oriented outward, bounds, in the units of the object.
+/// The measurements of the body inside a closed surface that is oriented outward, in the units of the object.
 struct SurfaceMeasurements {
     double volume = 0;
     double area = 0;                     ///< of the level set, without caps
@@ -29,7 +29,7 @@ struct SurfaceMeasurements {
     long euler = 0;
 };
 
-/// Measures the surface of one level of a slice. `level` is the index of the level, as for SliceSurface::level().
+/// Measures the surface of one level of a slice. `level` is the index of the level, as for SliceSurface::levelIndex().
 SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t level);
 
 /// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the

@@ -67,10 +67,10 @@ TEST(File, ofAFieldIsBounded) {
         EXPECT_NE(refusal(format, {.time = std::chrono::duration<double>(1e-6)}).find("takes longer"),
                   std::string::npos);
         EXPECT_NE(refusal(format, kUnhurried, stop.get_token()).find("stopping"), std::string::npos);
-        EXPECT_NE(
-            refusal(format, {.time = kUnhurried.time, .reserve = [](std::size_t bytes) { return bytes < 50'000; }})
-                .find("no room"),
-            std::string::npos);
+        EXPECT_NE(refusal(format, {.time = kUnhurried.time,
+                                   .grantTotalBytes = [](std::size_t bytes) { return bytes < 50'000; }})
+                      .find("no room"),
+                  std::string::npos);
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using support::shared;
 
-std::string encoded(const Result<session::LoadedObject>& outcome) {
+std::string encoded(const Result<session::ObjectWithWarnings>& outcome) {
     std::string bytes;
     encodeOutcome(outcome, bytes);
     return bytes;
@@ -31,8 +31,8 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     session::LoadObject load{"mine", "points", std::string("1 2\0 3", 6)};
     load.axes = "xyz";
     load.variable = "a/b";
-    load.values = "x*y";
-    load.valuesVariable = "a/c";
+    load.secondFormula = "x*y";
+    load.secondVariable = "a/c";
     load.center = {geometry::Centering::Kind::point, {1, 2, 3, 4}};
     for (const bool hasBox : {false, true}) {
         if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -45,8 +45,8 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
         EXPECT_EQ(file.load.name, load.name);
         EXPECT_EQ(file.load.axes, load.axes);
         EXPECT_EQ(file.load.variable, load.variable);
-        EXPECT_EQ(file.load.values, load.values);
-        EXPECT_EQ(file.load.valuesVariable, load.valuesVariable);
+        EXPECT_EQ(file.load.secondFormula, load.secondFormula);
+        EXPECT_EQ(file.load.secondVariable, load.secondVariable);
         EXPECT_EQ(file.load.center, load.center);
         EXPECT_EQ(file.load.box, load.box);
         EXPECT_EQ(file.limits.maxVertices, 7U);
@@ -58,7 +58,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
 TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
     for (const char* name : {"5-cell", "24-cell", "120-cell", "runcinated tesseract", "{5/2,3,5}"}) {
         const auto sent = shared(name);
-        const auto got = decodeOutcome(encoded(session::LoadedObject{sent, {"one", "δ"}}), "mine", {});
+        const auto got = decodeOutcome(encoded(session::ObjectWithWarnings{sent, {"one", "δ"}}), "mine", {});
         ASSERT_TRUE(got) << name;
         EXPECT_EQ(got->warnings, (std::vector<std::string>{"one", "δ"}));
         const polytopes::Polytope& polytope = *std::get<slicing::PolytopePtr>(got->object);
@@ -74,7 +74,7 @@ TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
         EXPECT_EQ(polytope.faceCells, sent->faceCells);
         EXPECT_EQ(polytope.typeOfCell, sent->typeOfCell);
         EXPECT_EQ(polytope.convex, sent->convex);
-        EXPECT_LT(encoded(session::LoadedObject{sent, {}}).size(), maxOutcomeBytes({}, {}));
+        EXPECT_LT(encoded(session::ObjectWithWarnings{sent, {}}).size(), maxOutcomeBytes({}, {}));
     }
 }
 
@@ -97,11 +97,11 @@ TEST(ReadingMessages, ErrorsAreSafeToSendToClients) {
 TEST(ReadingMessages, RefusesMoreThanTheLimits) {
     session::Limits limits;
     limits.maxVertices = 23;
-    const std::string bytes = encoded(session::LoadedObject{shared("24-cell"), {}});
+    const std::string bytes = encoded(session::ObjectWithWarnings{shared("24-cell"), {}});
     EXPECT_TRUE(decodeOutcome(bytes, "mine", {}));
     EXPECT_THROW((void)decodeOutcome(bytes, "mine", limits), std::runtime_error);
     const std::vector<std::string> warnings(1000, "so");
-    EXPECT_THROW((void)decodeOutcome(encoded(session::LoadedObject{shared("5-cell"), warnings}), "mine", {}),
+    EXPECT_THROW((void)decodeOutcome(encoded(session::ObjectWithWarnings{shared("5-cell"), warnings}), "mine", {}),
                  std::runtime_error);
 }
 
@@ -123,7 +123,7 @@ TEST(ReadingMessages, CorruptedBytesAreHarmless) {
         }
     };
     for (const char* name : {"5-cell", "tesseract", "{5/2,3,5}"}) {
-        const std::string whole = encoded(session::LoadedObject{shared(name), {"so"}});
+        const std::string whole = encoded(session::ObjectWithWarnings{shared(name), {"so"}});
         for (std::size_t size = 0; size < std::min<std::size_t>(whole.size(), 2000); ++size)
             attempt(whole.substr(0, size));
         const int rounds = whole.size() > 5000 ? 300 : 3000;

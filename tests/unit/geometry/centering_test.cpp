@@ -26,26 +26,26 @@ Points crossAt(const glm::dvec4& center) {
 TEST(Centering, OfAnObjectFarFromTheOriginIsItsCenter) {
     for (const glm::dvec4& center :
          {glm::dvec4(10, 10, 0, 0), glm::dvec4(0, 0, 0, -3.5), glm::dvec4(5e6, 0, 0.25, 7), glm::dvec4(0, 1e13, 0, 0)})
-        EXPECT_EQ(centerFor({}, crossAt(center)), center);
+        EXPECT_EQ(newOriginFor({}, crossAt(center)), center);
     for (const glm::dvec4& center : {glm::dvec4(0), glm::dvec4(1, 1, 1, 1), glm::dvec4(0, -3, 0, 0)})
-        EXPECT_EQ(centerFor({}, crossAt(center)), glm::dvec4(0));
+        EXPECT_EQ(newOriginFor({}, crossAt(center)), glm::dvec4(0));
 }
 
 TEST(Centering, IsWhatIsAskedFor) {
     using Kind = Centering::Kind;
     const glm::dvec4 near(0.5, 0, 0, 0), far(0, 0, 50, 0), place(1, 2, 3, 4);
     for (const glm::dvec4& center : {near, far}) {
-        EXPECT_EQ(centerFor({Kind::object}, crossAt(center)), center);
-        EXPECT_EQ(centerFor({Kind::origin}, crossAt(center)), glm::dvec4(0));
-        EXPECT_EQ(centerFor({Kind::point, place}, crossAt(center)), place);
+        EXPECT_EQ(newOriginFor({Kind::object}, crossAt(center)), center);
+        EXPECT_EQ(newOriginFor({Kind::origin}, crossAt(center)), glm::dvec4(0));
+        EXPECT_EQ(newOriginFor({Kind::point, place}, crossAt(center)), place);
     }
 }
 
 TEST(Centering, OfPointsWithoutExtentIsTheOriginUnlessAskedFor) {
     const Points one{{1, 2, 3, 4}, {1, 2, 3, 4}};
-    EXPECT_EQ(centerFor({}, one), glm::dvec4(0));
-    EXPECT_EQ(centerFor({Centering::Kind::object}, one), one.front());
-    EXPECT_EQ(centerFor({Centering::Kind::object}, Points()), glm::dvec4(0));
+    EXPECT_EQ(newOriginFor({}, one), glm::dvec4(0));
+    EXPECT_EQ(newOriginFor({Centering::Kind::object}, one), one.front());
+    EXPECT_EQ(newOriginFor({Centering::Kind::object}, Points()), glm::dvec4(0));
 }
 
 // The center of the points is not a coordinate that a double represents exactly; nevertheless the differences from it
@@ -59,7 +59,7 @@ TEST(Centering, KeepsTheDigitsOfPointsThatAreFarAway) {
         for (int axis = 0; axis < 4; ++axis) p[axis] = coordinate(random);
         points.push_back(p + glm::dvec4(5e6, 0, -3e6, 1));
     }
-    const glm::dvec4 center = centerFor({}, points);
+    const glm::dvec4 center = newOriginFor({}, points);
     glm::dvec4 sum(0);
     for (const glm::dvec4& p : points) {
         for (const int axis : {0, 2}) EXPECT_EQ(center[axis] + (p - center)[axis], p[axis]);

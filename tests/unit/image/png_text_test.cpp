@@ -23,8 +23,8 @@ TEST(PngText, IsThatOfTheEncoder) {
     for (const std::string& state : {std::string("{}"), std::string("\xc3\xa9\0x", 4), std::string(100'000, 'a')}) {
         const std::string file = pictureWith(state);
         EXPECT_TRUE(isPng(file));
-        ASSERT_TRUE(stateIn(file));
-        EXPECT_EQ(*stateIn(file), state);
+        ASSERT_TRUE(stateTextIn(file));
+        EXPECT_EQ(*stateTextIn(file), state);
     }
 }
 
@@ -33,8 +33,8 @@ TEST(PngText, IsFoundBehindOtherChunks) {
     constexpr std::size_t kHeader = 8 + 25;  // the signature and IHDR
     file.insert(kHeader, std::string("\0\0\0\x05iTXtother\0\0\0\0", 4 + 4 + 5 + 4));
     file.insert(kHeader, std::string("\0\0\0\0tEXt\0\0\0\0", 12));
-    ASSERT_TRUE(stateIn(file));
-    EXPECT_EQ(*stateIn(file), "the state");
+    ASSERT_TRUE(stateTextIn(file));
+    EXPECT_EQ(*stateTextIn(file), "the state");
 }
 
 // A chunk that claims to be longer than the file, in particular, is not read beyond the end of the file.
@@ -42,7 +42,7 @@ TEST(PngText, OfPartsOfAFileIsNothingOrTheWholeText) {
     const std::string state = "some text", file = pictureWith(state);
     for (std::size_t size = 0; size < file.size(); ++size) {
         const std::string part = file.substr(0, size);
-        if (const auto found = stateIn(part)) {
+        if (const auto found = stateTextIn(part)) {
             EXPECT_EQ(*found, state) << size;
         }
     }
@@ -50,14 +50,14 @@ TEST(PngText, OfPartsOfAFileIsNothingOrTheWholeText) {
         for (const char changed : {'\0', '\xff', '\x7f'}) {
             std::string damaged = file;
             damaged[at] = changed;
-            if (const auto found = stateIn(damaged)) {
+            if (const auto found = stateTextIn(damaged)) {
                 EXPECT_LE(found->size(), damaged.size());
             }
         }
     }
-    EXPECT_FALSE(stateIn(""));
-    EXPECT_FALSE(stateIn("a text"));
-    EXPECT_FALSE(stateIn(file.substr(0, 33))) << "a picture without a state";
+    EXPECT_FALSE(stateTextIn(""));
+    EXPECT_FALSE(stateTextIn("a text"));
+    EXPECT_FALSE(stateTextIn(file.substr(0, 33))) << "a picture without a state";
 }
 
 }  // namespace

@@ -18,12 +18,14 @@ constexpr std::size_t kTotalBytes = 1000;
 
 TEST(Clients, AreIdentifiedByAddress) {
     Clients clients({}, {}, kTotalBytes);
-    EXPECT_EQ(clients.at(make_address("192.0.2.1")), clients.at(make_address("::ffff:192.0.2.1")));
-    EXPECT_NE(clients.at(make_address("192.0.2.1")), clients.at(make_address("192.0.2.2")));
-    EXPECT_EQ(clients.at(make_address("2001:db8:1:2::1")), clients.at(make_address("2001:db8:1:2:ffff::9")));
-    EXPECT_NE(clients.at(make_address("2001:db8:1:2::1")), clients.at(make_address("2001:db8:1:3::1")));
-    EXPECT_EQ(clients.at(make_address("2001:db8:1:2::1"))->name(), "2001:db8:1:2::/64");
-    EXPECT_NE(clients.at(make_address("::1")), clients.at(make_address("::2")));
+    EXPECT_EQ(clients.findOrCreate(make_address("192.0.2.1")), clients.findOrCreate(make_address("::ffff:192.0.2.1")));
+    EXPECT_NE(clients.findOrCreate(make_address("192.0.2.1")), clients.findOrCreate(make_address("192.0.2.2")));
+    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1")),
+              clients.findOrCreate(make_address("2001:db8:1:2:ffff::9")));
+    EXPECT_NE(clients.findOrCreate(make_address("2001:db8:1:2::1")),
+              clients.findOrCreate(make_address("2001:db8:1:3::1")));
+    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1"))->name(), "2001:db8:1:2::/64");
+    EXPECT_NE(clients.findOrCreate(make_address("::1")), clients.findOrCreate(make_address("::2")));
 }
 
 TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
@@ -79,7 +81,7 @@ TEST(Network, RejectsMalformedText) {
 
 TEST(Client, LimitsNewSessionsPerMinute) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.newSessions = 60}, budget, {});
+    Client client("one", {.newSessionsPerMinute = 60}, budget, {});
     const auto at = [](double seconds) {
         return Client::Clock::time_point(std::chrono::duration_cast<Client::Clock::duration>(seconds * 1s));
     };
@@ -94,7 +96,7 @@ TEST(Client, LimitsNewSessionsPerMinute) {
 
 TEST(Client, LimitsWrongTokensPerMinute) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.wrongTokens = 3}, budget, {});
+    Client client("one", {.wrongTokensPerMinute = 3}, budget, {});
     const Client::Clock::time_point start{};
     for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(client.mayTryToken(start));
@@ -107,7 +109,7 @@ TEST(Client, LimitsWrongTokensPerMinute) {
 
 TEST(Client, IsDelayedAboveItsMessageRate) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.requests = 100, .messageBytes = 1000}, budget, {});
+    Client client("one", {.requestsPerSecond = 100, .messageBytesPerSecond = 1000}, budget, {});
     const Client::Clock::time_point start{};
     EXPECT_EQ(client.countMessage(1000, start).count(), 0);
     EXPECT_DOUBLE_EQ(client.countMessage(500, start).count(), 0.5);

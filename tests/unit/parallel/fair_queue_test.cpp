@@ -280,7 +280,7 @@ TEST(FairQueue, LongJobsHaveAllThreadsWhenNobodyElseIsThere) {
     for (int i = 0; i < 8; ++i) always(pool, newLane(), 100ms);
     pool.run(5s);
     EXPECT_EQ(pool.running(), 3U);
-    pool.run(Seconds(FairQueue::kActive) + 1s);
+    pool.run(Seconds(FairQueue::kActivePeriod) + 1s);
     EXPECT_EQ(pool.running(), 4U);
     ASSERT_TRUE(pool.post(quick, 5ms));
     pool.run(pool.now() + 1s);

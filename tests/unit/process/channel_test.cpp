@@ -24,13 +24,13 @@ std::pair<int, int> socketPair() {
     return {sockets[0], sockets[1]};
 }
 
-Deadline soon() { return {Deadline::Clock::now() + 5ms, {}}; }
+WaitLimit soon() { return {WaitLimit::Clock::now() + 5ms, {}}; }
 
-/// A deadline that ends an operation only where it would wait.
-Deadline stopped() {
+/// A limit that ends an operation only where it would wait.
+WaitLimit stopped() {
     std::stop_source stop;
     stop.request_stop();
-    return {Deadline::Clock::time_point::max(), stop.get_token()};
+    return {WaitLimit::Clock::time_point::max(), stop.get_token()};
 }
 
 TEST(Channel, KnowsWhenNobodyIsThere) {
@@ -69,7 +69,7 @@ TEST(Channel, WaitsNoLongerWhenAskedToStop) {
     });
     MessageType type{};
     std::string body;
-    EXPECT_EQ(channel.receive(type, body, nullptr, {Deadline::Clock::time_point::max(), stop.get_token()}),
+    EXPECT_EQ(channel.receive(type, body, nullptr, {WaitLimit::Clock::time_point::max(), stop.get_token()}),
               TransferResult::timed_out);
     stopping.join();
 }

@@ -90,7 +90,7 @@ TEST_P(Confined, MayStartThreadsOnlyToDraw) {
               0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(Role::draw, Role::read));
+INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(Role::draw, Role::parse_file));
 
 TEST(Sandbox, LimitsAdditionalMemory) {
     std::string why;
@@ -105,14 +105,14 @@ TEST(Sandbox, LimitsAdditionalMemory) {
         };
     };
     const Confinement confinement{false, std::size_t{256} << 20U, 0};
-    EXPECT_EQ(endOf(Role::read, confinement, takes(std::size_t{200} << 20U)), 0);
-    EXPECT_NE(endOf(Role::read, confinement, takes(std::size_t{300} << 20U)), 0);
+    EXPECT_EQ(endOf(Role::parse_file, confinement, takes(std::size_t{200} << 20U)), 0);
+    EXPECT_NE(endOf(Role::parse_file, confinement, takes(std::size_t{300} << 20U)), 0);
 }
 
 TEST(Sandbox, LimitsFilesAndCoreDumps) {
     std::string why;
     if (!shouldSandbox(SandboxMode::automatic, why)) GTEST_SKIP() << why;
-    EXPECT_EQ(endOf(Role::read, {false, 0, 20},
+    EXPECT_EQ(endOf(Role::parse_file, {false, 0, 20},
                     [] {
                         rlimit cores{}, files{};
                         getrlimit(RLIMIT_CORE, &cores), getrlimit(RLIMIT_NOFILE, &files);

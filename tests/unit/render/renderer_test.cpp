@@ -258,7 +258,7 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
         for (int column = 3; column + 3 < DensityPlot::kColumns; ++column) {
             // Columns that the axes cover.
             if (column % DensityPlot::kGap < 3 || column % DensityPlot::kGap > DensityPlot::kGap - 3) continue;
-            const double opacity = subject.scene.density[DensityPlot::index(row, column)] / 255.0;
+            const double opacity = subject.scene.plotTones[DensityPlot::index(row, column)] / 255.0;
             const auto gap = static_cast<std::size_t>(column / DensityPlot::kGap);
             const double part = column % DensityPlot::kGap / double(DensityPlot::kGap);
             const Rgb from = rgbOf(colors[gap]), to = rgbOf(colors[gap + 1]), behind = rgbOf(style.background);

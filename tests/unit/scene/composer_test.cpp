@@ -49,7 +49,7 @@ TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
     const Scene focus = composed("24-cell", 21, {}, look);
     ASSERT_EQ(focus.projection.parts.size(), 2U);
     EXPECT_EQ(focus.projection.parts[1].barColor, scene::style().axes[3]);
-    look.parts.sections = true;
+    look.parts.allSections = true;
     const Scene all = composed("24-cell", 21, {}, look);
     ASSERT_EQ(all.projection.parts.size(), 22U);
     ASSERT_EQ(all.projection.elements.vertexBegin.size(), 23U);

@@ -17,10 +17,10 @@ TEST(Coordinates, holdEveryVertexInsideTheViewport) {
         const auto& c = s.coordinates;
         EXPECT_GE(std::size_t(c.rows) * c.perRow, entry.vertices);
         EXPECT_GE(c.left, 0);
-        EXPECT_EQ(c.density, entry.vertices > scene::kMaxVerticesAsLines);
+        EXPECT_EQ(c.isDensityStrip, entry.vertices > scene::kMaxVerticesAsLines);
         EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
         EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
-        EXPECT_LE(c.density ? 0 : 4 * c.lineStep, c.columnStep);
+        EXPECT_LE(c.isDensityStrip ? 0 : 4 * c.lineStep, c.columnStep);
         EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // at least about one pixel
         EXPECT_GE(c.zero - c.amplitude - (c.rows - 1) * c.rowStep, 0);
         EXPECT_LT(c.zero + c.amplitude, 0.3);
@@ -36,7 +36,7 @@ TEST(Coordinates, stayWithinWindowsThatAreHardlyWiderThanTheirMargins) {
             EXPECT_GE(layout.rows, 1);
             EXPECT_LE(layout.rows, 6);
             EXPECT_GE(layout.lineStep, 0) << name;
-            if (layout.density) continue;
+            if (layout.isDensityStrip) continue;
             EXPECT_GT(layout.columnStep, 0) << name;
             EXPECT_LE(layout.columnStep * layout.perRow, aspect * (1 + 1e-9)) << name;
         }

@@ -143,7 +143,7 @@ TEST(DensityPlot, IsShownForManyVerticesOnly) {
     EXPECT_TRUE(scene.showsDensity());
     const auto polytope = support::shared("120-cell");
     const DensityPlot alone = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);
-    EXPECT_TRUE(std::ranges::equal(scene.density, alone.tones()));
+    EXPECT_TRUE(std::ranges::equal(scene.plotTones, alone.tones()));
 }
 
 TEST(DensityPlot, FollowsPolytopeAndTurn) {
@@ -156,7 +156,7 @@ TEST(DensityPlot, FollowsPolytopeAndTurn) {
         slicing::PolytopeSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
         composer.compose(polytope, turn, slices, 0, {}, {}, scene);
         const DensityPlot fresh = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);
-        EXPECT_TRUE(std::ranges::equal(scene.density, fresh.tones())) << name << ' ' << angle;
+        EXPECT_TRUE(std::ranges::equal(scene.plotTones, fresh.tones())) << name << ' ' << angle;
     };
     show("120-cell", 0.1);
     show("120-cell", 0.2);

@@ -47,7 +47,7 @@ TEST(Histogram, IsShownOfFieldsUnlessItIsHidden) {
     EXPECT_TRUE(shown.look.parts.coordinates);
     EXPECT_TRUE(shown.showsHistogram());
     EXPECT_FALSE(shown.showsDensity());
-    EXPECT_EQ(shown.density.size(), std::size_t{CoordinateHistograms::kRows} * CoordinateHistograms::kColumns);
+    EXPECT_EQ(shown.plotTones.size(), std::size_t{CoordinateHistograms::kRows} * CoordinateHistograms::kColumns);
     const double eye = shown.camera.shiftY;
     look.parts.coordinates = false;
     EXPECT_FALSE(pictures.composed(look).showsHistogram());
@@ -68,12 +68,12 @@ TEST(Histogram, HasALineForEachLevelInsideItsRange) {
 
 TEST(Histogram, FollowsTheRotationAndTheObject) {
     FieldPictures pictures;
-    const std::vector<std::uint8_t> straight = pictures.composed(lookAt({1})).density;
+    const std::vector<std::uint8_t> straight = pictures.composed(lookAt({1})).plotTones;
     const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, 0.5, 0.3});
-    EXPECT_NE(pictures.composed(lookAt({1}), turn).density, straight);
-    EXPECT_EQ(pictures.composed(lookAt({1})).density, straight);
-    pictures.object = slicing::imageOf(pictures.object, {.follow = {0.5, 0, 0}});
-    EXPECT_NE(pictures.composed(lookAt({1})).density, straight);
+    EXPECT_NE(pictures.composed(lookAt({1}), turn).plotTones, straight);
+    EXPECT_EQ(pictures.composed(lookAt({1})).plotTones, straight);
+    pictures.object = slicing::transformedTo(pictures.object, {.follow = {0.5, 0, 0}});
+    EXPECT_NE(pictures.composed(lookAt({1})).plotTones, straight);
 }
 
 TEST(Histogram, StaysInsideEveryViewport) {

@@ -74,7 +74,7 @@ TEST(History, ATurnGoesOnAsTheLastRotation) {
     press(session, " ");
     for (int i = 0; i < 60; ++i) advance(session, 1.0 / 60);
     press(session, " ");
-    for (int i = 0; i < static_cast<int>(kTurnsPerSecond); ++i) press(stepped, ".");
+    for (int i = 0; i < static_cast<int>(kRotationRepeatsPerSecond); ++i) press(stepped, ".");
     expectNear(session.current, stepped.current, 1e-12);
     const auto revision = session.revision;
     advance(session, 1);
@@ -192,7 +192,7 @@ TEST(History, AMotionMayEndAtARedoStep) {
     Session session;
     press(session, "r .u");
     const State next = session.redoSteps.back();
-    advance(session, 1 / kTurnsPerSecond);
+    advance(session, 1 / kRotationRepeatsPerSecond);
     EXPECT_EQ(session.current, next);
     expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
     press(session, "u");

@@ -131,7 +131,7 @@ TEST(Load, IsLimited) {
 TEST(Load, ASecondFunctionColorsTheSurfaces) {
     Session session;
     LoadObject load{"colored", "formula", "x^2 + y^2 < a; a=1"};
-    load.values = "a*x*y";
+    load.secondFormula = "a*x*y";
     must(session, load);
     EXPECT_EQ(session.current.look.coloring, scene::Coloring::value);
     EXPECT_EQ(slicing::fieldIn(session.current.object)->second->formula, "a*x*y");
@@ -151,10 +151,10 @@ TEST(Load, ASecondFunctionColorsTheSurfaces) {
     expectRefused(session, CommandLine{"formula x colored by y*"}, ErrorCode::bad_expression,
                   "values: 'y*', position 3");
     load = {"mine", "off", kPentachoron};
-    load.values = "x";
+    load.secondFormula = "x";
     expectRefused(session, load, ErrorCode::bad_message, "only formulas and arrays take the formula of values");
     load = {"mine", "npy", ""};
-    load.values = "x";
+    load.secondFormula = "x";
     load.append = true;
     const auto moments = checkLoad(load, {});
     ASSERT_TRUE(moments);
@@ -314,9 +314,21 @@ TEST(Load, NamesAreTextOf64Characters) {
     }
 }
 
+TEST(Load, FilesHaveNamesThatLoadAccepts) {
+    const std::string inCatalogue = "intersection of truncated tesseract and bitruncated 24-cell";
+    ASSERT_TRUE(checkLoad({inCatalogue, "points", ""}, {}));
+    std::string wide;
+    for (int i = 0; i < 100; ++i) wide += "π";
+    for (const std::string& file : {std::string("cube.off"), std::string("tesseract"), inCatalogue, std::string(),
+                                    std::string("tab\tand\nline"), std::string(100, 'x'), wide, "x" + wide})
+        EXPECT_FALSE(checkLoad({objectNameFor(file, {}), "points", ""}, {})) << file;
+    EXPECT_EQ(objectNameFor("tesseract", {}), "tesseract (file)");
+    EXPECT_EQ(objectNameFor(inCatalogue, {}), inCatalogue.substr(0, 57) + " (file)");
+}
+
 TEST(Load, ReadsByWhatItIsGivenAndOnlyWhatItMayRead) {
     std::string seen;
-    const FileReader reader = [&](const LoadObject& load, const Limits& /*limits*/) -> Result<LoadedObject> {
+    const FileReader reader = [&](const LoadObject& load, const Limits& /*limits*/) -> Result<ObjectWithWarnings> {
         EXPECT_EQ(load.format, "points");
         seen = load.name + ": " + load.data;
         return Error{ErrorCode::too_large, "so"};

@@ -143,9 +143,9 @@ TEST(ReferenceFrames, LengthsStayWithinTheirBounds) {
 TEST(ReferenceFrames, EndATurnTowardAnElement) {
     Session session;
     line(session, "toward cell");
-    EXPECT_TRUE(session.current.moves());
+    EXPECT_TRUE(session.current.isMoving());
     line(session, "boost x 0.1");
-    EXPECT_FALSE(session.current.moves());
+    EXPECT_FALSE(session.current.isMoving());
 }
 
 TEST(ReferenceFrames, QueriesApplyThemBeforeTheSlices) {
@@ -174,7 +174,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
         EXPECT_GT(loader.bytesNeeded(), slicing::memoryOf(support::shared("120-cell")));
-        loader.loadPendingObject();
+        loader.completePending();
         done = apply(both, loader);
     }
     ASSERT_TRUE(done) << done.error().message;

@@ -20,7 +20,8 @@ TEST(SettingTable, SaysWhatAnotherObjectAndResetSetBack) {
         Session session = sessionWith(setting);
         const bool isOfField = slicing::fieldIn(session.current.object) != nullptr;
         line(session, "reset");
-        EXPECT_EQ(setting.isIn(session.current), found->second != ResetOccasion::by_reset) << setting.name;
+        EXPECT_EQ(setting.isIn(session.current), found->second != ResetOccasion::by_reset_or_another_object)
+            << setting.name;
         if (setting.name == "spacing") continue;  // it is scaled with the object
         line(session, isOfField ? "formula x^2+y^2+z^2 < 2-w" : "polytope 16-cell");
         EXPECT_EQ(setting.isIn(session.current), found->second == ResetOccasion::never) << setting.name;

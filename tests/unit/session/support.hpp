@@ -75,7 +75,7 @@ inline int ordersOf(Session& session, const Command& command, ObjectLoader& load
         if (!loader.isPending()) return orders;
         EXPECT_FALSE(done);
         EXPECT_EQ(session, before);
-        loader.loadPendingObject();
+        loader.completePending();
     }
 }
 

@@ -56,8 +56,8 @@ TEST(Load, TimeStepsAreAddedAtTheEndOfW) {
 }
 
 TEST(Load, TheHistoryGrowsWithTheField) {
-    const FileReader reader = [](const LoadObject& load, const Limits& /*limits*/) -> Result<LoadedObject> {
-        return LoadedObject{arrayOf({2, 2, 2, load.append ? std::size_t{1} : 4}), {}};
+    const FileReader reader = [](const LoadObject& load, const Limits& /*limits*/) -> Result<ObjectWithWarnings> {
+        return ObjectWithWarnings{arrayOf({2, 2, 2, load.append ? std::size_t{1} : 4}), {}};
     };
     Session session;
     const auto execute = [&](const LoadObject& load) {

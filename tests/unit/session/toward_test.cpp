@@ -21,7 +21,7 @@ double topOf(const State& state) { return slicing::rangeOfW(state.object, state.
 // Lets the motion go on to its end, in steps of 1/60 s; returns its duration in seconds.
 double finish(Session& session) {
     double seconds = 0;
-    for (; session.current.moves() && seconds < 10; seconds += 1.0 / 60) advance(session, 1.0 / 60);
+    for (; session.current.isMoving() && seconds < 10; seconds += 1.0 / 60) advance(session, 1.0 / 60);
     return seconds;
 }
 
@@ -37,7 +37,7 @@ TEST(TurnToward, MovesAlongTheShortestWayAtConstantSpeed) {
     const double angle = (goal * start.inverse()).angle();
     EXPECT_NEAR(session.current.ongoingTurnToward->seconds, angle / (std::numbers::pi / 2), 1e-9);
     double before = angle;
-    while (session.current.moves()) {
+    while (session.current.isMoving()) {
         advance(session, 1.0 / 60);
         const double left = (goal * session.current.orientation.inverse()).angle();
         EXPECT_NEAR(before - left, std::min(before, std::numbers::pi / 120), 1e-6);
@@ -74,7 +74,7 @@ TEST(TurnToward, EndsWhenTheObjectIsTurnedOtherwise) {
         advance(session, 0.1);
         ASSERT_TRUE(session.current.ongoingTurnToward);
         line(session, command);
-        EXPECT_FALSE(session.current.moves()) << command;
+        EXPECT_FALSE(session.current.isMoving()) << command;
     }
     Session session;
     press(session, "r ");
@@ -106,7 +106,7 @@ TEST(TurnToward, IsImmediateInQueries) {
     const auto state = stateFromQuery({{"toward", "cell:2"}, {"polytope", "tesseract"}, {"rotate", "xw:0.3"}});
     ASSERT_TRUE(state) << state.error().message;
     EXPECT_NEAR(topOf(*state), 1, 1e-12);
-    EXPECT_FALSE(state->moves());
+    EXPECT_FALSE(state->isMoving());
     EXPECT_FALSE(stateFromQuery({{"toward", "cell:9"}, {"polytope", "tesseract"}}));
     EXPECT_FALSE(stateFromQuery({{"toward", "cell:"}, {"polytope", "tesseract"}, {"toward", "x"}}));
 }

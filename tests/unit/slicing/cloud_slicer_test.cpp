@@ -54,7 +54,7 @@ TEST(CloudSlicer, showsEachPointInTheSliceNearestToIt) {
                 EXPECT_LE(distance, planes.spacing / 2 + 1e-12);
                 EXPECT_NEAR(slices.ballOpacity[v], 1 - 0.8 * distance / (planes.spacing / 2), 1e-6);
                 if (cloud->radii[source] > 0) {
-                    EXPECT_NEAR(slices.ballScale[v] * ballRadius(Object(cloud)) * cloud->circumradius,
+                    EXPECT_NEAR(slices.ballScale[v] * relativeBallRadius(Object(cloud)) * cloud->circumradius,
                                 cloud->radii[source], 1e-6);
                 } else {
                     EXPECT_EQ(slices.ballScale[v], 1);

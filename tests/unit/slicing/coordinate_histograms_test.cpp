@@ -70,10 +70,10 @@ TEST(CoordinateHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers) {
     const CoordinateHistograms histogram = histogramOf(field);
     EXPECT_NEAR(histogram.range().least, -1, 1e-3);
     EXPECT_NEAR(histogram.range().greatest, 1, 1e-3);
-    EXPECT_EQ(histogram.points(), CoordinateHistograms::kMaxPoints);
+    EXPECT_EQ(histogram.countedPoints(), CoordinateHistograms::kMaxPoints);
     expectRidge(histogram, 0);
-    const double mean =
-        double(CoordinateHistograms::kPoint) * static_cast<double>(histogram.points()) / ((kRows - 1) * (kPanel - 1));
+    const double mean = double(CoordinateHistograms::kPointWeight) * static_cast<double>(histogram.countedPoints()) /
+                        ((kRows - 1) * (kPanel - 1));
     for (int axis = 1; axis < 4; ++axis) {
         for (int row = 1; row < kRows - 1; ++row)
             for (int column = 1; column < kPanel - 1; ++column)
@@ -126,7 +126,7 @@ TEST(CoordinateHistograms, KeepsItsTotalsUnderRotation) {
     const CoordinateHistograms straight = histogramOf(field);
     const std::vector<double> values = valuesAlong(straight, 0);
     EXPECT_EQ(std::accumulate(values.begin(), values.end(), 0.0),
-              double(CoordinateHistograms::kPoint) * static_cast<double>(straight.points()));
+              double(CoordinateHistograms::kPointWeight) * static_cast<double>(straight.countedPoints()));
     std::mt19937 random(32);
     CoordinateHistograms histogram;  // measured again and again
     for (int trial = 0; trial < 5; ++trial) {
@@ -140,12 +140,12 @@ TEST(CoordinateHistograms, KeepsItsTotalsUnderRotation) {
 // has the same values.
 TEST(CoordinateHistograms, ShowsTheDomainInAFrameOfReference) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.w; }, 1, kCube);
-    const CoordinateHistograms longer = histogramOf(fields::imageOf(field, {.pace = 2}, 71));
+    const CoordinateHistograms longer = histogramOf(fields::transformedTo(field, {.pace = 2}, 71));
     EXPECT_NEAR(longer.reach()[3], 2, 1e-12);
     EXPECT_NEAR(longer.reach()[0], 1, 1e-12);
     EXPECT_EQ(valuesAlong(longer, 3), valuesAlong(histogramOf(field), 3));
     // x' = x − w / 2 reaches from −1.5 to 1.5, and is the closer to −w / 2 the nearer it is to its ends.
-    const CoordinateHistograms sheared = histogramOf(fields::imageOf(field, {.follow = {0.5, 0, 0}}, 72));
+    const CoordinateHistograms sheared = histogramOf(fields::transformedTo(field, {.follow = {0.5, 0, 0}}, 72));
     EXPECT_NEAR(sheared.reach()[0], 1.5, 1e-12);
     for (int column = 0; column < kPanel; ++column) {
         for (int row = 0; row < kRows; ++row) {
@@ -159,8 +159,8 @@ TEST(CoordinateHistograms, LeavesOutWhatIsNearAPoleUnlessALevelIsThere) {
     const fields::Field field = testField([](const glm::dvec4& p) { return 1 / p.x; }, NAN, kCube);
     const CoordinateHistograms usual = histogramOf(field);
     EXPECT_LT(usual.range().greatest, 150);
-    EXPECT_LT(usual.points(), CoordinateHistograms::kMaxPoints);
-    EXPECT_GT(usual.points(), 0.95 * CoordinateHistograms::kMaxPoints);
+    EXPECT_LT(usual.countedPoints(), CoordinateHistograms::kMaxPoints);
+    EXPECT_GT(usual.countedPoints(), 0.95 * CoordinateHistograms::kMaxPoints);
     EXPECT_EQ(histogramOf(field, {}, {1000}).range().greatest, 1000);
     EXPECT_EQ(histogramOf(field, {}, {1e30}).range(), usual.range()) << "no value is so large";
 }
@@ -169,10 +169,10 @@ TEST(CoordinateHistograms, ShowsConstantsAndNothing) {
     const CoordinateHistograms constant = histogramOf(testField([](const glm::dvec4&) { return 5; }, 0, kCube));
     EXPECT_LT(constant.range().least, 5);
     EXPECT_EQ(valuesAlong(constant, 2)[kRows / 2],
-              double(CoordinateHistograms::kPoint) * static_cast<double>(CoordinateHistograms::kMaxPoints));
+              double(CoordinateHistograms::kPointWeight) * static_cast<double>(CoordinateHistograms::kMaxPoints));
     const CoordinateHistograms nothing =
         histogramOf(testField([](const glm::dvec4&) { return std::numeric_limits<double>::quiet_NaN(); }, NAN, kCube));
-    EXPECT_EQ(nothing.points(), 0U);
+    EXPECT_EQ(nothing.countedPoints(), 0U);
     for (const std::uint8_t tone : nothing.tones()) ASSERT_EQ(tone, 0);
 }
 

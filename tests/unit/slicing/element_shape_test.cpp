@@ -31,7 +31,7 @@ TEST(ElementShape, hasTheDistancesOfTheElement) {
             SCOPED_TRACE(std::string(name) + ", " + std::string(kindName));
             const Element element{kind, random() % elementCount(object, kind)};
             SliceSet shape;
-            shapeOf(object, element, support::randomRotation(random), shape);
+            writeElementAsSlice(object, element, support::randomRotation(random), shape);
             ASSERT_EQ(shape.planes.count, 1);
             ElementSources sources;
             findSourcesShowing(object, element, sources);
@@ -66,7 +66,7 @@ TEST(ElementShape, ofACellEnclosesItsVolume) {
             const std::size_t cell = random() % normals.size();
             SCOPED_TRACE(std::string(name) + ", cell " + std::to_string(cell));
             SliceSet shape;
-            shapeOf(object, {ElementKind::cell, cell}, support::randomRotation(random), shape);
+            writeElementAsSlice(object, {ElementKind::cell, cell}, support::randomRotation(random), shape);
             const double volume = glm::length(normals[cell]) / 6;
             EXPECT_NEAR(support::volumeOf(shape, 0), volume, 1e-9 * volume);
             for (std::uint32_t f = 0; f < shape.faceCount(0); ++f) {
@@ -86,7 +86,7 @@ TEST(ElementShape, ofAPointIsThisPoint) {
     const auto cloud = std::make_shared<const geometry::PointCloud>(
         geometry::makePointCloud("two", {glm::dvec4(1, 2, 3, 4), glm::dvec4(0, 0, 0, 2)}, {0, 0}));
     SliceSet shape;
-    shapeOf(Object(cloud), {ElementKind::vertex, 0}, {}, shape);
+    writeElementAsSlice(Object(cloud), {ElementKind::vertex, 0}, {}, shape);
     ASSERT_EQ(shape.vertices.size(), 1U);
     EXPECT_NEAR(glm::length(shape.vertices[0]), 0, 1e-12);
     EXPECT_NEAR(shape.planes.w(0), std::sqrt(30), 1e-12);

@@ -229,7 +229,7 @@ TEST(FieldSlicer, SecondValuesAreThoseOfTheFieldsOwnPoints) {
     ASSERT_TRUE(field);
     for (const geometry::ReferenceFrame& frame :
          {geometry::ReferenceFrame{}, geometry::ReferenceFrame{2, glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.4, 0)}}) {
-        const fields::Field image = imageOf(*field, frame, 1);
+        const fields::Field image = transformedTo(*field, frame, 1);
         const geometry::Rotation orientation = support::randomRotation(random);
         const SliceSet slices = slicesOf(image, orientation, {{0.8, 1.5}, fields::Inside::below}, 40);
         std::size_t points = 0;

@@ -97,7 +97,7 @@ inline Measure measure(const SliceSurface& surface, std::size_t level) {
         return point;
     };
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (surface.level(t) != level) continue;
+        if (surface.levelIndex(t) != level) continue;
         const auto& corners = triangles.emplace_back(surface.triangles[t]);
         const glm::dvec3 a(surface.points[corners[0]]), b(surface.points[corners[1]]), c(surface.points[corners[2]]);
         const double volume = glm::dot(a, glm::cross(b, c)) / 6;

@@ -33,7 +33,7 @@ ReferenceFrame movingFrame(std::mt19937& random) {
 }
 
 polytopes::Polytope imageOfPolytope(const polytopes::Polytope& p, const ReferenceFrame& frame) {
-    return polytopes::imageOf(p, frame, geometry::nextSerial());
+    return polytopes::transformedTo(p, frame, geometry::nextSerial());
 }
 
 /// The volume of the part of the plane w = const in which the point, mapped by `inverse`, lies in the 8-cell; by
@@ -89,7 +89,7 @@ TEST(ReferenceFrames, VerticesOfSlicesLieOnTheImagesOfTheirEdges) {
         for (int trial = 0; trial < 5; ++trial) {
             const ReferenceFrame frame = movingFrame(random);
             const geometry::Rotation orientation = randomRotation(random);
-            const Object image = imageOf(support::objectOf(p), frame);
+            const Object image = transformedTo(support::objectOf(p), frame);
             SliceSet slices;
             Slicer().sliceWithoutSurfaces(image, orientation, {-3, 7, infoOf(image).circumradius / 7}, slices);
             const glm::dmat4 inverse = frame.inverse() * orientation.inverse().matrix();
@@ -129,13 +129,13 @@ TEST(ReferenceFrames, ImagesHaveThePropertiesOfPolytopesBuiltFromTheirVertices) 
 
 TEST(ReferenceFrames, TheDefaultFrameShowsTheObjectItself) {
     const Object object = support::objectOf(support::named("24-cell"));
-    EXPECT_EQ(imageOf(object, {}), object);
-    EXPECT_NE(imageOf(object, {2, {}, {}}), object);
+    EXPECT_EQ(transformedTo(object, {}), object);
+    EXPECT_NE(transformedTo(object, {2, {}, {}}), object);
 }
 
 TEST(ReferenceFrames, SectionsAreNamedByWhatTheyAre) {
     const auto nameIn = [](const ReferenceFrame& frame) {
-        const Object image = imageOf(support::objectOf(support::named("8-cell")), frame);
+        const Object image = transformedTo(support::objectOf(support::named("8-cell")), frame);
         EXPECT_TRUE(SectionNamer::mayHaveName(image, {}, 0));
         SliceSet slices;
         Slicer().sliceWithoutSurfaces(image, {}, {0, 1, 1}, slices);
@@ -153,7 +153,7 @@ TEST(ReferenceFrames, RodsContract) {
     ASSERT_TRUE(rod) << rod.error().message;
     for (const double v : {-0.9, 0.3, 0.6, 0.99}) {
         const double gamma = 1 / std::sqrt(1 - v * v);
-        const fields::Field image = fields::imageOf(*rod, {1, {}, {v, 0, 0}}, geometry::nextSerial());
+        const fields::Field image = fields::transformedTo(*rod, {1, {}, {v, 0, 0}}, geometry::nextSerial());
         for (const double w : {-0.2, 0.0, 0.2}) {
             FieldSlicer slicer;
             SliceSet slices;
@@ -179,7 +179,7 @@ TEST(ReferenceFrames, TheLadderAndTheBarnDisagreeAboutWhatIsSimultaneous) {
     const double v = 0.6, barn = 1.6;
     const glm::dvec4 front(0.5 * barn, 0, 0, 0), rear(-0.5 * barn, 0, 0, 0);
     const auto doors = geometry::makePointCloud("doors", {front, rear}, {0, 0});
-    const auto seen = geometry::imageOf(doors, {1, {}, {v, 0, 0}}, geometry::nextSerial());
+    const auto seen = geometry::transformedTo(doors, {1, {}, {v, 0, 0}}, geometry::nextSerial());
     EXPECT_NEAR(seen.points[0].x - seen.points[1].x, 1.25 * barn, 1e-12);
     EXPECT_NEAR(seen.points[0].w, -1.25 * v * 0.5 * barn, 1e-12) << "the front door is closed first";
     EXPECT_NEAR(seen.points[1].w, 1.25 * v * 0.5 * barn, 1e-12);
@@ -192,7 +192,7 @@ TEST(ReferenceFrames, WhatIsFollowedHasEqualSlices) {
     for (const double pace : {0.5, 1.0, 2.0}) {
         for (const bool followed : {true, false}) {
             const ReferenceFrame frame{pace, followed ? glm::dvec3(0.3, 0, 0.1) : glm::dvec3(0), {}};
-            const fields::Field image = fields::imageOf(*field, frame, geometry::nextSerial());
+            const fields::Field image = fields::transformedTo(*field, frame, geometry::nextSerial());
             FieldSlicer slicer;
             SliceSet slices;
             const geometry::Hyperplanes planes{-3, 7, 0.4 * pace, 0};
@@ -221,7 +221,7 @@ TEST(ReferenceFrames, SurfacesOfFieldsLieOnTheLevel) {
         const ReferenceFrame frame = movingFrame(random);
         const geometry::Rotation orientation = randomRotation(random);
         const fields::Field field = testField(f, 5, box);
-        const fields::Field image = fields::imageOf(field, frame, geometry::nextSerial());
+        const fields::Field image = fields::transformedTo(field, frame, geometry::nextSerial());
         FieldSlicer slicer;
         SliceSet slices;
         const geometry::Hyperplanes planes{-2, 5, image.circumradius / 8, 0.01};
@@ -252,11 +252,11 @@ TEST(ReferenceFrames, TheMemoryOfAFunctionIsCountedOnce) {
     auto field = fields::fieldFromFormula("f", "x*y+z*w", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(field);
     const Object object = std::make_shared<const fields::Field>(*field);
-    const Object image = imageOf(object, {2, {}, {}});
+    const Object image = transformedTo(object, {2, {}, {}});
     EXPECT_EQ(memoryOf(object) - memoryOf(image), field->function->memoryBytes());
     EXPECT_EQ(fieldIn(image)->function, field->function) << "nothing is sampled again";
     const Object polytope = support::objectOf(support::named("24-cell"));
-    EXPECT_EQ(memoryOf(imageOf(polytope, {2, {}, {}})), memoryOf(polytope));
+    EXPECT_EQ(memoryOf(transformedTo(polytope, {2, {}, {}})), memoryOf(polytope));
 }
 
 }  // namespace

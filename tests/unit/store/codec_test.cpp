@@ -104,7 +104,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     const Session back = decode(encodeCbor(record), "", table.objectOf, support::cache());
     EXPECT_FALSE(back.current.look.parts.bars);
     EXPECT_TRUE(back.current.look.parts.faces && back.current.look.parts.labels && back.current.look.parts.back);
-    EXPECT_FALSE(back.current.look.parts.cells || back.current.look.parts.sections);
+    EXPECT_FALSE(back.current.look.parts.projectionFaces || back.current.look.parts.allSections);
     EXPECT_EQ(back.current.look.projection, scene::ProjectionSettings{});
     EXPECT_EQ(back.current.slices.offset, 0);
     EXPECT_FALSE(back.current.ongoingTurnToward);

@@ -40,15 +40,15 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
-    EXPECT_TRUE(one->pollClaims().empty());
+    EXPECT_TRUE(one->pollLostSessions().empty());
     EXPECT_EQ(two->claim("id")->fence, 2U);
-    EXPECT_EQ(one->pollClaims(), std::vector<std::string>{"id"});
-    EXPECT_TRUE(one->pollClaims().empty()) << "returned only once";
+    EXPECT_EQ(one->pollLostSessions(), std::vector<std::string>{"id"});
+    EXPECT_TRUE(one->pollLostSessions().empty()) << "returned only once";
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
     const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
     EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(one->claim("id")->fence, 3U);
-    EXPECT_TRUE(two->pollClaims().empty()) << "the server had closed the session itself";
+    EXPECT_TRUE(two->pollLostSessions().empty()) << "the server had closed the session itself";
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {
@@ -72,8 +72,8 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
     redis.stop();
     EXPECT_THROW(one->save({&first, 1}), StoreError);
-    EXPECT_THROW(one->pollClaims(), StoreError);
-    EXPECT_THROW(two->pollClaims(), StoreError);
+    EXPECT_THROW(one->pollLostSessions(), StoreError);
+    EXPECT_THROW(two->pollLostSessions(), StoreError);
     redis.start();
     ASSERT_TRUE(redis.connect());
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};

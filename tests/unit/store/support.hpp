@@ -99,7 +99,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 break;
         }
         (void)session::apply(session, command);  // some commands fail, for example with nothing to undo
-        if (session.current.moves()) session::advance(session, 0.01);
+        if (session.current.isMoving()) session::advance(session, 0.01);
     }
 }
 

@@ -55,8 +55,8 @@ class FaultyStore final : public Store {
             return kept.expire(age);
         });
     }
-    std::vector<std::string> pollClaims() override {
-        return attempt([](MemoryStore& kept) { return kept.pollClaims(); });
+    std::vector<std::string> pollLostSessions() override {
+        return attempt([](MemoryStore& kept) { return kept.pollLostSessions(); });
     }
     std::size_t size() const override {
         const std::lock_guard lock(control_->mutex);

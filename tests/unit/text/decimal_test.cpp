@@ -16,7 +16,7 @@ namespace {
 
 std::string textOf(const std::vector<glm::dvec3>& list) {
     std::string text((3 * list.size() + 2) * kBytesPerNumber, '?');
-    text.resize(putVectorsAsFloats(text.data(), list) - text.data());
+    text.resize(putVectorsAsJson(text.data(), list) - text.data());
     return text;
 }
 
@@ -131,7 +131,7 @@ TEST(Decimal, VectorsAreValidJson) {
         std::vector<glm::dvec4> list(size);
         for (auto& v : list) v = {normal(random), normal(random), normal(random), normal(random)};
         std::string text((4 * size + 2) * kBytesPerNumber, '?');
-        text.resize(putVectorsAsFloats(text.data(), std::span<const glm::dvec4>(list)) - text.data());
+        text.resize(putVectorsAsJson(text.data(), std::span<const glm::dvec4>(list)) - text.data());
         const auto json = nlohmann::json::parse("[" + text + "]");
         ASSERT_EQ(json.size(), size);
         for (std::size_t i = 0; i < size; ++i) {

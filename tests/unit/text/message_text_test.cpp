@@ -32,8 +32,8 @@ TEST(RoundedDecimal, HasSixDigitsAndNoTrailingZeros) {
 }
 
 TEST(OutsideBounds, RoundsUnlessTheNumberIsCloseToABound) {
-    EXPECT_EQ(outsideBounds(-2, 0.1234567, " m", -7.1234567), "from −2 to 0.123457 m, not −7.12346");
-    EXPECT_EQ(outsideBounds(-2, 2, "", -2.0000001), "from −2 to 2, not −2.0000001");
+    EXPECT_EQ(outsideBoundsText(-2, 0.1234567, " m", -7.1234567), "from −2 to 0.123457 m, not −7.12346");
+    EXPECT_EQ(outsideBoundsText(-2, 2, "", -2.0000001), "from −2 to 2, not −2.0000001");
 }
 
 TEST(PlainBlanks, ReplaceEachKindOfSpace) {

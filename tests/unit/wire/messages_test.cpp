@@ -117,7 +117,7 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
         const Session session = randomSession(seed);
         const std::string text = wire::stateMessage(session.current, {}, session.revision, 1);
         fitting(text);
-        const auto set = setFromState(text);
+        const auto set = setCommandFromState(text);
         ASSERT_TRUE(set) << set.error().message;
         Session fresh;
         const auto done = apply(fresh, *set);
@@ -132,7 +132,7 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
 
 TEST(StateMessage, LosesNoSetting) {
     for (const session::SettingValue& setting : session::settingValues()) {
-        const auto set = setFromState(wire::stateMessage(sessionWith(setting).current, {}, 1));
+        const auto set = setCommandFromState(wire::stateMessage(sessionWith(setting).current, {}, 1));
         ASSERT_TRUE(set) << setting.name << ": " << set.error().message;
         Session fresh;
         ASSERT_TRUE(apply(fresh, *set)) << setting.name;
@@ -144,13 +144,13 @@ TEST(StateMessage, RestoresAFormulaInANewSession) {
     Session session;
     session::LoadObject load{"mine", "formula", "x^2 + y^2 + a*z^2 + w^2; a=0.5"};
     load.box = fields::Box{glm::dvec4(-1), glm::dvec4(1, 1, 1, 2)};
-    load.values = "x*y";
+    load.secondFormula = "x*y";
     ASSERT_TRUE(apply(session, load));
     session::Set look;
     look.levels = std::vector<double>{0.25, 0.5};
     look.pace = 2;
     ASSERT_TRUE(apply(session, look));
-    const auto set = setFromState(wire::stateMessage(session.current, {}, session.revision));
+    const auto set = setCommandFromState(wire::stateMessage(session.current, {}, session.revision));
     ASSERT_TRUE(set) << set.error().message;
     Session fresh;
     const auto done = apply(fresh, *set);
@@ -174,10 +174,10 @@ TEST(StateMessage, IsFoundInFiles) {
     const std::string picture(file.begin(), file.end());
     for (const std::string& each : {text, " \n" + text, picture}) {
         EXPECT_TRUE(mayContainState(each));
-        EXPECT_TRUE(setFromFile(each));
+        EXPECT_TRUE(setCommandFromFile(each));
     }
     for (const std::string_view other : {"", " ", "OFF", "4OFF\n{", "\x93NUMPY"}) EXPECT_FALSE(mayContainState(other));
-    const auto none = setFromFile(picture.substr(0, 33));
+    const auto none = setCommandFromFile(picture.substr(0, 33));
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ErrorCode::bad_message);
     EXPECT_NE(none.error().message.find("contains no state"), std::string::npos);
@@ -194,7 +194,7 @@ TEST(StateMessage, BecomesASetByItsType) {
 
 TEST(StateMessage, WhatIsNoStateIsRefused) {
     const auto refused = [](std::string_view text, ErrorCode code, std::string_view says) {
-        const auto set = setFromState(text);
+        const auto set = setCommandFromState(text);
         ASSERT_FALSE(set) << text;
         EXPECT_EQ(set.error().code, code);
         EXPECT_NE(set.error().message.find(says), std::string::npos) << set.error().message;

@@ -79,9 +79,9 @@ TEST(Parse, GetAndShown) {
     const auto file = [](const std::string& members) {
         return std::get<Get>(parsed(R"({"type":"get","what":"file","format":"stl",)" + members + "}").body).file;
     };
-    EXPECT_EQ(file(R"("at":[-1,0.5])").at, (std::vector<double>{-1, 0.5}));
-    EXPECT_EQ(file(R"("at":"-1, 1/2")").at, (std::vector<double>{-1, 0.5}));
-    EXPECT_EQ(file(R"("fit":5)").fit, 5);
+    EXPECT_EQ(file(R"("at":[-1,0.5])").chosenW, (std::vector<double>{-1, 0.5}));
+    EXPECT_EQ(file(R"("at":"-1, 1/2")").chosenW, (std::vector<double>{-1, 0.5}));
+    EXPECT_EQ(file(R"("fit":5)").fittedSlices, 5);
     EXPECT_EQ(file(R"("fit":5)").contents, exports::ExportContents::oval);
     EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContents::focus);
     EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContents::focus);
@@ -104,7 +104,7 @@ std::vector<SetMember> setMembers() {
                        "values":{"formula":"w","range":[0,2],"colors":[0,0,0,0,0,0,0,0,0]}})",
          [](const Set& set) {
              return set.formula && set.formula->name == "24-cell" && set.formula->data == "x*y" &&
-                    set.formula->box->max == glm::dvec4(1, 1, 1, 2) && set.formula->values == "w";
+                    set.formula->box->max == glm::dvec4(1, 1, 1, 2) && set.formula->secondFormula == "w";
          }},
         {"/pace", "2", [](const Set& set) { return set.pace == 2; }},
         {"/follow", "[0.1,0.2,0.3]", [](const Set& set) { return set.follow == glm::dvec3(0.1, 0.2, 0.3); }},

@@ -153,7 +153,7 @@ TEST(SlicesMessage, HasTheDensityOfManyVertices) {
         ASSERT_EQ(row.size(), columns);
         for (const json& pixel : row) pixels.push_back(pixel.get<std::uint8_t>());
     }
-    EXPECT_EQ(pixels, many.scene.density);
+    EXPECT_EQ(pixels, many.scene.plotTones);
 
     const json cbor =
         json::from_cbor(messageOf(many, Encoding::cbor), true, true, json::cbor_tag_handler_t::store).at("density");
@@ -179,7 +179,7 @@ TEST(SlicesMessage, HasTheHistogramOfAField) {
         ASSERT_EQ(row.size(), std::size_t{slicing::CoordinateHistograms::kColumns});
         for (const json& tone : row) tones.push_back(tone.get<std::uint8_t>());
     }
-    EXPECT_EQ(tones, picture.scene.density);
+    EXPECT_EQ(tones, picture.scene.plotTones);
     const json& histogram = message.at("histogram");
     EXPECT_EQ(histogram.at("range"), (json{picture.scene.histogram.least, picture.scene.histogram.greatest}));
     EXPECT_EQ(histogram.at("reach"), json(picture.scene.histogram.reach));

@@ -1,5 +1,7 @@
-// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of the lines if there are
-// many vertices. For a field, draws the histogram of its values along each axis instead.
+// Draws the parallel coordinates at the bottom of the picture: for each vertex, four vertical lines that show its
+// coordinates. For many vertices, draws a density strip instead: each vertex is a line that joins its coordinates on
+// four axes, and the strip shows how many lines pass through each point. For a field, draws the histogram of its values
+// along each axis instead.
 
 import type { Histogram, Slices, Viewport } from "@oval4d/protocol";
 
@@ -26,8 +28,8 @@ export function drawCoordinates(
     else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
-/** The vertex in whose column the point (x, y) lies, in pixels; undefined if there is none, or no lines are drawn. */
-export function columnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
+/** The vertex in whose column the pixel (x, y) lies; undefined if there is none, or a density or histogram is drawn. */
+export function vertexInColumnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
     const { columns, per_row: perRow, rows, ...layout } = scene.coordinates;
     if (!scene.shown.coordinates || columns > 0) return undefined;
@@ -93,7 +95,7 @@ function drawLines(
     }
 }
 
-/** Draws a name, which may be enlarged, with this middle and baseline, unless the picture's edge would cut it. */
+/** Draws a name with this middle and baseline, unless the edge of the picture would cut it. */
 function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
     const half = pen.measureText(name).width / 2;
     if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));

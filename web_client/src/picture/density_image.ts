@@ -1,4 +1,4 @@
-// The density strip of the parallel coordinates, or the histogram of a field, as an image that is updated in place.
+// The density strip or the histogram (see coordinates.ts) as an image that is updated in place.
 
 import type { Slices } from "@oval4d/protocol";
 
@@ -9,8 +9,8 @@ export class DensityImage {
     private density: Uint8Array | undefined;
 
     /**
-     * Converts the density of a picture to pixels. In a strip, the color between two axes is interpolated between the
-     * colors of these axes. In a histogram, each panel has the color of its axis.
+     * Converts the density of a picture to pixels. In a density strip, the color between two axes is interpolated
+     * between the colors of these axes. In a histogram, each panel has the color of its axis.
      */
     update({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.density) return;

@@ -1,6 +1,6 @@
 // Finds the parts of a picture that show an element of the polytope: its pieces in the slices and in the projection,
-// and its vertices, if the picture determines them. A source is a number in `of`, which tells from what element a part
-// was cut; protocol/README.md explains these numbers.
+// and its vertices, if the picture determines them. A source is a number in `of` (see Elements), which tells from what
+// element of the polytope a part of the picture was cut.
 //
 // The vertices of an element of a convex polytope follow from the hyperplanes of the cells around it. The slice of a
 // cell lies in a plane. The hyperplane of the cell contains this plane and has the whole polytope on one side.
@@ -48,7 +48,7 @@ export class ElementSources {
     }
 
     /** The parts of the picture that show the element. */
-    showing(element: PolytopeElement): HighlightedElements {
+    partsShowing(element: PolytopeElement): HighlightedElements {
         const ownVertices = this.verticesOf(element);
         const { number } = element;
         const { edges: edgeCount, faces: faceCount } = this.counts;
@@ -95,7 +95,7 @@ export class ElementSources {
         return found;
     }
 
-    /** The cells around an edge or a 2-face: those whose slices meet at its slice. Empty if they are not determined. */
+    /** The cells around an edge or a 2-face: their slices meet at its slice. Empty if the picture lacks such slices. */
     private cellsAround(element: "edge" | "face", number: number): number[] {
         for (const { vertices, edges, faces, of } of this.slices) {
             const at = (element === "edge" ? of.vertices : of.edges).indexOf(number);
@@ -124,7 +124,7 @@ export class ElementSources {
         return [];
     }
 
-    /** Adds those edges at a vertex that slices cut. All cells around such an edge contain the vertex. */
+    /** Adds the edges that end at a vertex and are cut by slices. All cells around such an edge contain the vertex. */
     private addEdgesAt(vertex: number, sources: Set<number>): void {
         for (const { vertices, faces, of } of this.slices) {
             const candidates = new Uint8Array(vertices.length / 3);
@@ -224,8 +224,8 @@ export class ElementSources {
         const p = 3 * slice.faces.corners[slice.faces.begin[f]!]!;
         const [x, y, z] = slice.vertices.subarray(p, p + 3);
         const offset = a * x! + b * y! + c * z!;
-        // All vertices satisfy a · x + b · y + c · z + m · (w − slice.w) ≤ offset. So each vertex with w > slice.w gives
-        // an upper bound of m. The least bound is m itself, because such a vertex of this cell attains equality.
+        // All vertices satisfy a · x + b · y + c · z + m · (w − slice.w) ≤ offset. So each vertex with w > slice.w
+        // gives an upper bound of m. The least bound is m itself, because such a vertex of this cell attains equality.
         let m = Infinity;
         for (let v = 0; v < coordinates.length; v += 4) {
             const level = coordinates[v + 3]! - slice.w;

@@ -6,10 +6,10 @@ import { BufferGeometry } from "three";
 import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
 import { GrowingBuffer } from "./growing_buffer";
-import type { Lens } from "./lens";
 import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
+import type { ViewCamera } from "./view_camera";
 
 /** Values of `Fill.seen`: the visibility of a triangle; 0 means hidden. */
 const kFaded = 1;
@@ -19,7 +19,7 @@ const kFull = 2;
 interface SliceFill {
     fill: Fill;
     position: Vector;
-    first: number; // the index of its first point in the mesh
+    first: number; // the index of the fill's first point in the mesh
 }
 
 export class FillMesh {
@@ -61,7 +61,7 @@ export class FillMesh {
     }
 
     /** Orders the triangles for this camera. */
-    sortForCamera({ eye }: Lens): void {
+    sortForCamera({ eye }: ViewCamera): void {
         const distance = ({ position: [x, y, z] }: SliceFill): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
         let used = 0;
@@ -97,7 +97,7 @@ export class FillMesh {
             const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
-            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // of the last point, as in paint()
+            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // last point: see paint()
             for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }

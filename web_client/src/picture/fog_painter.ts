@@ -5,8 +5,8 @@ import { DepthTexture, WebGLRenderTarget, type WebGLRenderer } from "three";
 
 import type { Fog, Slice, Slices, Viewport } from "@oval4d/protocol";
 
-import type { Lens } from "./lens";
 import { makeProgram } from "./shader_program";
+import type { ViewCamera } from "./view_camera";
 
 const kVertexShader = `#version 300 es
 precision highp float;
@@ -127,7 +127,7 @@ type FogOccluders = "frame" | "surfaces";
 export class FogPainter {
     private picture: Slices | undefined; // undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise; they hold the depths
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise; hold the occluders' depths
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -208,15 +208,15 @@ export class FogPainter {
     }
 
     /** Prepares for draw(). To be called after drawDepths() for both kinds of occluders. */
-    begin(lens: Lens): void {
+    begin(viewCamera: ViewCamera): void {
         const { gl, picture, resources } = this;
         if (!picture || !resources) return;
         const { program, uniforms } = resources;
         gl.useProgram(program);
-        gl.uniformMatrix4fv(uniforms.view, false, lens.view.elements);
-        gl.uniformMatrix4fv(uniforms.projection, false, lens.projection.elements);
+        gl.uniformMatrix4fv(uniforms.view, false, viewCamera.view.elements);
+        gl.uniformMatrix4fv(uniforms.projection, false, viewCamera.projection.elements);
         // A point at the distance d along the view axis has the depth −P₂₂ + P₂₃ / d.
-        gl.uniform2f(uniforms.toDepth, -lens.projection.elements[10]!, lens.projection.elements[14]!);
+        gl.uniform2f(uniforms.toDepth, -viewCamera.projection.elements[10]!, viewCamera.projection.elements[14]!);
         gl.uniform1f(uniforms.circumradius, picture.scene.circumradius);
         kSamplers.forEach((name, unit) => gl.uniform1i(uniforms[name], unit));
     }
@@ -226,14 +226,14 @@ export class FogPainter {
      * drawn before the balls and bars, and is seen through their edges. `inFront`: the fog in front of them. The caller
      * draws the slices from far to near.
      */
-    draw(slice: Slice, lens: Lens, part: "behind" | "inFront"): void {
+    draw(slice: Slice, viewCamera: ViewCamera, part: "behind" | "inFront"): void {
         const { gl, picture, resources, targets } = this;
         const lattice = resources?.lattices.get(slice);
         if (!picture || !resources || !targets || !lattice || !slice.fog) return;
         const { program, uniforms, arrays, table } = resources;
         const { size, min, step, walls } = slice.fog;
         const { scale } = picture.scene;
-        const { x, y, z } = lens.eye;
+        const { x, y, z } = viewCamera.eye;
         const [atX, atY, atZ] = slice.position;
         gl.useProgram(program);
         gl.uniform1i(uniforms.isBehind, Number(part === "behind"));

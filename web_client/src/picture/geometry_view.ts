@@ -2,14 +2,13 @@
 // content on a second canvas, which lies on top.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
-// A Drawing, which three.js calls Mesh, is a geometry with the material that it is drawn with.
+// A Drawing, which three.js calls Mesh, is a geometry and the material with which it is drawn.
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { FogPainter } from "./fog_painter";
-import { Lens } from "./lens";
 import { type ElementCounts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
 import { HitTester } from "./hit_tester";
 import { onWhite } from "./on_white";
@@ -18,11 +17,12 @@ import { ProjectionMesh } from "./projection_mesh";
 import { fragmentShader, vertexShader } from "./shaders";
 import { SliceMesh } from "./slice_mesh";
 import { SurfacePainter } from "./surface_painter";
+import { ViewCamera } from "./view_camera";
 
 ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
 
 export class GeometryView {
-    readonly lens = new Lens();
+    readonly viewCamera = new ViewCamera();
     private readonly renderer: WebGLRenderer;
     private readonly scene = new Scene();
     private readonly camera = new Camera();
@@ -139,7 +139,7 @@ export class GeometryView {
         this.sliceMesh.paint(this.picture, highlighted);
         this.fillMesh.paint(this.picture, highlighted);
         if (!this.projectionMesh.update(this.picture, highlighted)) return;
-        if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.lens);
+        if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.viewCamera);
     }
 
     /**
@@ -153,20 +153,20 @@ export class GeometryView {
             this.renderer.setSize(size.width, size.height, false);
             Object.assign(this.overlay, size);
         }
-        this.lens.set(scene.camera, size, this.pictureOrbit, orbit);
+        this.viewCamera.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
         if (azimuth !== this.sortedOrbit?.azimuth || elevation !== this.sortedOrbit.elevation) {
-            this.sliceMesh.sortForCamera(this.lens, this.picture.projection?.position);
-            this.fillMesh.sortForCamera(this.lens);
-            if (this.picture.projection) this.projectionMesh.sortForCamera(this.lens);
+            this.sliceMesh.sortForCamera(this.viewCamera, this.picture.projection?.position);
+            this.fillMesh.sortForCamera(this.viewCamera);
+            if (this.picture.projection) this.projectionMesh.sortForCamera(this.viewCamera);
         }
         this.sortedOrbit = orbit;
-        this.uniforms.pixels.value = this.lens.pixelsPerUnit;
-        this.camera.projectionMatrix.copy(this.lens.projection);
-        this.camera.matrixWorldInverse.copy(this.lens.view);
+        this.uniforms.pixels.value = this.viewCamera.pixelsPerUnit;
+        this.camera.projectionMatrix.copy(this.viewCamera.projection);
+        this.camera.matrixWorldInverse.copy(this.viewCamera.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
-        drawOverlay(this.pen, this.picture, this.lens, size, leastText, this.highlighted!, this.counts);
+        drawOverlay(this.pen, this.picture, this.viewCamera, size, leastText, this.highlighted!, this.counts);
     }
 
     /** Draws the picture on white with `pen`, whose canvas has this size. The caller must then call draw() again. */
@@ -182,23 +182,23 @@ export class GeometryView {
     }
 
     /**
-     * Renders the slices and the projection. Painted slices have no depth, so the projection is drawn after the slices
-     * behind it, and before those in front of it.
+     * Renders the slices and the projection. Painted slices (see material()) have no depth, so the projection is drawn
+     * after the slices behind it, and before those in front of it.
      */
     private render(): void {
         const { renderer, sliceMesh, drawing, projectionDrawings } = this;
         renderer.clear();
         if (!this.picture!.projection || drawing.material === this.solidMaterial) {
-            const { fogPainter, surfacePainter, lens } = this;
+            const { fogPainter, surfacePainter, viewCamera } = this;
             if (fogPainter.isShown) {
                 fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
-                fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", lens));
+                fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera));
             }
-            surfacePainter.draw("opaque", lens);
+            surfacePainter.draw("opaque", viewCamera);
             if (fogPainter.isShown) this.drawFog("behind");
             renderer.render(this.scene, this.camera);
             if (fogPainter.isShown) this.drawFog("inFront");
-            else surfacePainter.draw("translucent", lens);
+            else surfacePainter.draw("translucent", viewCamera);
             return;
         }
         const passes = [["farther", true], ["all", false], ["nearer", true]] as const;
@@ -216,11 +216,11 @@ export class GeometryView {
      * the translucent surfaces of its slice.
      */
     private drawFog(part: "behind" | "inFront"): void {
-        this.fogPainter.begin(this.lens);
-        const depths = new Map(this.picture!.slices.map((slice) => [slice, this.lens.depthOf(slice.position)]));
+        this.fogPainter.begin(this.viewCamera);
+        const depths = new Map(this.picture!.slices.map((slice) => [slice, this.viewCamera.depthOf(slice.position)]));
         for (const [slice] of [...depths].sort(([, a], [, b]) => b - a)) {
-            if (part === "inFront") this.surfacePainter.draw("translucent", this.lens, slice);
-            this.fogPainter.draw(slice, this.lens, part);
+            if (part === "inFront") this.surfacePainter.draw("translucent", this.viewCamera, slice);
+            this.fogPainter.draw(slice, this.viewCamera, part);
         }
     }
 

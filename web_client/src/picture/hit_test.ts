@@ -1,10 +1,10 @@
-// Finds what is drawn at a point of the picture, as graphics libraries do: by projecting all elements to the screen.
+// Finds which element is drawn at a point of the picture: projects all elements to the screen.
 
 import type { Elements, Slice, Slices, Vector } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
-import type { Lens } from "./lens";
 import { areaVector } from "./polygon";
+import type { ViewCamera } from "./view_camera";
 
 /**
  * What was hit in a slice, in the projection or in the matrix of planar sections. An edge of a planar section has the
@@ -12,7 +12,7 @@ import { areaVector } from "./polygon";
  */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
-    /** The value of `of`, which tells the element of the polytope. */
+    /** The value of `of` (see Elements and PlanarSection), which tells the element of the polytope. */
     source: number;
     /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
@@ -41,20 +41,20 @@ let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at the point (x, y), in pixels of the lens: the nearest element of the nearest mesh that has one there;
- * undefined if no mesh has one. `ratio` is the number of these pixels per pixel of the page.
+ * The element at the point (x, y), in pixels of the view camera: the nearest element of the nearest mesh that has one
+ * there; undefined if no mesh has one. `ratio` is the number of these pixels per pixel of the page.
  */
-export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
-    const meshes = pickableMeshes(picture, lens).sort((a, b) => a.distance - b.distance);
+export function hitAt(picture: Slices, viewCamera: ViewCamera, x: number, y: number, ratio: number): Hit | undefined {
+    const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
     for (const mesh of meshes) {
-        if (!mayContain(mesh, picture, lens, x, y)) continue;
-        const hit = new MeshTest(mesh, lens, x, y, kReach * ratio).nearest();
+        if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
+        const hit = new MeshTest(mesh, viewCamera, x, y, kReach * ratio).nearest();
         if (hit) return hit;
     }
     return undefined;
 }
 
-function pickableMeshes({ slices, scene, projection }: Slices, { eye }: Lens): PickableMesh[] {
+function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCamera): PickableMesh[] {
     const { shown, scale } = scene;
     const distance = ([x, y, z]: Vector): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
     const [ball, bar] = [shown.balls ? scene.ball : 0, shown.bars ? scene.bar : 0];
@@ -74,14 +74,14 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: Lens): P
 }
 
 /** Whether the point can be within the mesh: a quick test with the circumscribed sphere. */
-function mayContain(mesh: PickableMesh, { scene }: Slices, lens: Lens, x: number, y: number): boolean {
+function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamera, x: number, y: number): boolean {
     const { position, scale, ball } = mesh;
-    const center = lens.project(position);
-    const depth = lens.depthOf(position);
-    const kMagnified = 2; // in a perspective projection, a vertex may be farther from the center than the radius
+    const center = viewCamera.project(position);
+    const depth = viewCamera.depthOf(position);
+    const kMagnified = 2; // a projection from four dimensions in perspective reaches beyond the circumradius
     const radius = kMagnified * scale * scene.circumradius + kBallRise * ball;
     if (!center || depth <= radius) return true;
-    return Math.hypot(center.x - x, center.y - y) <= (lens.pixelsPerUnit * radius) / (depth - radius);
+    return Math.hypot(center.x - x, center.y - y) <= (viewCamera.pixelsPerUnit * radius) / (depth - radius);
 }
 
 /** The test of one mesh against one point. */
@@ -91,7 +91,7 @@ class MeshTest {
 
     constructor(
         private readonly mesh: PickableMesh,
-        private readonly lens: Lens,
+        private readonly viewCamera: ViewCamera,
         private readonly x: number,
         private readonly y: number,
         private readonly reach: number,
@@ -116,7 +116,7 @@ class MeshTest {
 
     /** Writes the camera and screen coordinates of points into `projected`. */
     private project(points: Float32Array, position: Vector, scale: number): void {
-        const view = this.lens.view.elements;
+        const view = this.viewCamera.view.elements;
         for (let i = 0, at = 0; i < points.length; i += 3, at += kStride) {
             const x = position[0] + scale * points[i]!;
             const y = position[1] + scale * points[i + 1]!;
@@ -124,7 +124,7 @@ class MeshTest {
             projected[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
             projected[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
             projected[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
-            this.lens.toScreen(projected, at);
+            this.viewCamera.toScreen(projected, at);
         }
     }
 
@@ -142,7 +142,7 @@ class MeshTest {
         for (let v = 0, at = 0; v < vertices.length / 3; ++v, at += kStride) {
             const depth = -projected[at + 2]!;
             if (depth <= 0 || visibility?.vertices[v] === 0) continue;
-            const perPixel = depth / this.lens.pixelsPerUnit;
+            const perPixel = depth / this.viewCamera.pixelsPerUnit;
             const radius = Math.max(ball * (balls?.scale[v] ?? 1), this.reach * perPixel);
             const distance = Math.hypot(projected[at + 3]! - this.x, projected[at + 4]! - this.y) * perPixel;
             if (distance <= radius) this.take("vertices", of.vertices[v]!, depth - kBallRise * radius);
@@ -160,7 +160,7 @@ class MeshTest {
             const along = ((this.x - ax) * dx + (this.y - ay) * dy) / (dx * dx + dy * dy || 1);
             const part = Math.min(1, Math.max(0, along));
             const depth = -projected[a + 2]! - part * (projected[b + 2]! - projected[a + 2]!);
-            const perPixel = depth / this.lens.pixelsPerUnit;
+            const perPixel = depth / this.viewCamera.pixelsPerUnit;
             const radius = Math.max(bar, this.reach * perPixel);
             const distance = Math.hypot(ax + part * dx - this.x, ay + part * dy - this.y) * perPixel;
             if (distance <= radius) this.take("edges", of.edges[e]!, depth - kBarRise * radius);
@@ -202,7 +202,7 @@ class MeshTest {
         }
         if (!isInside) return Infinity;
         const [nx, ny, nz] = areaVector(projected, corners, [begin, end], kStride);
-        const [rayX, rayY] = this.lens.rayAt(this.x, this.y);
+        const [rayX, rayY] = this.viewCamera.rayAt(this.x, this.y);
         return (nx * projected[p]! + ny * projected[p + 1]! + nz * projected[p + 2]!) / (nx * rayX + ny * rayY - nz);
     }
 }

@@ -2,15 +2,15 @@
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
-import { columnAt } from "./coordinates";
+import { vertexInColumnAt } from "./coordinates";
 import { type Hit, hitAt, kReach } from "./hit_test";
-import { Lens } from "./lens";
 import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
 import { heightOfCoordinates } from "./overlay";
+import { ViewCamera } from "./view_camera";
 
 export class HitTester {
-    private readonly lens = new Lens();
+    private readonly viewCamera = new ViewCamera();
 
     /** `orbit` is the orbit for which the server placed the camera of this picture. */
     constructor(
@@ -20,25 +20,25 @@ export class HitTester {
 
     /** The fraction of the drawn slices whose centers are within a picture of this size, as seen from an orbit. */
     visibleShare(orbit: Orbit, size: Viewport): number {
-        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
         const drawn = this.picture.slices.filter((slice) => slice.drawn);
         const visible = drawn.filter(({ position }) => {
-            const at = this.lens.project(position);
+            const at = this.viewCamera.project(position);
             return at && at.x >= 0 && at.x <= size.width && at.y >= 0 && at.y <= size.height;
         });
         return drawn.length === 0 ? 1 : visible.length / drawn.length;
     }
 
     /**
-     * The slice at a point of the picture, in pixels: of those whose discs contain the point, the one whose center is
-     * nearest. A disc reaches from the slice's center to its farthest vertex; its radius is at least `minRadius` pixels.
+     * The slice at a point of the picture, in pixels: of the slices whose discs contain the point, the one whose center
+     * is nearest. A disc reaches from the slice's center to its farthest vertex, but at least `minRadius` pixels.
      */
     sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
-        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
         if (this.isCovered(y, size)) return undefined;
         let [found, nearest]: [Slice | undefined, number] = [undefined, Infinity];
         for (const slice of this.picture.slices) {
-            const center = slice.drawn ? this.lens.project(slice.position) : undefined;
+            const center = slice.drawn ? this.viewCamera.project(slice.position) : undefined;
             const distance = center ? Math.hypot(center.x - x, center.y - y) : Infinity;
             if (distance < nearest && distance <= Math.max(minRadius, this.radiusOf(slice))) {
                 [found, nearest] = [slice, distance];
@@ -55,22 +55,26 @@ export class HitTester {
         const { matrix, scene } = this.picture;
         const panel = this.panelAt(x, y, size);
         if (panel) return hitInPanel(panel, matrix!, scene, size, [x, y], kReach * ratio);
-        this.lens.set(scene.camera, size, this.orbit, orbit);
+        this.viewCamera.set(scene.camera, size, this.orbit, orbit);
         if (this.isCovered(y, size)) return undefined;
-        return hitAt(this.picture, this.lens, x, y, ratio);
+        return hitAt(this.picture, this.viewCamera, x, y, ratio);
     }
 
     /**
      * The vertex whose parallel coordinates are drawn at a point of the picture, in pixels; undefined if there is none.
      */
-    columnAt(x: number, y: number, size: Viewport): number | undefined {
-        return this.panelAt(x, y, size) ? undefined : columnAt(this.picture, size, x, y);
+    vertexInColumnAt(x: number, y: number, size: Viewport): number | undefined {
+        return this.panelAt(x, y, size) ? undefined : vertexInColumnAt(this.picture, size, x, y);
     }
 
-    /** Whether the parallel coordinates cover the slices at the height y in pixels, with the lens as it is set. */
+    /**
+     * Whether the parallel coordinates cover the slices at this y, in pixels. `viewCamera` must have been set before.
+     */
     private isCovered(y: number, size: Viewport): boolean {
         const { scene } = this.picture;
-        return scene.shown.coordinates && this.lens.isMoved && y >= size.height - heightOfCoordinates(scene, size);
+        return (
+            scene.shown.coordinates && this.viewCamera.isMoved && y >= size.height - heightOfCoordinates(scene, size)
+        );
     }
 
     /** The panel of the matrix at a point of the picture, in pixels; undefined if there is none. */
@@ -82,11 +86,11 @@ export class HitTester {
     /** The largest distance of a vertex from the slice's center in the picture, in pixels. */
     private radiusOf({ vertices, position: [x, y, z] }: Slice): number {
         const { scale } = this.picture.scene;
-        const center = this.lens.project([x, y, z]);
+        const center = this.viewCamera.project([x, y, z]);
         let radius = 0;
         for (let i = 0; i < vertices.length; i += 3) {
             const [a, b, c] = [vertices[i]!, vertices[i + 1]!, vertices[i + 2]!];
-            const at = this.lens.project([x + scale * a, y + scale * b, z + scale * c]);
+            const at = this.viewCamera.project([x + scale * a, y + scale * b, z + scale * c]);
             if (center && at) radius = Math.max(radius, Math.hypot(at.x - center.x, at.y - center.y));
         }
         return radius;

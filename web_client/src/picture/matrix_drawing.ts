@@ -3,9 +3,9 @@
 import type { SceneDescription, SectionMatrix, Slices, Vector, Viewport } from "@oval4d/protocol";
 
 import { cellColor, type ElementCounts, type HighlightedElements, isPointLit } from "./highlighted_elements";
-import type { Lens } from "./lens";
 import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
 import { cssColor, setFont } from "./pen";
+import type { ViewCamera } from "./view_camera";
 
 const kPanelOpacity = 0.22;
 const kFillOpacity = 0.16;
@@ -13,7 +13,8 @@ const kAxisOpacity = 0.55; // of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
 const kNameHeight = 0.3; // of an axis' name, as a fraction of a panel's side
 const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
-// The focus point in the focus slice: half the length of its lines, in circumradii; their width, like kFocusLine.
+// The lines that show the focus point in the focus slice: half their length, in circumradii, and their width, as a
+// fraction of the viewport's height.
 const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
@@ -31,14 +32,14 @@ interface PanelContext {
 export function drawMatrix(
     pen: CanvasRenderingContext2D,
     picture: Slices,
-    lens: Lens,
+    viewCamera: ViewCamera,
     viewport: Viewport,
     highlighted: HighlightedElements,
     counts: ElementCounts,
 ): void {
     const { matrix, scene } = picture;
     if (!matrix) return;
-    drawFocusPoint(pen, picture, matrix, lens, viewport);
+    drawFocusPoint(pen, picture, matrix, viewCamera, viewport);
     const context = { pen, matrix, scene, viewport, highlighted, counts };
     drawNames(context);
     for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, context);
@@ -50,7 +51,7 @@ function drawFocusPoint(
     pen: CanvasRenderingContext2D,
     { scene, slices }: Slices,
     { point }: SectionMatrix,
-    lens: Lens,
+    viewCamera: ViewCamera,
     viewport: Viewport,
 ): void {
     const slice = slices.find(({ focus }) => focus);
@@ -63,7 +64,7 @@ function drawFocusPoint(
                 const offset = k === axis ? side * kFocusReach * scene.circumradius : 0;
                 return slice.position[k]! + scene.scale * (point[k]! + offset);
             });
-            return lens.project(place as Vector);
+            return viewCamera.project(place as Vector);
         });
         if (!from || !to) continue;
         pen.strokeStyle = cssColor(scene.colors.axes[axis]);

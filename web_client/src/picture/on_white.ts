@@ -20,7 +20,7 @@ const kReplaced = new Map(
     fixedColors(dark).map((color, i): [number, number] => [color, fixedColors(light)[i]!]),
 );
 
-/** Returns the picture in colors for white. The copy shares all data without colors with `picture`. */
+/** Returns the picture in colors for white. Most data that are not colors are shared with `picture`, not copied. */
 export function onWhite(picture: Slices): Slices {
     const { scene, slices, projection, histogram } = picture;
     const background = numberOf(table.grounds.white);

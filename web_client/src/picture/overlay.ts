@@ -4,16 +4,16 @@
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { drawCoordinates } from "./coordinates";
-import type { Lens } from "./lens";
 import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import { drawMatrix } from "./matrix_drawing";
 import { cssColor, setFont } from "./pen";
+import type { ViewCamera } from "./view_camera";
 
 /** `leastText` is the least font size of labels, in canvas pixels. */
 export function drawOverlay(
     pen: CanvasRenderingContext2D,
     picture: Slices,
-    lens: Lens,
+    viewCamera: ViewCamera,
     viewport: Viewport,
     leastText: number,
     highlighted: HighlightedElements,
@@ -23,14 +23,14 @@ export function drawOverlay(
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates && lens.isMoved) clearCoordinates(pen, scene, viewport);
+    if (scene.shown.coordinates && viewCamera.isMoved) clearCoordinates(pen, scene, viewport);
     if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, leastText, highlighted);
-    drawLabels(pen, slices, scene, lens, viewport, leastText);
-    drawAxes(pen, scene, lens, viewport, leastText);
-    drawMatrix(pen, picture, lens, viewport, highlighted, counts);
+    drawLabels(pen, slices, scene, viewCamera, viewport, leastText);
+    drawAxes(pen, scene, viewCamera, viewport, leastText);
+    drawMatrix(pen, picture, viewCamera, viewport, highlighted, counts);
 }
 
-/** The height of the parallel coordinates' upper edge above the bottom, in pixels, as CoordinatesLayout::top(). */
+/** The height of the parallel coordinates' upper edge above the bottom, in pixels; CoordinatesLayout::top() in C++. */
 export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
 }
@@ -46,27 +46,30 @@ interface Label {
     slice: Slice;
     x: number;
     y: number;
-    size: number; // font size, in canvas pixels like all lengths here
+    size: number; // font size, in canvas pixels like the other members
     digits: number; // height of the digits
     half: number; // half the width of the text
     room: number; // half the width that other labels must leave free
 }
 
 /**
- * Draws the labels of the slices. A label that is too small to read is enlarged. Except that of the focus slice, a
- * label is omitted if it overlaps a label nearer to the focus slice, or if the picture's edge would cut it, because it
- * was enlarged or the viewer has moved the camera.
+ * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps a
+ * label nearer to the focus slice, or if the edge of the picture would cut it; this can happen if it was enlarged or
+ * the viewer has moved the camera. The label of the focus slice is always drawn.
  */
 function drawLabels(
     pen: CanvasRenderingContext2D,
     slices: Slice[],
     scene: SceneDescription,
-    lens: Lens,
+    viewCamera: ViewCamera,
     viewport: Viewport,
     leastText: number,
 ): void {
     const placed: Label[] = [];
-    const bottom = scene.shown.coordinates && lens.isMoved ? viewport.height - heightOfCoordinates(scene, viewport) : viewport.height;
+    const bottom =
+        scene.shown.coordinates && viewCamera.isMoved
+            ? viewport.height - heightOfCoordinates(scene, viewport)
+            : viewport.height;
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
     // All labels take as much room as the widest one. Otherwise more labels would be omitted on the side of the focus
     // where they have a minus sign than on the other side.
@@ -75,7 +78,7 @@ function drawLabels(
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
     labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
     for (const slice of labeled) {
-        const at = lens.project(slice.label_at);
+        const at = viewCamera.project(slice.label_at);
         if (!at) continue;
         const wanted = scene.text * slice.label_size * viewport.height;
         const size = Math.max(wanted, leastText);
@@ -123,7 +126,7 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
 function drawAxes(
     pen: CanvasRenderingContext2D,
     scene: SceneDescription,
-    lens: Lens,
+    viewCamera: ViewCamera,
     viewport: Viewport,
     leastText: number,
 ): void {
@@ -136,7 +139,7 @@ function drawAxes(
         pen.fill();
     };
     const axes = ([0, 1, 2] as const).map((i) => {
-        return { direction: lens.axis(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
+        return { direction: viewCamera.axis(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
     const digits = setFont(pen, Math.max(scene.text * viewport.height, leastText));

@@ -6,9 +6,9 @@
 import type { Parts, Vector } from "@oval4d/protocol";
 
 import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceRanges } from "./elements";
-import type { Lens } from "./lens";
-import { kQuad } from "./shape_buffers";
+import { kQuadTriangles } from "./shape_buffers";
 import { sortByKey } from "./sort";
+import type { ViewCamera } from "./view_camera";
 
 type SolidParts = Pick<Parts, "faces" | "bars" | "balls">;
 
@@ -25,8 +25,8 @@ export class PaintersOrder {
     private readonly edgesByRank = new EdgeBuckets(); // by the rank of the farther vertex
     private out = new Uint32Array(0);
     private used = 0;
-    /** The number of indices that belong to slices farther from the eye than the point passed to writeIndices(). */
-    farther = 0;
+    /** The number of indices of the slices that are farther from the eye than the point passed to writeIndices(). */
+    fartherIndexCount = 0;
 
     constructor(private readonly elements: SliceElements) {}
 
@@ -43,35 +43,35 @@ export class PaintersOrder {
         this.rank = ensureCapacity(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices into `out`, and returns their number. `farther` then counts those beyond `point`. */
-    writeIndices(lens: Lens, out: Uint32Array<ArrayBuffer>, point: Vector): number {
+    /** Writes the mesh's indices into `out`, and returns their number. Sets `fartherIndexCount` for this point. */
+    writeIndices(viewCamera: ViewCamera, out: Uint32Array<ArrayBuffer>, point: Vector): number {
         this.out = out;
-        this.used = this.farther = 0;
-        this.sortSlices(lens);
-        const limit = distance(point, lens);
+        this.used = this.fartherIndexCount = 0;
+        this.sortSlices(viewCamera);
+        const limit = distance(point, viewCamera);
         for (const ranges of this.sliceRanges) {
-            this.findFrontElements(ranges, lens);
-            this.sortByDepth(ranges, lens);
+            this.findFrontElements(ranges, viewCamera);
+            this.sortByDepth(ranges, viewCamera);
             for (const front of [0, 1]) {
                 if (this.shown.faces) this.paintFaces(ranges, front);
                 this.paintBallsAndBars(ranges, front);
             }
-            if (ranges.distance >= limit) this.farther = this.used;
+            if (ranges.distance >= limit) this.fartherIndexCount = this.used;
         }
         return this.used;
     }
 
-    private sortSlices(lens: Lens): void {
+    private sortSlices(viewCamera: ViewCamera): void {
         this.sliceRanges.length = 0;
         for (const ranges of this.elements.sliceRanges) {
-            ranges.distance = distance(ranges.position, lens);
+            ranges.distance = distance(ranges.position, viewCamera);
             this.sliceRanges.push(ranges);
         }
         this.sliceRanges.sort((a, b) => b.distance - a.distance);
     }
 
     /** Finds which faces of a slice face the viewer. A vertex or edge is in front if it belongs to such a face. */
-    private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: Lens): void {
+    private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: ViewCamera): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);
         this.edgeInFront.fill(0, ...edges);
@@ -90,7 +90,7 @@ export class PaintersOrder {
         }
     }
 
-    private sortByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: Lens): void {
+    private sortByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: ViewCamera): void {
         const { nearness, order, rank } = this;
         const { points, edges } = this.elements;
         for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -129,10 +129,10 @@ export class PaintersOrder {
     }
 
     private paintQuad(number: number): void {
-        for (const corner of kQuad) this.out[this.used++] = 4 * number + corner;
+        for (const corner of kQuadTriangles) this.out[this.used++] = 4 * number + corner;
     }
 }
 
-function distance([x, y, z]: Vector, { eye }: Lens): number {
+function distance([x, y, z]: Vector, { eye }: ViewCamera): number {
     return Math.hypot(x - eye.x, y - eye.y, z - eye.z);
 }

@@ -8,12 +8,12 @@ import type { ObjectProjection, Slices } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
-import type { Lens } from "./lens";
 import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 import { kBall, kBar, kFace } from "./shaders";
-import { kQuad, ShapeBuffers } from "./shape_buffers";
+import { kQuadTriangles, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
+import type { ViewCamera } from "./view_camera";
 
 /** What determines the depth of a translucent shape: a polygon's middle, a ball's center, or an end of a bar. */
 const kMiddle = 0;
@@ -32,7 +32,7 @@ export class ProjectionMesh {
     private readonly shapes = new ShapeBuffers();
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
-    private used = 0; // number of vertices
+    private used = 0; // number of vertices in `shapes`
     // For each translucent shape: its first vertex, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
@@ -57,7 +57,7 @@ export class ProjectionMesh {
             const addQuad = (opacity: number, depthKind: number): void => {
                 if (opacity === 0) this.used -= 4;
                 else if (i > 0 || opacity < 1) this.addTranslucent(4, depthKind);
-                else for (const corner of kQuad) this.solidIndex.array[solids++] = this.used - 4 + corner;
+                else for (const corner of kQuadTriangles) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
             const point = (v: number): [number, number, number] => [
                 position[0] + projection.scale * part.vertices[3 * v]!,
@@ -84,7 +84,7 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // sections are drawn late: they shine through faces
+                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section's bars shine through faces
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
             if (part.opacity > 0) this.addFaces(part, point, color, opacities);
@@ -97,7 +97,7 @@ export class ProjectionMesh {
     }
 
     /** Orders the translucent shapes for this camera. */
-    sortForCamera({ view: { elements: view } }: Lens): void {
+    sortForCamera({ view: { elements: view } }: ViewCamera): void {
         const { array: at } = this.shapes.at;
         const { array: to } = this.shapes.to;
         const { array: index } = this.translucentIndex;
@@ -120,7 +120,7 @@ export class ProjectionMesh {
         for (let k = 0; k < this.count; ++k) {
             const i = this.order[k]!;
             const first = this.first[i]!;
-            if (this.depthKind[i] !== kMiddle) for (const corner of kQuad) index[used++] = first + corner;
+            if (this.depthKind[i] !== kMiddle) for (const corner of kQuadTriangles) index[used++] = first + corner;
             else {
                 for (let v = 2; v < this.size[i]!; ++v) {
                     index[used++] = first;

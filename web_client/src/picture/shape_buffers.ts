@@ -8,7 +8,7 @@ import { GrowingBuffer } from "./growing_buffer";
 const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
 
 /** The triangles of a quad. */
-export const kQuad = [0, 1, 2, 2, 1, 3] as const;
+export const kQuadTriangles = [0, 1, 2, 2, 1, 3] as const;
 
 /** The fourth component of `shape` for a relative thickness of 1. */
 export const kFullThickness = 100;

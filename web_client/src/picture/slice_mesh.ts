@@ -8,11 +8,11 @@ import type { Slices, Vector } from "@oval4d/protocol";
 
 import { SliceElements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
-import type { Lens } from "./lens";
 import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { PaintersOrder } from "./painters_order";
 import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
+import type { ViewCamera } from "./view_camera";
 
 export class SliceMesh {
     readonly geometry = new BufferGeometry();
@@ -76,9 +76,9 @@ export class SliceMesh {
         shapes.color.markChanged();
     }
 
-    /** Orders all elements for this camera. select() then compares slices with the position `projection`. */
-    sortForCamera(lens: Lens, projection: Vector = [0, 0, 0]): void {
-        this.count = this.order.writeIndices(lens, this.index.array, projection);
+    /** Orders all elements for this camera. `projection` is the position with which select() compares the slices. */
+    sortForCamera(viewCamera: ViewCamera, projection: Vector = [0, 0, 0]): void {
+        this.count = this.order.writeIndices(viewCamera, this.index.array, projection);
         this.index.used = this.count;
         this.index.markChanged();
         this.select("all");
@@ -86,10 +86,10 @@ export class SliceMesh {
 
     /** Selects the slices to be drawn: all, or those behind or in front of the position of the projection. */
     select(slices: "all" | "farther" | "nearer"): void {
-        const { farther } = this.order;
+        const { fartherIndexCount } = this.order;
         if (slices === "all") this.geometry.setDrawRange(0, this.count);
-        else if (slices === "farther") this.geometry.setDrawRange(0, farther);
-        else this.geometry.setDrawRange(farther, this.count - farther);
+        else if (slices === "farther") this.geometry.setDrawRange(0, fartherIndexCount);
+        else this.geometry.setDrawRange(fartherIndexCount, this.count - fartherIndexCount);
     }
 
     private reserve(): void {
@@ -107,7 +107,7 @@ export class SliceMesh {
         this.shapes.setShape(item, kind, corner);
     }
 
-    /** Writes a bar, cut at the surfaces of its balls; a bar that lies inside its balls becomes a point. */
+    /** Writes a bar without the lengths `inBall` inside its two balls; a bar that lies inside them becomes a point. */
     private writeBar(e: number, inBall: number): void {
         const { points, edges, vertexCount } = this.elements;
         const a = 3 * edges[2 * e]!;

@@ -32,7 +32,7 @@ const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
-const kLeastTextInFullScreen = 0.02; // in full screen: a fraction of its height, legible from the back of a room
+const kLeastTextInFullScreen = 0.02; // the same in full screen, as a fraction of the screen's height
 
 /** Returns the largest factor by which a picture can be enlarged within the limits. */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
@@ -100,12 +100,12 @@ export class Stage {
         return this.currentMode === "geometry" ? this.geometry?.hitTester : undefined;
     }
 
-    /** Highlights these elements as those under the pointer. The caller then draws. */
+    /** Highlights these elements as those under the pointer. The caller must then draw. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.geometry?.highlightPointed(pointed);
     }
 
-    /** Shows new slices at the next drawing. `orbit` is the orbit for which the server placed their camera. */
+    /** Shows new slices at the next drawing. `orbit` is the orbit for which the server placed the camera. */
     showSlices(slices: Slices, orbit: Orbit, counts: ElementCounts): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit, counts);

@@ -7,9 +7,9 @@ import type { WebGLRenderer } from "three";
 
 import type { Slice, Slices, Surface, SurfaceLevel, Vector } from "@oval4d/protocol";
 
-import type { Lens } from "./lens";
 import { makeProgram } from "./shader_program";
 import { TriangleGroups } from "./triangle_groups";
+import type { ViewCamera } from "./view_camera";
 
 const kLight = `
 uniform vec3 light;
@@ -177,18 +177,18 @@ export class SurfacePainter {
     }
 
     /** Draws the opaque surfaces, or the translucent ones from far to near: of all slices, or only of one. */
-    draw(which: "opaque" | "translucent", lens: Lens, only?: Slice): void {
+    draw(which: "opaque" | "translucent", viewCamera: ViewCamera, only?: Slice): void {
         const { gl, picture, parts } = this;
         const opaque = which === "opaque";
         if (!picture || !this.resources || !this.levels.some((level) => isOpaque(level) === opaque)) return;
         const { program, uniforms, arrays } = this.resources;
         const { light } = picture.scene;
-        for (const part of parts) part.depth = lens.depthOf(part.position);
+        for (const part of parts) part.depth = viewCamera.depthOf(part.position);
         parts.sort((a, b) => b.depth - a.depth);
         gl.useProgram(program);
         gl.bindVertexArray(arrays);
-        gl.uniformMatrix4fv(uniforms.view, false, lens.view.elements);
-        gl.uniformMatrix4fv(uniforms.projection, false, lens.projection.elements);
+        gl.uniformMatrix4fv(uniforms.view, false, viewCamera.view.elements);
+        gl.uniformMatrix4fv(uniforms.projection, false, viewCamera.projection.elements);
         const [x, y, z] = light.direction;
         const length = Math.hypot(x, y, z);
         gl.uniform3f(uniforms.light, x / length, y / length, z / length);

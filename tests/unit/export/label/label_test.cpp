@@ -99,7 +99,7 @@ TEST(Label, isRefusedWhereThereIsNoRoom) {
 TEST(Label, aPlateIsABodyOfItsOwn) {
     for (const double size : {10.0, 60.0, 500.0}) {
         const Grid grid(size, size);
-        const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").plate(size, grid);
+        const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").labelBody(size, grid);
         expectPrintable(plate);
         const glm::dvec3 extent = boxOf(plate).size();
         EXPECT_NEAR(extent.z, 2, 0.01);

@@ -125,7 +125,7 @@ TEST(Hull, isClosedAndConvexThoughManyPointsLieInOnePlane) {
             const Mesh hull = hullOf(points, grid);
             expectPrintable(hull);
             for (const auto& t : hull.triangles) {
-                for (const auto& p : points) EXPECT_LE(glm::dot(normalOf(hull, t), p - hull.points[t[0]]), 0);
+                for (const auto& p : points) EXPECT_LE(glm::dot(doubleAreaNormalOf(hull, t), p - hull.points[t[0]]), 0);
             }
         }
     }

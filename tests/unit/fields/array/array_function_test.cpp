@@ -242,7 +242,7 @@ TEST(ArrayFunction, OverflowGivesNoValue) {
     array.evaluateWithGradient(points.batch(), points.values, points.gradients());
     EXPECT_TRUE(std::isnan(points.values[0]));
     EXPECT_EQ(points.gradient(0), glm::dvec4(0));
-    EXPECT_FALSE(array.boundsIn({}).total);
+    EXPECT_FALSE(array.boundsIn({}).hasValueEverywhere);
     EXPECT_EQ(array.statistics().missing, 0);
 }
 

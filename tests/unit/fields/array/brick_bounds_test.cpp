@@ -43,7 +43,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
                     if (glm::any(glm::lessThan(point, region.min)) || glm::any(glm::greaterThan(point, region.max)))
                         continue;  // rounded out of the region
                     if (std::isnan(value)) {
-                        EXPECT_FALSE(bounds.total);
+                        EXPECT_FALSE(bounds.hasValueEverywhere);
                     } else {
                         EXPECT_LE(bounds.min, value);
                         EXPECT_GE(bounds.max, value);
@@ -55,7 +55,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
                     EXPECT_GT(bounds.min, bounds.max);
                 }
                 if (missing == 0) {
-                    EXPECT_TRUE(bounds.total);
+                    EXPECT_TRUE(bounds.hasValueEverywhere);
                 }
             }
         }
@@ -75,7 +75,7 @@ TEST(BrickBounds, AreThoseOfTheBricksThatMeetTheRegion) {
         const Bounds bounds = array.boundsIn({min, max});
         EXPECT_NEAR(bounds.min, low, 0.1);
         EXPECT_NEAR(bounds.max, high, 0.1);
-        EXPECT_TRUE(bounds.total);
+        EXPECT_TRUE(bounds.hasValueEverywhere);
     };
     expectBounds(glm::dvec4(0), glm::dvec4(16), 0, 16 * 1111);
     expectBounds(glm::dvec4(4), glm::dvec4(8), 4 * 1111, 8 * 1111);  // a brick with its faces
@@ -116,11 +116,11 @@ TEST(BrickBounds, ReadLittleOfALargeArray) {
     EXPECT_GT(array.statistics().max, 0.99F);
     const std::size_t before = array.memoryBytes();
     const Bounds all = array.boundsIn({});
-    EXPECT_FALSE(all.total);
+    EXPECT_FALSE(all.hasValueEverywhere);
     EXPECT_EQ(all.min, -std::numeric_limits<double>::infinity());
     EXPECT_EQ(array.memoryBytes(), before);
     const Bounds part = array.boundsIn({glm::dvec4(-0.1), glm::dvec4(0.1)});
-    EXPECT_TRUE(part.total);
+    EXPECT_TRUE(part.hasValueEverywhere);
     EXPECT_NEAR(part.min, -1, 0.01);
     EXPECT_LE(array.memoryBytes(), before + BrickBounds::kMaxEntries * 4096);
 }

@@ -47,9 +47,9 @@ void requireSoundBounds(const std::string& text, const Box& box, Random& random)
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double real = realValue(formula.tape(), samples.point(i));
             for (const double value : {static_cast<double>(samples.values[i]), real}) {
-                ASSERT_TRUE(std::isnan(value) ? !bounds.total : bounds.min <= value && value <= bounds.max)
+                ASSERT_TRUE(std::isnan(value) ? !bounds.hasValueEverywhere : bounds.min <= value && value <= bounds.max)
                     << text << "\nat " << samples.describe(i) << ": " << value << "\nin [" << bounds.min << ", "
-                    << bounds.max << "]" << (bounds.total ? " total" : "");
+                    << bounds.max << "]" << (bounds.hasValueEverywhere ? " total" : "");
             }
         }
     }
@@ -116,7 +116,7 @@ TEST(Intervals, AreSoundInHugeBoxes) {
         samples.evaluate(function);
         for (std::size_t j = 0; j < samples.size(); ++j) {
             const double value = samples.values[j];
-            ASSERT_TRUE(std::isnan(value) ? !bounds.total : bounds.min <= value && value <= bounds.max)
+            ASSERT_TRUE(std::isnan(value) ? !bounds.hasValueEverywhere : bounds.min <= value && value <= bounds.max)
                 << text << " at " << samples.describe(j) << ": " << value << " in [" << bounds.min << ", " << bounds.max
                 << "]";
         }
@@ -139,7 +139,7 @@ TEST(Intervals, ShrinkWithTheBox) {
         const Bounds whole = boundsOfFormula(text, box), some = boundsOfFormula(text, part);
         if (some.min > some.max) continue;
         const auto isWithin = [](double a, double b) { return a <= b || a - b <= 1e-6 * std::abs(b); };
-        EXPECT_TRUE(some.total || !whole.total) << text;
+        EXPECT_TRUE(some.hasValueEverywhere || !whole.hasValueEverywhere) << text;
         EXPECT_TRUE(isWithin(whole.min, some.min) && isWithin(some.max, whole.max))
             << text << " [" << some.min << ", " << some.max << "] in [" << whole.min << ", " << whole.max << "]";
     }
@@ -151,7 +151,7 @@ TEST(Intervals, BecomeTightInSmallBoxes) {
         for (const double size : {1e-2, 1e-4}) {
             const glm::dvec4 point(0.3, 0.4, 0.5, 0.6);
             const Bounds bounds = boundsOfFormula(text, {point, point + size});
-            EXPECT_TRUE(bounds.total) << text;
+            EXPECT_TRUE(bounds.hasValueEverywhere) << text;
             EXPECT_LT(bounds.max - bounds.min, 100 * size) << text;
         }
     }
@@ -170,7 +170,7 @@ TEST_P(TightIntervals, AreTheRangeOfTheFunction) {
     const auto isNear = [](double a, double b) {
         return a == b || std::abs(a - b) < 1e-5 * std::max(1.0, std::abs(b));
     };
-    EXPECT_TRUE(bounds.total) << text;
+    EXPECT_TRUE(bounds.hasValueEverywhere) << text;
     EXPECT_TRUE(isNear(bounds.min, min) && isNear(bounds.max, max))
         << text << " [" << bounds.min << ", " << bounds.max << "]";
 }
@@ -195,22 +195,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Tight{"1/x", -1, 1, -kUnbounded, kUnbounded}, Tight{"tan(x)", 1, 2, -kUnbounded, kUnbounded}));
 
 TEST(Intervals, KnowWhereThereMayBeNoValue) {
-    EXPECT_FALSE(boundsOfFormula("sqrt(x)", -1e-3, 1).total);
-    EXPECT_TRUE(boundsOfFormula("sqrt(x)", 0, 1).total);
-    EXPECT_FALSE(boundsOfFormula("log(x)", -1, 1).total);
-    EXPECT_TRUE(boundsOfFormula("log(x)", 0, 1).total);
+    EXPECT_FALSE(boundsOfFormula("sqrt(x)", -1e-3, 1).hasValueEverywhere);
+    EXPECT_TRUE(boundsOfFormula("sqrt(x)", 0, 1).hasValueEverywhere);
+    EXPECT_FALSE(boundsOfFormula("log(x)", -1, 1).hasValueEverywhere);
+    EXPECT_TRUE(boundsOfFormula("log(x)", 0, 1).hasValueEverywhere);
     EXPECT_EQ(boundsOfFormula("log(x)", 0, 1).min, -kUnbounded);
-    EXPECT_FALSE(boundsOfFormula("asin(x)", 0, 1.01).total);
-    EXPECT_TRUE(boundsOfFormula("1/x", -1, 1).total) << "1/0 is infinite";
-    EXPECT_FALSE(boundsOfFormula("x/y", -1, 1).total) << "0/0";
-    EXPECT_FALSE(boundsOfFormula("x^0.3", -1, 1).total);
-    EXPECT_FALSE(boundsOfFormula("mod(1,x)", -1, 1).total);
+    EXPECT_FALSE(boundsOfFormula("asin(x)", 0, 1.01).hasValueEverywhere);
+    EXPECT_TRUE(boundsOfFormula("1/x", -1, 1).hasValueEverywhere) << "1/0 is infinite";
+    EXPECT_FALSE(boundsOfFormula("x/y", -1, 1).hasValueEverywhere) << "0/0";
+    EXPECT_FALSE(boundsOfFormula("x^0.3", -1, 1).hasValueEverywhere);
+    EXPECT_FALSE(boundsOfFormula("mod(1,x)", -1, 1).hasValueEverywhere);
     const Bounds none = boundsOfFormula("sqrt(x)+1", -2, -1);
     EXPECT_GT(none.min, none.max);
-    EXPECT_FALSE(none.total);
+    EXPECT_FALSE(none.hasValueEverywhere);
     EXPECT_TRUE(none.mayCross(0));
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(boundsOfFormula("x", {{nan, 0, 0, 0}, {1, 1, 1, 1}}).total);
+    EXPECT_FALSE(boundsOfFormula("x", {{nan, 0, 0, 0}, {1, 1, 1, 1}}).hasValueEverywhere);
 }
 
 // The float nearest to a point of the box may lie outside of the box.

@@ -266,8 +266,8 @@ TEST(Npy, ReadsLittleOfAFileLargerThanTheMemory) {
     EXPECT_EQ(values, (std::vector<float>{7, 3.5, 0}));
     const Bounds corner = f.boundsIn({{245, 395, 395, 95}, {249, 399, 399, 99}});
     EXPECT_GE(corner.max, 7);
-    EXPECT_TRUE(corner.total);
-    EXPECT_FALSE(f.boundsIn(f.box()).total);
+    EXPECT_TRUE(corner.hasValueEverywhere);
+    EXPECT_FALSE(f.boundsIn(f.box()).hasValueEverywhere);
     EXPECT_LT(f.memoryBytes(), 50'000'000) << "bounds and a selection, of 16 GB";
 }
 

@@ -12,28 +12,28 @@ constexpr Pacing::Clock::time_point kStart{};
 TEST(Pacing, AllowsTwoUnshownPictures) {
     Pacing pacing;
     EXPECT_FALSE(pacing.newest());
-    pacing.sent(0);
+    pacing.recordSent(0);
     EXPECT_TRUE(pacing.hasRoom());
-    pacing.sent(5);
+    pacing.recordSent(5);
     EXPECT_FALSE(pacing.hasRoom());
     EXPECT_EQ(pacing.newest(), 5U);
-    pacing.shown(0);
+    pacing.recordShown(0);
     EXPECT_TRUE(pacing.hasRoom());
 }
 
 TEST(Pacing, ShownIncludesEarlierRevisions) {
     Pacing pacing;
-    pacing.sent(3);
-    pacing.sent(4);
-    pacing.shown(4);
-    pacing.sent(5);
+    pacing.recordSent(3);
+    pacing.recordSent(4);
+    pacing.recordShown(4);
+    pacing.recordSent(5);
     EXPECT_TRUE(pacing.hasRoom());
 }
 
 TEST(Pacing, UnwrittenPicturesDoNotExpire) {
     Pacing pacing;
-    pacing.sent(1);
-    pacing.sent(2);
+    pacing.recordSent(1);
+    pacing.recordSent(2);
     EXPECT_FALSE(pacing.deadline(1s));
     pacing.assumeShown(kStart + 1h, 1s);
     EXPECT_FALSE(pacing.hasRoom());
@@ -41,10 +41,10 @@ TEST(Pacing, UnwrittenPicturesDoNotExpire) {
 
 TEST(Pacing, WrittenPicturesExpireInOrder) {
     Pacing pacing;
-    pacing.sent(1);
-    pacing.sent(2);
-    pacing.written(1, kStart);
-    pacing.written(2, kStart + 300ms);
+    pacing.recordSent(1);
+    pacing.recordSent(2);
+    pacing.recordWritten(1, kStart);
+    pacing.recordWritten(2, kStart + 300ms);
     EXPECT_EQ(pacing.deadline(1s), kStart + 1s);
     pacing.assumeShown(kStart + 999ms, 1s);
     EXPECT_FALSE(pacing.hasRoom());
@@ -55,9 +55,9 @@ TEST(Pacing, WrittenPicturesExpireInOrder) {
 
 TEST(Pacing, ASkippedRevisionIsNewestButNotInFlight) {
     Pacing pacing;
-    pacing.skipped(7);
+    pacing.recordSkipped(7);
     EXPECT_EQ(pacing.newest(), 7U);
-    pacing.sent(8);
+    pacing.recordSent(8);
     EXPECT_TRUE(pacing.hasRoom());
 }
 

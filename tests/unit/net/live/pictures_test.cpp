@@ -59,28 +59,28 @@ TEST(PicturesInProgress, TheNextJobMayBeginOnceThePictureIsDrawn) {
     PicturesInProgress inProgress;
     EXPECT_FALSE(inProgress.isDrawing());
     EXPECT_EQ(inProgress.job(), 1U);
-    inProgress.queued();
+    inProgress.recordQueued();
     EXPECT_TRUE(inProgress.isDrawing());
     EXPECT_EQ(inProgress.job(), 1U);
-    inProgress.drawn({1, 7, Quality::full, kFrames});
+    inProgress.recordDrawn({1, 7, Quality::full, kFrames});
     EXPECT_FALSE(inProgress.isDrawing());
     EXPECT_TRUE(inProgress.isEncoding(kFrames, 7, Quality::draft));
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 6, Quality::draft));
     EXPECT_FALSE(inProgress.isEncoding(kGeometry, 7, Quality::draft));
     EXPECT_EQ(inProgress.job(), 2U);
-    inProgress.queued();
-    inProgress.drawn({2, 8, Quality::draft, kFrames});
+    inProgress.recordQueued();
+    inProgress.recordDrawn({2, 8, Quality::draft, kFrames});
     EXPECT_EQ(inProgress.countEncoding(kFrames), 2U);
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 8, Quality::full));
-    inProgress.done(1);
+    inProgress.recordDone(1);
     EXPECT_EQ(inProgress.countEncoding(kFrames), 1U);
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 7, Quality::draft));
 }
 
 TEST(PicturesInProgress, AJobWithoutAFrameEndsAtOnce) {
     PicturesInProgress inProgress;
-    inProgress.queued();
-    inProgress.done(1);
+    inProgress.recordQueued();
+    inProgress.recordDone(1);
     EXPECT_FALSE(inProgress.isDrawing());
     EXPECT_EQ(inProgress.job(), 2U);
 }

@@ -188,9 +188,9 @@ TEST(OverPolyhedra, haveCellsWithNames) {
     }
 }
 
-// --- Vertex cuts, hulls and intersections
+// --- Truncations, rectifications, hulls and intersections
 
-TEST(VertexCuts, ofRegularPolytopesAreUniform) {
+TEST(TruncationsAndRectifications, ofRegularPolytopesAreUniform) {
     EXPECT_EQ(support::designFor("rectification of 16-cell").name, "24-cell");
     EXPECT_EQ(support::designFor("rectification of 120-cell").name, "rectified 120-cell");
     EXPECT_EQ(support::designFor("truncation of 600-cell").name, "truncated 600-cell");
@@ -200,7 +200,7 @@ TEST(VertexCuts, ofRegularPolytopesAreUniform) {
 
 // A polytope that is regular, but not known to be by its name, is cut by a hull; the result agrees with the uniform
 // one.
-TEST(VertexCuts, areTheHullsOfPointsOnEdges) {
+TEST(TruncationsAndRectifications, areTheHullsOfPointsOnEdges) {
     const std::string cell24 = "hull of tesseract and 16-cell";
     for (const auto& [cut, uniform, ratio] :
          {std::tuple{"rectification of ", "rectified 24-cell", 1.0}, {"truncation of ", "truncated 24-cell", 1.0}}) {
@@ -359,7 +359,7 @@ TEST(Compositions, ofRandomNamesAreSound) {
         }
         const Design& design = std::get<Design>(named);
         EXPECT_EQ(support::designFor(design.name).name, design.name) << "the name is that of the same design";
-        if (elementCounts(design).vertices > 1500 || design.recipe->hullPoints() > 3000) continue;
+        if (elementCounts(design).vertices > 1500 || design.recipe->hullPointCount() > 3000) continue;
         try {
             const Polytope p = build(design);
             expectSound(p);

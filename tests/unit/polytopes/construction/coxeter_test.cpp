@@ -69,10 +69,10 @@ TEST(Groups, haveTheKnownOrders) {
     EXPECT_EQ(order("x5/2o5o5/2o"), 14400U);
     EXPECT_EQ(order("x5o x7o"), 140U);
     EXPECT_EQ(order("x5o3o x"), 240U);
-    EXPECT_EQ(symmetriesOf(diagram("x3o3o3x")).size(), 2U);
-    EXPECT_EQ(symmetriesOf(diagram("x3o3o3o")).size(), 1U);
-    EXPECT_EQ(symmetriesOf(diagram("o3x3o *b3o")).size(), 6U);
-    EXPECT_EQ(symmetriesOf(diagram("x5o x5o")).size(), 2U);
+    EXPECT_EQ(automorphismsOf(diagram("x3o3o3x")).size(), 2U);
+    EXPECT_EQ(automorphismsOf(diagram("x3o3o3o")).size(), 1U);
+    EXPECT_EQ(automorphismsOf(diagram("o3x3o *b3o")).size(), 6U);
+    EXPECT_EQ(automorphismsOf(diagram("x5o x5o")).size(), 2U);
 }
 
 // Builds all diagrams of the groups of the regular polychora and of D4.

@@ -65,8 +65,8 @@ double contentOf(const Polytope& p) {
 }
 
 // Expects that no vertex of a section of a convex polytope lies outside of the polytope, beyond the tolerance: a vertex
-// of the polytope counts as lying in the hyperplane of the section up to kOnPlane circumradii from it. In a section
-// that is nearly parallel to a cell, this is a larger distance from the plane of a face.
+// of the polytope counts as lying in the hyperplane of the section up to kOnPlaneTolerance circumradii from it. In a
+// section that is nearly parallel to a cell, this is a larger distance from the plane of a face.
 void expectInside(const Polytope& p, const geometry::Rotation& orientation, const slicing::SliceSet& section) {
     Points normals;
     std::vector<double> offsets;
@@ -76,7 +76,7 @@ void expectInside(const Polytope& p, const geometry::Rotation& orientation, cons
         const double offset = offsets[c] / glm::length(normals[c]);
         for (const glm::dvec3& v : section.vertices)
             ASSERT_LT(glm::dot(normal, glm::dvec4(v, section.planes.w(0))) - offset,
-                      2 * slicing::kOnPlane * p.circumradius);
+                      2 * slicing::kOnPlaneTolerance * p.circumradius);
     }
 }
 
@@ -91,7 +91,7 @@ void expectClosedSections(const Polytope& p, const geometry::Rotation& orientati
             if (p.convex) expectInside(p, orientation, slice);
             // If vertices are moved into the hyperplane, the section of a cell that is nearly parallel may fold over.
             const bool exact = std::none_of(p.vertices.begin(), p.vertices.end(), [&](const glm::dvec4& v) {
-                return std::abs(orientation(v).w - w) <= 2 * slicing::kOnPlane * p.circumradius;
+                return std::abs(orientation(v).w - w) <= 2 * slicing::kOnPlaneTolerance * p.circumradius;
             });
             constexpr double kAny = std::numeric_limits<double>::infinity();  // see expectInside()
             if (p.convex && exact && slice.faceCount(0) > 1) support::expectClosedConvexSolid(slice, 0, kAny);

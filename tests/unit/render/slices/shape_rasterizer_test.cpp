@@ -31,7 +31,7 @@ struct Example {
 std::ostream& operator<<(std::ostream& out, const Example& example) { return out << example.name; }
 
 constexpr scene::Parts kOnlyFaces{.faces = true, .bars = false, .balls = false};
-constexpr scene::Parts kSections{.cells = true, .sections = true};
+constexpr scene::Parts kSections{.projectionFaces = true, .allSections = true};
 
 class ShapesInMemory : public testing::TestWithParam<Example> {
   protected:
@@ -120,8 +120,8 @@ class Depths : public testing::Test {
         const std::span<std::uint8_t> pixels = std::span(memory).subspan(kGuard, kBytes);
         rasterizer.begin({kSize, kSize}, scene::style(), pixels);
         rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
-        rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::Depth::written);
-        rasterizer.add(translucent, 0, translucent.patches().size(), ShapeRasterizer::Depth::tested);
+        rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
+        rasterizer.add(translucent, 0, translucent.patches().size(), ShapeRasterizer::DepthUse::tested);
         rasterizer.finish(nullptr);
         for (std::size_t i = 0; i < kGuard; ++i) {
             EXPECT_EQ(memory[i], kUntouched);

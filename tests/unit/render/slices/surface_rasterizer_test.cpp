@@ -155,7 +155,7 @@ class Triangles : public testing::Test {
 
     void SetUp() override {
         if (!ShapeRasterizer::isSupported()) GTEST_SKIP() << "this processor lacks AVX2 or FMA";
-        picture.scene.isNonconvex = true;
+        picture.scene.facesMayCross = true;
         picture.slices.vertices.clear();
         surface = &picture.slices.surfaces.emplace_back();
     }
@@ -173,7 +173,7 @@ class Triangles : public testing::Test {
     }
     void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         surface->triangles.push_back({a, b, c});
-        surface->part.push_back(static_cast<std::uint8_t>(picture.scene.surfaces.levels.size() - 1));
+        surface->levelAndCap.push_back(static_cast<std::uint8_t>(picture.scene.surfaces.levels.size() - 1));
     }
     void addTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
         const std::uint32_t first = addPoint(a);

@@ -106,7 +106,7 @@ TEST(CriticalSections, EachLevelHasItsOwn) {
     const std::vector<std::size_t> levels{2, 1, 0, 0, 1, 2};
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_NEAR(std::abs(found.all[i].w), radii[i], 2e-5);
-        EXPECT_EQ(found.all[i].level, levels[i]);
+        EXPECT_EQ(found.all[i].levelIndex, levels[i]);
     }
 }
 

@@ -153,8 +153,8 @@ TEST(SliceFog, OfAllSlicesKeepsWithinItsBounds) {
         FieldSlicer().slice(field, {}, planes, settings, detail, out);
         std::size_t points = 0;
         for (const SliceFog& fog : out.fogs) points += fog.values.size();
-        EXPECT_LE(points, 1.1 * static_cast<double>(maxFogPoints(quality)));
-        EXPECT_GT(points, 0.7 * static_cast<double>(maxFogPoints(quality)));
+        EXPECT_LE(points, 1.1 * static_cast<double>(maxFogSamples(quality)));
+        EXPECT_GT(points, 0.7 * static_cast<double>(maxFogSamples(quality)));
     }
 }
 

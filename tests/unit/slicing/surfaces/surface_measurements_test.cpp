@@ -68,9 +68,9 @@ TEST(SurfaceMeasurements, OfOneLevelOfSeveral) {
     SliceSurface surface;
     for (const glm::dvec3& point : cubes.points) surface.points.emplace_back(point);
     surface.triangles = cubes.triangles;
-    surface.part.assign(24, 1);
-    for (std::size_t t = 8; t < 12; ++t) surface.part[t] = 1 | SliceSurface::kCap;
-    for (std::size_t t = 12; t < 24; ++t) surface.part[t] = 2;
+    surface.levelAndCap.assign(24, 1);
+    for (std::size_t t = 8; t < 12; ++t) surface.levelAndCap[t] = 1 | SliceSurface::kCap;
+    for (std::size_t t = 12; t < 24; ++t) surface.levelAndCap[t] = 2;
     const auto outer = measureSurface(surface, 1), inner = measureSurface(surface, 2);
     EXPECT_NEAR(outer.volume, 27, 1e-6);
     EXPECT_NEAR(outer.area, 36, 1e-6);

@@ -5,14 +5,14 @@ import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/pr
 import { element } from "./element";
 import { isField } from "./fields";
 import { capitalize, formatCount } from "./format";
-import type { Section } from "./tools";
+import type { ToolSection } from "./tools";
 
 interface LabelAndTooltip {
     label: string;
     title: string;
 }
 
-/** The colorings of polytopes and of fields. One that has no entry for an object has the same effect as `plain`. */
+/** The colorings. One without an entry for polytopes, or for fields, has the effect of `plain` on these objects. */
 const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
         polytope: { label: "Cell", title: "Each cell has its own color" },
@@ -60,7 +60,7 @@ type Visibility = (typeof kVisibilities)[number];
 
 const kMaxListedKinds = 24; // an imported polytope may have as many kinds of cells as cells
 
-export class Colors {
+export class ColorControls {
     private readonly colorings = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
     private readonly options = new Map<Coloring, HTMLElement>();
     private readonly scale = element("p", { class: "scale", hidden: true });
@@ -91,7 +91,7 @@ export class Colors {
         });
     }
 
-    get sections(): Section[] {
+    get sections(): ToolSection[] {
         return [
             { title: "Colors", after: "look", content: [this.colorings, this.scale, this.list] },
             { title: "Background", content: [this.backgrounds] },

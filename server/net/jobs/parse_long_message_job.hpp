@@ -16,10 +16,10 @@ namespace oval4d::net {
 using Parsed = std::variant<wire::Request, wire::BadRequest>;
 
 /// Returns the error for a message that is longer than messages of its type may be. It states the maximum lengths.
-Error tooLong(const Options& options);
+Error messageTooLong(const Options& options);
 
 /// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
 /// message may be long. `text` and `options` must outlive the job.
-std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options);
+std::function<Parsed(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options);
 
 }  // namespace oval4d::net

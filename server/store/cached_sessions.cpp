@@ -1,4 +1,4 @@
-#include "store/sessions_in_memory.hpp"
+#include "store/cached_sessions.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,25 +15,25 @@ void PendingChanges::addOlder(PendingChanges older) {
     std::ranges::move(older.waiting, std::back_inserter(waiting));
 }
 
-void SessionsInMemory::addStored(const SessionCredentials& credentials, Fence fence) {
-    SessionInMemory& cached = sessions_[credentials.id];
+void CachedSessions::addStored(const SessionCredentials& credentials, Fence fence) {
+    CachedSession& cached = sessions_[credentials.id];
     cached.credentials = credentials;
     cached.fence = fence;
     cached.everSaved = true;
 }
 
-SessionInMemory* SessionsInMemory::find(const std::string& id) {
+CachedSession* CachedSessions::find(const std::string& id) {
     const auto found = sessions_.find(id);
     return found == sessions_.end() ? nullptr : &found->second;
 }
 
-std::optional<SessionInMemory> SessionsInMemory::remove(const std::string& id) {
+std::optional<CachedSession> CachedSessions::remove(const std::string& id) {
     auto node = sessions_.extract(id);
     if (node.empty()) return {};
     return std::move(node.mapped());
 }
 
-std::vector<std::string> SessionsInMemory::removeClosedBefore(SessionInMemory::Clock::time_point time) {
+std::vector<std::string> CachedSessions::removeClosedBefore(CachedSession::Clock::time_point time) {
     std::vector<std::string> removed;
     std::erase_if(sessions_, [&](const auto& entry) {
         const bool old = entry.second.closed && entry.second.closedAt < time;
@@ -43,19 +43,19 @@ std::vector<std::string> SessionsInMemory::removeClosedBefore(SessionInMemory::C
     return removed;
 }
 
-std::vector<std::pair<std::string, SessionInMemory>> SessionsInMemory::evictClosed(std::size_t quota) {
+std::vector<std::pair<std::string, CachedSession>> CachedSessions::evictClosed(std::size_t quota) {
     std::size_t bytes = 0;
     std::vector<decltype(sessions_)::iterator> closed;
     for (auto entry = sessions_.begin(); entry != sessions_.end(); ++entry) {
-        const SessionInMemory& cached = entry->second;
+        const CachedSession& cached = entry->second;
         if (!cached.closed || cached.inFlight) continue;
         bytes += cached.bytes;
         closed.push_back(entry);
     }
-    std::vector<std::pair<std::string, SessionInMemory>> evicted;
+    std::vector<std::pair<std::string, CachedSession>> evicted;
     if (bytes <= quota) return evicted;
     std::ranges::sort(closed, {}, [](const auto& entry) {
-        const SessionInMemory& cached = entry->second;
+        const CachedSession& cached = entry->second;
         return std::tuple(cached.pending.whole->revision > 0, cached.closedAt);
     });
     for (const auto& entry : closed) {
@@ -67,16 +67,16 @@ std::vector<std::pair<std::string, SessionInMemory>> SessionsInMemory::evictClos
     return evicted;
 }
 
-void SessionsInMemory::enqueue(const std::string& id, SessionInMemory& cached) {
+void CachedSessions::enqueue(const std::string& id, CachedSession& cached) {
     if (std::exchange(cached.queued, true)) return;
     queue_.push_back(id);
 }
 
-std::optional<std::string> SessionsInMemory::takeQueued() {
+std::optional<std::string> CachedSessions::takeQueued() {
     while (!queue_.empty()) {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
-        SessionInMemory* const cached = find(id);
+        CachedSession* const cached = find(id);
         if (cached == nullptr) continue;  // it was removed meanwhile
         cached->queued = false;
         cached->inFlight = true;
@@ -85,19 +85,19 @@ std::optional<std::string> SessionsInMemory::takeQueued() {
     return {};
 }
 
-std::size_t SessionsInMemory::neverSaved() const {
+std::size_t CachedSessions::neverSaved() const {
     return static_cast<std::size_t>(
         std::ranges::count_if(sessions_, [](const auto& entry) { return !entry.second.everSaved; }));
 }
 
-std::size_t SessionsInMemory::unsaved() const {
+std::size_t CachedSessions::unsaved() const {
     return static_cast<std::size_t>(std::ranges::count_if(sessions_, [](const auto& entry) {
-        const SessionInMemory& cached = entry.second;
+        const CachedSession& cached = entry.second;
         return cached.pending.head || cached.pending.whole || cached.inFlight;
     }));
 }
 
-std::vector<std::string> SessionsInMemory::openAndSaved() const {
+std::vector<std::string> CachedSessions::openAndSaved() const {
     std::vector<std::string> ids;
     for (const auto& [id, cached] : sessions_) {
         if (cached.everSaved && !cached.closed) ids.push_back(id);

@@ -3,16 +3,16 @@
 import type { State } from "@oval4d/protocol";
 
 import { angleExpression, editableAngle, withoutBlanks } from "./angles";
-import { spokenColoring, spokenKinds } from "./colors";
+import { spokenColoring, spokenKinds } from "./color_controls";
 import { byId } from "./element";
 import { spokenLevels } from "./fields";
 import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
-import { StateField } from "./state_field";
+import { HeaderValue } from "./header_value";
 import { spokenFrame } from "./reference_frame";
 import { makeToolbar } from "./toolbar";
 
-/** A field of the header: the part of the state that it shows, and the command that changes it. */
-interface StateFieldDescription {
+/** A value of the header: the part of the state that it shows, and the command that changes it. */
+interface HeaderValueDescription {
     name: string;
     symbol: string;
     /** Describes the value. */
@@ -30,36 +30,36 @@ interface StateFieldDescription {
 
 const kAngleHint = "In degrees, or for example pi/8";
 
-const kStateFields: StateFieldDescription[] = [
+const kHeaderValues: HeaderValueDescription[] = [
     {
-        ...field("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
+        ...description("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
         hint: kAngleHint,
         editable: ({ alpha }) => editableAngle(alpha),
         command: (text) => `set alpha=${angleExpression(text)}`,
     },
     {
-        ...field("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
+        ...description("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
         hint: kAngleHint,
         editable: ({ beta }) => editableAngle(beta),
         command: (text) => `set beta=${angleExpression(text)}`,
     },
     {
-        ...field("w", "w", "Position of the focus slice", focusW),
+        ...description("w", "w", "Position of the focus slice", focusW),
         hint: "Any w: all hyperplanes move with the focus slice",
         command: (text) => `set w=${withoutBlanks(text)}`,
     },
     {
-        ...field("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
+        ...description("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
         hint: "A length, for example 0.1 or 1/8",
         command: (text) => `set spacing=${withoutBlanks(text)}`,
     },
     {
-        ...field("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
+        ...description("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
         hint: "An odd number",
         command: (text) => `set slices=${withoutBlanks(text)}`,
     },
     {
-        ...field("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
+        ...description("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
             last ? formatRotation(last) : "none",
         ),
         hint: "Turn by other angles: xw 10° or xw 10°, yz 5°",
@@ -72,29 +72,29 @@ const kStateFields: StateFieldDescription[] = [
 
 const kSpeechDelay = 700; // milliseconds without a change before the state is announced
 
-export class StateFields {
+export class HeaderValues {
     private readonly root = byId("state-fields");
     private readonly announcer = byId("spoken");
-    private readonly fields = new Map<string, StateField>();
+    private readonly byName = new Map<string, HeaderValue>();
     private state: State | undefined;
     private announced: string[] | undefined; // what announcementsOf() returned at the last announcement
     private timer: ReturnType<typeof setTimeout> | undefined;
 
     /** `run` executes a command; it rejects with an Error whose message is shown at the field. */
     constructor(run: (command: string) => Promise<unknown>) {
-        for (const { name, symbol, meaning, hint, value, editable = value, command } of kStateFields) {
-            const stateField = new StateField(name, symbol, meaning, hint, {
+        for (const { name, symbol, meaning, hint, value, editable = value, command } of kHeaderValues) {
+            const headerValue = new HeaderValue(name, symbol, meaning, hint, {
                 editable: () => (this.state ? editable(this.state) : ""),
                 apply: async (text) => this.state && run(command(text, this.state)),
             });
-            this.fields.set(name, stateField);
-            this.root.append(stateField.root);
+            this.byName.set(name, headerValue);
+            this.root.append(headerValue.root);
         }
         makeToolbar(this.root, "Current values");
     }
 
     update(state: State): void {
-        for (const { name, value } of kStateFields) this.fields.get(name)!.show(value(state));
+        for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
         if (state.turning && this.timer !== undefined) return; // otherwise each step would delay the announcement
@@ -117,7 +117,7 @@ function announcementsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
     return [
         state.polytope.name,
-        ...kStateFields.map((one) => one.spoken(state)),
+        ...kHeaderValues.map((one) => one.spoken(state)),
         state.section.name ? `section: ${state.section.name}` : "",
         `${state.view} view`,
         state.view === "matrix" ? `focus point ${state.point.map(formatCoordinate).join(", ")}` : "",
@@ -132,7 +132,7 @@ function announcementsOf(state: State): string[] {
     ];
 }
 
-function field(name: string, symbol: string, meaning: string, value: (state: State) => string) {
+function description(name: string, symbol: string, meaning: string, value: (state: State) => string) {
     return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
 }
 

@@ -1,4 +1,4 @@
-#include "render/overlay/density_strip.hpp"
+#include "render/overlay/coordinates_plot.hpp"
 
 #include <array>
 #include <cstddef>
@@ -34,7 +34,7 @@ void main() { pixel = vec4(color, 1.0) * texture(density, texel).r; }
 
 }  // namespace
 
-DensityStrip::DensityStrip()
+CoordinatesPlot::CoordinatesPlot()
     : program_(kVertexSource, kFragmentSource, sizeof(Corner),
                std::to_array<Attribute>({{2, GL_FLOAT, offsetof(Corner, at)},
                                          {2, GL_FLOAT, offsetof(Corner, texel)},
@@ -47,13 +47,13 @@ DensityStrip::DensityStrip()
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
 }
 
-DensityStrip::~DensityStrip() { glDeleteTextures(1, &texture_); }
+CoordinatesPlot::~CoordinatesPlot() { glDeleteTextures(1, &texture_); }
 
-void DensityStrip::draw(const scene::Scene& scene) {
+void CoordinatesPlot::draw(const scene::Scene& scene) {
     using scene::DensityPlot, slicing::CoordinateHistograms;
     const bool showsHistogram = scene.showsHistogram();
     if (!showsHistogram && !scene.showsDensity()) return;
-    load(scene.density, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
+    load(scene.plotTones, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
     corners_.clear();
     indices_.clear();
     const scene::CoordinatesLayout& layout = scene.coordinates;
@@ -62,18 +62,18 @@ void DensityStrip::draw(const scene::Scene& scene) {
         const double x = layout.left + k * layout.lineStep;
         if (showsHistogram) {
             const int column = k * CoordinateHistograms::kPanel;
-            addEdge(scene, x, column, color);
-            addEdge(scene, x + layout.panel, column + CoordinateHistograms::kPanel - 1, color);
+            addVerticalSide(scene, x, column, color);
+            addVerticalSide(scene, x + layout.panel, column + CoordinateHistograms::kPanel - 1, color);
             addQuad();
         } else {
-            addEdge(scene, x + layout.lineWidth / 2, k * DensityPlot::kGap, color);
+            addVerticalSide(scene, x + layout.lineWidth / 2, k * DensityPlot::kGap, color);
             if (k > 0) addQuad();
         }
     }
     program_.draw(corners_.data(), corners_.size(), indices_);
 }
 
-void DensityStrip::load(const std::vector<std::uint8_t>& tones, int columns) {
+void CoordinatesPlot::load(const std::vector<std::uint8_t>& tones, int columns) {
     const int rows = static_cast<int>(tones.size()) / columns;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -88,7 +88,7 @@ void DensityStrip::load(const std::vector<std::uint8_t>& tones, int columns) {
 
 // Adds the lower and the upper end of a vertical edge at x (in viewport heights from the left). The edge shows the
 // center of this column of the texture; its lower and upper end show the center of the last and the first row.
-void DensityStrip::addEdge(const scene::Scene& scene, double x, double column, scene::Color color) {
+void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {
         const double y = scene.coordinates.zero + (above ? 1 : -1) * scene.coordinates.amplitude;
@@ -98,7 +98,7 @@ void DensityStrip::addEdge(const scene::Scene& scene, double x, double column, s
 }
 
 // Adds the quadrilateral between the last two edges.
-void DensityStrip::addQuad() {
+void CoordinatesPlot::addQuad() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);
 }

@@ -1,13 +1,13 @@
-// Where the matrix is in the pictures that the server draws. The page asks when it begins to show the matrix, so that a
-// drag can begin at once.
+// Where the matrix of planar sections is in the pictures that the server draws. The page requests this when it begins
+// to show the matrix, so that a drag in the matrix can begin at once.
 
 import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 
 import type { Stage } from "./picture/stage";
 
-export class FrameMatrix {
+export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    private knownFor = ""; // what the place of the known or requested matrix depends on; empty if there is none
+    private knownFor = ""; // what the place of the known or requested matrix depends on, as JSON; "" if there is none
 
     constructor(
         private readonly client: Client,

@@ -1,7 +1,7 @@
 // Limits the repetition of a held key: the key repeats only after the picture of its previous press has been presented.
 // Repetitions that come too early are dropped, not queued.
 
-export class KeyRepeat {
+export class KeyRepeatLimiter {
     private unanswered = 0; // number of requests without an answer
     private awaitedRevision = 0;
     private presentedRevision = 0;

@@ -1,19 +1,19 @@
-#include "net/jobs/parse_job.hpp"
+#include "net/jobs/parse_long_message_job.hpp"
 
 #include <string>
 
 namespace oval4d::net {
 
-Error tooLong(const Options& options) {
+Error messageTooLong(const Options& options) {
     return {ErrorCode::too_large, "a message may have at most " + std::to_string(options.maxRequestBytes) +
                                       " bytes; only a load message may be longer, up to " +
-                                      std::to_string(options.maxMessage)};
+                                      std::to_string(options.maxLoadMessageBytes)};
 }
 
-std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options) {
+std::function<Parsed(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options) {
     return [text, &options](std::size_t /*worker*/) -> Parsed {
         const auto seen = wire::peekRequest(text);
-        if (!seen.type || *seen.type != "load") return wire::BadRequest{seen.id, tooLong(options)};
+        if (!seen.type || *seen.type != "load") return wire::BadRequest{seen.id, messageTooLong(options)};
         return wire::parseRequest(text, options.maxDepth);
     };
 }

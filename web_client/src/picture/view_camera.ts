@@ -13,7 +13,7 @@ export interface ScreenPoint {
 
 const kMaxPitch = 1.55; // radians; at π/2 the up direction would be undefined
 
-export class Lens {
+export class ViewCamera {
     readonly view = new Matrix4();
     readonly projection = new Matrix4();
     readonly eye = new Vector3();

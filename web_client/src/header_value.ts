@@ -5,14 +5,14 @@ import { toSentence } from "./format";
 
 const kMargin = 4; // pixels between the note and the edge of the window
 
-export interface StateFieldEvents {
+export interface HeaderValueEvents {
     /** The value for editing. */
     editable(): string;
     /** Applies what the user has typed; rejects with an Error whose message is shown at the field. */
     apply(text: string): Promise<unknown>;
 }
 
-export class StateField {
+export class HeaderValue {
     readonly root: HTMLElement;
     private readonly output: HTMLElement;
     private readonly button: HTMLElement;
@@ -29,7 +29,7 @@ export class StateField {
         symbol: string,
         meaning: string,
         hint: string,
-        private readonly events: StateFieldEvents,
+        private readonly events: HeaderValueEvents,
     ) {
         const symbolElement = (): HTMLElement =>
             element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);

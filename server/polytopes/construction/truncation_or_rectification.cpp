@@ -1,4 +1,4 @@
-#include "polytopes/construction/vertex_cuts.hpp"
+#include "polytopes/construction/truncation_or_rectification.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -14,14 +14,14 @@ namespace oval4d::polytopes {
 
 namespace {
 
-class VertexCut : public Recipe {
+class TruncationOrRectification : public Recipe {
   public:
-    VertexCut(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
+    TruncationOrRectification(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
     // The number of vertices is exact: all cut points on edges are vertices of the hull, because each edge is the
-    // intersection of the polytope with a supporting hyperplane. The other numbers assume flat cuts and 2-faces with
-    // four sides; Euler's relation (vertices − edges + 2-faces − cells = 0) then gives the number of 2-faces. Unlike
-    // rectification, truncation leaves a part of each edge.
+    // intersection of the polytope with a supporting hyperplane. The other numbers assume that a single cell replaces
+    // each vertex, and that the 2-faces of the base have four sides; Euler's relation (vertices − edges + 2-faces −
+    // cells = 0) then gives the number of 2-faces. Unlike rectification, truncation leaves a part of each edge.
     ElementCounts counts() const override {
         const auto [v, e, f, c] = base_.recipe->counts();
         const std::uint64_t corners = 4 * f;
@@ -30,10 +30,10 @@ class VertexCut : public Recipe {
         return {e, corners, corners + cells - e, cells};
     }
     std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
-    std::uint64_t hullPoints() const override { return base_.recipe->hullPoints() + counts().vertices; }
+    std::uint64_t hullPointCount() const override { return base_.recipe->hullPointCount() + counts().vertices; }
 
     Polytope build(const std::string& name) const override {
-        const Polytope base = buildConvex(base_);
+        const Polytope base = buildRequiringConvex(base_);
         std::vector<glm::dvec4> points;
         for (const auto& [a, b] : base.edges) {
             const glm::dvec4 p = base.vertices[a], q = base.vertices[b];
@@ -60,7 +60,7 @@ bool isConvex(const Diagram& diagram) {
 
 }  // namespace
 
-std::optional<DesignOrError> vertexCutNamed(const NameWords& text) {
+std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& text) {
     const bool truncation = text.words[0] == "truncation";
     if ((!truncation && text.words[0] != "rectification") || text.words.size() < 3 || text.words[1] != "of") return {};
     const DesignOrError described = text.lookup(text.joinedFrom(2));
@@ -71,7 +71,7 @@ std::optional<DesignOrError> vertexCutNamed(const NameWords& text) {
         regular->ringed = {truncation, true, false, false};
         if (triangles || !truncation) return designOf(*regular);
     }
-    return Design{text.words[0] + " of " + base->name, std::make_shared<VertexCut>(truncation, *base)};
+    return Design{text.words[0] + " of " + base->name, std::make_shared<TruncationOrRectification>(truncation, *base)};
 }
 
 }  // namespace oval4d::polytopes

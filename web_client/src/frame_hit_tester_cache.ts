@@ -1,17 +1,18 @@
-// The hit tester of the pictures that the server draws. It is made from a slices message. The page requests this
-// message only when it needs the hit tester, because the message is as large as a picture of the geometry stream.
+// The hit tester (see picture/hit_tester.ts) of the pictures that the server draws. It is made from a slices message.
+// The page requests this message only when it needs the hit tester, because the message is as large as a picture of the
+// geometry stream.
 
 import type { Client, State } from "@oval4d/protocol";
 
 import { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 
-export class FrameHitTester {
+export class FrameHitTesterCache {
     private state: State | undefined;
     private known: HitTester | undefined;
     private knownFor = ""; // what the known or requested hit tester depends on, as JSON
 
-    /** `onKnown` is called when a hit tester that `current` requested has arrived. */
+    /** `onKnown` is called when a hit tester that currentOrRequest() requested has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
@@ -23,7 +24,7 @@ export class FrameHitTester {
     }
 
     /** The hit tester. If it is not known, requests it, and returns undefined. */
-    get current(): HitTester | undefined {
+    currentOrRequest(): HitTester | undefined {
         if (!this.state) return undefined;
         const { slices, view, shown, projection, polytope } = this.state;
         const key = JSON.stringify([slices, view, shown, projection, polytope.name, this.stage.size]);

@@ -15,12 +15,12 @@ namespace oval4d::render {
 /// Draws the density strip of a scene, or the histogram of a field. The colors of the strip are interpolated between
 /// the axes; each panel of the histogram has the color of its axis. Both are drawn as textures. Requires a current GL
 /// context throughout its lifetime.
-class DensityStrip {
+class CoordinatesPlot {
   public:
-    DensityStrip();
-    ~DensityStrip();
-    DensityStrip(const DensityStrip&) = delete;
-    DensityStrip& operator=(const DensityStrip&) = delete;
+    CoordinatesPlot();
+    ~CoordinatesPlot();
+    CoordinatesPlot(const CoordinatesPlot&) = delete;
+    CoordinatesPlot& operator=(const CoordinatesPlot&) = delete;
 
     /// Draws the strip or the histogram. Does nothing if the scene shows neither.
     void draw(const scene::Scene& scene);
@@ -33,7 +33,7 @@ class DensityStrip {
     };
 
     void load(const std::vector<std::uint8_t>& tones, int columns);
-    void addEdge(const scene::Scene& scene, double x, double column, scene::Color color);
+    void addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color);
     void addQuad();
 
     ShaderProgram program_;

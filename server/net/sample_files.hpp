@@ -12,19 +12,19 @@
 
 namespace oval4d::net {
 
-/// Unnamed files, with a limit on their total size. The system deletes each file when the last reference to it is gone,
-/// at the latest when the server ends, even by a crash. Thread-safe.
-class FieldCache {
+/// The field cache on the disk (--field-cache): unnamed files, with a limit on their total size. The system deletes
+/// each file when the last reference to it is gone, at the latest when the server ends, even by a crash. Thread-safe.
+class SampleFiles {
   public:
     /// `folder`: empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes`: the maximum total size
     /// of the files.
-    FieldCache(const std::string& folder, std::size_t bytes);
+    SampleFiles(const std::string& folder, std::size_t bytes);
 
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
     /// Returns a new file of this size. Reserves its space on the disk if the file system can do so, so that writing to
     /// it cannot fail for lack of space. Returns a null pointer if the file fits the limit alone, but not together with
-    /// the other files. The cache must outlive the file. Errors: `too_large` if the file is larger than the limit;
+    /// the other files. This object must outlive the file. Errors: `too_large` if the file is larger than the limit;
     /// `internal` if it cannot be made; `too_many` if the disk is full.
     Result<FilePtr> make(std::size_t bytes);
 

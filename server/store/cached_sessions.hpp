@@ -32,8 +32,9 @@ struct PendingChanges {
     void addOlder(PendingChanges older);
 };
 
-/// A session in memory, with its changes that are not yet in the store.
-struct SessionInMemory {
+/// What a write-behind store knows of a session in memory: its credentials, its changes that are not yet in the store,
+/// and how far it has been written.
+struct CachedSession {
     using Clock = std::chrono::steady_clock;
 
     SessionCredentials credentials;
@@ -48,7 +49,7 @@ struct SessionInMemory {
 };
 
 /// The sessions in memory, by id, and the queue of the sessions to write. Not thread-safe.
-class SessionsInMemory {
+class CachedSessions {
   public:
     /// Adds a session that has never been in the store.
     void add(const SessionCredentials& credentials) { sessions_[credentials.id].credentials = credentials; }
@@ -57,19 +58,19 @@ class SessionsInMemory {
 
     bool contains(const std::string& id) const { return sessions_.contains(id); }
     /// Returns the session with this id; a null pointer if it is not in memory.
-    SessionInMemory* find(const std::string& id);
+    CachedSession* find(const std::string& id);
     /// Removes a session and returns it; an empty optional if it is not in memory. The caller can then destroy the
     /// session without holding a lock.
-    std::optional<SessionInMemory> remove(const std::string& id);
+    std::optional<CachedSession> remove(const std::string& id);
     /// Removes the closed sessions that were closed before `time`, and returns their ids.
-    std::vector<std::string> removeClosedBefore(SessionInMemory::Clock::time_point time);
+    std::vector<std::string> removeClosedBefore(CachedSession::Clock::time_point time);
     /// Removes closed sessions until the remaining closed ones take at most `quota` bytes, and returns the removed ones
     /// with their ids. Removes first the sessions that were never changed, in the order in which they were closed, then
     /// the others in this order. Neither removes nor counts sessions that are being written.
-    std::vector<std::pair<std::string, SessionInMemory>> evictClosed(std::size_t quota);
+    std::vector<std::pair<std::string, CachedSession>> evictClosed(std::size_t quota);
 
     /// Appends a session to the queue unless it is already queued.
-    void enqueue(const std::string& id, SessionInMemory& cached);
+    void enqueue(const std::string& id, CachedSession& cached);
     /// Takes the first session from the queue, marks it as being written, and returns its id; an empty optional if the
     /// queue is empty.
     std::optional<std::string> takeQueued();
@@ -85,7 +86,7 @@ class SessionsInMemory {
     std::vector<std::string> openAndSaved() const;
 
   private:
-    std::map<std::string, SessionInMemory, std::less<>> sessions_;
+    std::map<std::string, CachedSession, std::less<>> sessions_;
     std::deque<std::string> queue_;
 };
 

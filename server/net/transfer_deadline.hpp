@@ -13,11 +13,11 @@ namespace oval4d::net {
 /// Without a minimum, a very slow client could make the server hold the data for hours. Each fragment must be
 /// transferred within Options::writeTimeout. In addition, the fragment after the first n bytes must be transferred
 /// within n / Options::minReadRate plus two write timeouts from the start; a rate of 0 turns this second limit off.
-class MinReadRate {
+class TransferDeadline {
   public:
     using Clock = std::chrono::steady_clock;
 
-    explicit MinReadRate(const Options& options)
+    explicit TransferDeadline(const Options& options)
         : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
     /// Counts bytes that the client has accepted or sent.

@@ -1,4 +1,4 @@
-#include "net/field_cache.hpp"
+#include "net/sample_files.hpp"
 
 #include <fcntl.h>
 #include <sys/statvfs.h>
@@ -19,7 +19,8 @@ int allocate(int file, std::size_t bytes) {
     const auto size = static_cast<off_t>(bytes);
     if (fallocate(file, 0, 0, size) == 0) return 0;
     if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
-    // Without reserved blocks, a lack of room shows only while the file is written: the reader then reports a fault.
+    // Blocks cannot be reserved here, so only check that there is room now. If the disk is full later, while the file
+    // is written, the reader reports a fault.
     struct statvfs status{};
     if (fstatvfs(file, &status) != 0) return errno;
     if (status.f_bavail * status.f_frsize < bytes) return ENOSPC;
@@ -28,10 +29,10 @@ int allocate(int file, std::size_t bytes) {
 
 }  // namespace
 
-FieldCache::FieldCache(const std::string& folder, std::size_t bytes)
+SampleFiles::SampleFiles(const std::string& folder, std::size_t bytes)
     : folder_(folder.empty() ? "/var/tmp" : folder), maxBytes_(bytes) {}
 
-Result<FieldCache::FilePtr> FieldCache::make(std::size_t bytes) {
+Result<SampleFiles::FilePtr> SampleFiles::make(std::size_t bytes) {
     if (bytes > maxBytes_) {
         return Error{ErrorCode::too_large, "the samples of this field take " + std::to_string(bytes) +
                                                " bytes on the disk, but the server has " + std::to_string(maxBytes_) +

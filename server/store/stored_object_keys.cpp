@@ -1,4 +1,4 @@
-#include "store/stored_objects.hpp"
+#include "store/stored_object_keys.hpp"
 
 #include <algorithm>
 #include <set>
@@ -9,14 +9,14 @@
 
 namespace oval4d::store {
 
-void StoredObjects::setStored(const std::string& session, const KeysBySerial& keys) {
+void StoredObjectKeys::setStored(const std::string& session, const KeysBySerial& keys) {
     KeyStates& objects = sessions_[session];
     objects.clear();
     for (const auto& [serial, key] : keys) objects[serial] = {key, true};
 }
 
-std::vector<std::uint64_t> StoredObjects::encode(const std::string& session, const PendingChanges& changes,
-                                                 std::size_t maxUndo, RecordUpdate& update) {
+std::vector<std::uint64_t> StoredObjectKeys::encode(const std::string& session, const PendingChanges& changes,
+                                                    std::size_t maxUndo, RecordUpdate& update) {
     constexpr std::size_t kKeyBytes = 10;
     KeyStates& objects = sessions_[session];
     std::vector<std::uint64_t> added;
@@ -43,8 +43,8 @@ std::vector<std::uint64_t> StoredObjects::encode(const std::string& session, con
     return added;
 }
 
-void StoredObjects::saved(const std::string& session, const std::vector<std::uint64_t>& added,
-                          const RecordUpdate& update) {
+void StoredObjectKeys::saved(const std::string& session, const std::vector<std::uint64_t>& added,
+                             const RecordUpdate& update) {
     KeyStates& objects = sessions_[session];
     for (const std::uint64_t serial : added) objects[serial].stored = true;
     std::erase_if(objects, [&](const auto& entry) {
@@ -52,11 +52,11 @@ void StoredObjects::saved(const std::string& session, const std::vector<std::uin
     });
 }
 
-void StoredObjects::markLost(const std::string& session) {
+void StoredObjectKeys::markLost(const std::string& session) {
     for (auto& [serial, object] : sessions_[session]) object.stored = false;
 }
 
-void StoredObjects::markAllLost() {
+void StoredObjectKeys::markAllLost() {
     for (auto& [session, objects] : sessions_) {
         for (auto& [serial, object] : objects) object.stored = false;
     }

@@ -17,6 +17,6 @@ namespace oval4d::polytopes {
 /// polytope are triangles; for other 2-faces, the uniform truncation does not cut the edges at their thirds.
 /// Recipe::build throws std::invalid_argument if the named polytope is not convex, and TooLarge if a limit of
 /// convex_hull.hpp is exceeded.
-std::optional<DesignOrError> vertexCutNamed(const NameWords& text);
+std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& text);
 
 }  // namespace oval4d::polytopes

@@ -1,5 +1,5 @@
-// Moves the focus point of the matrix view. The newest point is sent once per animation frame, when the previous one has
-// been answered.
+// Moves the focus point of the matrix view. The newest point is sent once per animation frame, when the previous one
+// has been answered.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -17,7 +17,7 @@ export interface FocusPointEvents {
 
 const kOrigin: Point4 = [0, 0, 0, 0];
 
-export class FocusPoint {
+export class FocusPointControl {
     private wanted = kOrigin;
     private isUnsent = false;
     private isSending = false;
@@ -34,7 +34,7 @@ export class FocusPoint {
 
     /** Follows the focus point of the session. */
     update(state: State): void {
-        if (!this.lastChange.isNewerThan(state)) this.current = state.point;
+        if (!this.lastChange.recordAndCheckIfOld(state)) this.current = state.point;
         this.origin = originInFile(state);
     }
 

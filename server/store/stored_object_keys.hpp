@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "store/sessions_in_memory.hpp"
+#include "store/cached_sessions.hpp"
 #include "store/store.hpp"
 
 namespace oval4d::store {
@@ -17,7 +17,7 @@ namespace oval4d::store {
 using KeysBySerial = std::map<std::uint64_t, std::string>;
 
 /// The keys of the objects of each session, and whether the store has them. Not thread-safe.
-class StoredObjects {
+class StoredObjectKeys {
   public:
     /// Records that the store has exactly these objects of a session.
     void setStored(const std::string& session, const KeysBySerial& keys);
