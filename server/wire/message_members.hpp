@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -62,6 +63,11 @@ inline void writeValue(JsonWriter& w, const std::vector<std::uint32_t>& numbers)
 inline void writeValue(JsonWriter& w, const std::vector<double>& numbers) {
     w.beginArray();
     for (const double number : numbers) w.value(number);
+    w.endArray();
+}
+inline void writeValue(JsonWriter& w, const std::vector<std::string>& texts) {
+    w.beginArray();
+    for (const std::string& text : texts) w.value(std::string_view(text));
     w.endArray();
 }
 inline void writeValue(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {

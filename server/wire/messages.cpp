@@ -1,8 +1,12 @@
 #include "wire/messages.hpp"
 
 #include <algorithm>
+#include <boost/describe/members.hpp>
+#include <boost/describe/modifiers.hpp>
+#include <boost/mp11/algorithm.hpp>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -30,6 +34,20 @@ std::string message(std::string_view type, std::optional<double> id, const Write
     return out;
 }
 
+// Writes a member of an answer, unless it is an empty optional or an empty list.
+template <typename Value>
+void writePresent(JsonWriter& w, std::string_view name, const Value& value) {
+    writeMember(w, name, value);
+}
+template <typename Value>
+void writePresent(JsonWriter& w, std::string_view name, const std::optional<Value>& value) {
+    if (value) writeMember(w, name, *value);
+}
+template <typename Value>
+void writePresent(JsonWriter& w, std::string_view name, const std::vector<Value>& list) {
+    if (!list.empty()) writeMember(w, name, list);
+}
+
 template <typename Number>
 void writePair(JsonWriter& w, std::string_view name, Number before, Number after) {
     w.key(name);
@@ -40,6 +58,18 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
 }
 
 }  // namespace
+
+std::string answerMessage(const Answer& answer, std::optional<double> id) {
+    return std::visit(
+        [&]<typename Described>(const Described& described) {
+            return message(Described::kMessageType, id, [&](JsonWriter& w) {
+                using Members = boost::describe::describe_members<Described, boost::describe::mod_public>;
+                boost::mp11::mp_for_each<Members>(
+                    [&](auto member) { writePresent(w, member.name, described.*member.pointer); });
+            });
+        },
+        answer);
+}
 
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
@@ -113,27 +143,6 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
     });
 }
 
-std::string pongMessage(const WorkerLoad& load, std::optional<double> id) {
-    return message("pong", id, [&](JsonWriter& w) {
-        w.member("workers", std::uint64_t{load.workers});
-        w.member("waiting", std::uint64_t{load.waiting});
-        w.member("busy", load.busy);
-        w.member("time", load.time);
-    });
-}
-
-std::string doneMessage(std::optional<double> id, std::uint64_t revision, const std::vector<std::string>& warnings) {
-    return message("done", id, [&](JsonWriter& w) {
-        w.member("revision", revision);
-        if (!warnings.empty()) {
-            w.key("warnings");
-            w.beginArray();
-            for (const std::string& warning : warnings) w.value(std::string_view(warning));
-            w.endArray();
-        }
-    });
-}
-
 std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
                            std::optional<double> id) {
     return message("welcome", id, [&](JsonWriter& w) {
@@ -156,10 +165,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             w.beginObject();
             w.member("name", std::string_view(entry.name));
             w.member("family", std::string_view(entry.family));
-            w.key("aliases");
-            w.beginArray();
-            for (const std::string& alias : entry.aliases) w.value(std::string_view(alias));
-            w.endArray();
+            writeMember(w, "aliases", entry.aliases);
             w.member("diagram", std::string_view(entry.diagram));
             w.member("schlaefli", std::string_view(entry.schlaefli));
             writeCounts(w, {entry.vertices, entry.edges, entry.faces, entry.cells});
@@ -171,10 +177,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             w.beginObject();
             w.member("name", name);
             w.member("family", family);
-            w.key("aliases");
-            w.beginArray();
-            for (const std::string& alias : aliases) w.value(std::string_view(alias));
-            w.endArray();
+            writeMember(w, "aliases", aliases);
             w.member("diagram", std::string_view());
             w.member("schlaefli", std::string_view());
             writeCounts(w, counts);
@@ -190,10 +193,6 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
         for (const std::string& name : data) add(name, "data", kBox);
         w.endArray();
     });
-}
-
-std::string addressMessage(std::string_view query, std::optional<double> id) {
-    return message("address", id, [&](JsonWriter& w) { w.member("query", query); });
 }
 
 std::string keymapMessage(std::optional<double> id) {

@@ -7,14 +7,18 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "errors/error.hpp"
 #include "scene/pick.hpp"
 #include "session/session.hpp"
 #include "slicing/critical/critical_sections.hpp"
+#include "wire/request.hpp"
 
 namespace oval4d::wire {
+
+/// Returns the message with the members of `answer` in the order in which they are described, without those that are an
+/// empty optional or an empty list.
+std::string answerMessage(const Answer& answer, std::optional<double> id);
 
 /// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
 /// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, in the coordinates
@@ -28,27 +32,12 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
 std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id);
 
-/// How busy the threads are that slice and draw pictures.
-struct WorkerLoad {
-    std::size_t workers = 0;  ///< the number of these threads
-    std::size_t waiting = 0;  ///< the number of pictures that wait for one of them
-    double busy = 0;          ///< the total time spent on all pictures that have ended, in seconds
-    double time = 0;          ///< the time of a steady clock, in seconds
-};
-/// Returns the `pong` message.
-std::string pongMessage(const WorkerLoad& load, std::optional<double> id);
-
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);
-/// Returns the `done` message. `warnings` are the warnings from reading a file.
-std::string doneMessage(std::optional<double> id, std::uint64_t revision,
-                        const std::vector<std::string>& warnings = {});
 /// Returns the `catalogue` message: the entries of the catalogue and the example fields, followed by the session's
 /// loaded objects and by the arrays in the data folder. `data` are the names of these arrays.
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
                              std::span<const std::string> data = {});
-/// Returns the `address` message. `query` is the text of a query; see session::queryText().
-std::string addressMessage(std::string_view query, std::optional<double> id);
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 

@@ -1,6 +1,7 @@
 #pragma once
-// Parsed messages from clients. `kMessageType` is the type of the messages that are parsed to a struct. If the members
-// of a struct are described with Boost.Describe, a message has them under the same names.
+// Parsed messages from clients, and those answers whose members are described. `kMessageType` is the type of the
+// messages that are parsed to a struct or written from it. If the members of a struct are described with
+// Boost.Describe, a message has them under the same names.
 
 #include <array>
 #include <boost/describe/class.hpp>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -77,10 +79,32 @@ struct Ping {
 };
 BOOST_DESCRIBE_STRUCT(Ping, (), ())
 
+/// Answers a Ping: how busy the threads are that slice and draw pictures.
+struct Pong {
+    static constexpr std::string_view kMessageType = "pong";
+    std::uint64_t workers = 0;  ///< the number of these threads
+    std::uint64_t waiting = 0;  ///< the number of pictures that wait for one of them
+    double busy = 0;            ///< the total time spent on all pictures that have ended, in seconds
+    double time = 0;            ///< the time of a steady clock, in seconds
+};
+BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
+
+/// Answers a request that took effect, unless another message answers it.
+struct Done {
+    static constexpr std::string_view kMessageType = "done";
+    std::uint64_t revision = 0;
+    std::vector<std::string> warnings = {};  ///< from reading a file, or what an exported file lacks
+};
+BOOST_DESCRIBE_STRUCT(Done, (), (revision, warnings))
+
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
     std::variant<Hello, session::Command, Get, Ping, PictureShown> body;
 };
+
+/// An answer whose members are described. An OpenAddress is also the answer to GetTarget::address: its query is then
+/// that of the session's view.
+using Answer = std::variant<Done, Pong, session::OpenAddress>;
 
 }  // namespace oval4d::wire

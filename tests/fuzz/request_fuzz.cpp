@@ -20,7 +20,8 @@ void requireEcho(std::string_view text, std::optional<double> id, const Error* e
     if (asked) require(id == asked, "an id is echoed");
     if (!id) return;
     require(std::isfinite(*id), "an id is finite");
-    const auto answer = fuzz::requireJson(error ? wire::errorMessage(*error, id) : wire::doneMessage(id, 1));
+    const auto answer =
+        fuzz::requireJson(error ? wire::errorMessage(*error, id) : wire::answerMessage(wire::Done{1}, id));
     require(answer.at("id").get<double>() == *id, "an id travels whole");
 }
 

@@ -253,7 +253,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
 }
 
 Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {
-    if (applied) return jsonReply(wire::doneMessage({}, applied->revision, applied->warnings));
+    if (applied) return jsonReply(wire::answerMessage(wire::Done{applied->revision, applied->warnings}, {}));
     context_.services.metrics.countError(applied.error().code);
     return uploadErrorReply(applied.error());
 }

@@ -35,8 +35,8 @@ using namespace std::chrono_literals;
 // machine.
 constexpr std::chrono::milliseconds kSaveDelay{250};
 
-Message doneMessage(LiveSession::RequestId id, std::uint64_t revision) {
-    return textMessage(wire::doneMessage(id, revision));
+Message textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
+    return textMessage(wire::answerMessage(answer, id));
 }
 
 /// The completion handler of a session's coroutine. It keeps the session alive until the coroutine has ended.
@@ -147,7 +147,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello h
 
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id) {
-    if (id) peer->send(doneMessage(id, revision()));
+    if (id) peer->send(textAnswer(wire::Done{revision()}, id));
     streams_->pictureShown(*peer, shown.revision);
     co_return;
 }
@@ -155,9 +155,9 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Picture
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*ping*/, RequestId id) {
     const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
-    peer->send(textMessage(wire::pongMessage({workers.size(), workers.waiting(), workers.busyTime().count(),
-                                              Seconds(Clock::now().time_since_epoch()).count()},
-                                             id)));
+    peer->send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
+                                     Seconds(Clock::now().time_since_epoch()).count()},
+                          id));
     co_return;
 }
 
@@ -169,7 +169,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Comm
         co_return;
     }
     if (!applied->owned) co_return;  // this client is being disconnected
-    if (id) peer->send(textMessage(wire::doneMessage(id, applied->revision, applied->warnings)));
+    if (id) peer->send(textAnswer(wire::Done{applied->revision, applied->warnings}, id));
     streams_->update();
 }
 
@@ -328,7 +328,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
 void LiveSession::answerWithAddress(Peer& peer, RequestId id) {
     const auto query = session::queryFromState(session_.current, *makeLoader());
     if (query) {
-        peer.send(textMessage(wire::addressMessage(session::queryText(*query), id)));
+        peer.send(textAnswer(session::OpenAddress{session::queryText(*query)}, id));
     } else {
         sendError(peer, services_.metrics, query.error(), id);
     }
@@ -356,7 +356,7 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     message.bytes = finished.bytes;
     message.binary = true;
     peer->send(std::move(message));
-    peer->send(textMessage(wire::doneMessage(id, askedRevision, finished.warnings)));
+    peer->send(textAnswer(wire::Done{askedRevision, finished.warnings}, id));
 }
 
 asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer, RequestId id) {
@@ -398,7 +398,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
                                                       streams_->lanesOf(peer->client()).pictures,
                                                       pictureCost(session_.current, key, slicing::Quality::full));
         peer->send(std::move(picture));
-        if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
+        if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
         failed = kTooManyJobs;
     } catch (const std::exception& fault) {

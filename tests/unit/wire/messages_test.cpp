@@ -214,9 +214,8 @@ TEST(OtherMessages, FitTheirSchemas) {
     EXPECT_EQ(error.at("id"), 12);
     EXPECT_FALSE(fitting(wire::errorMessage({ErrorCode::internal, "x"}, {})).contains("id"));
 
-    const json done = fitting(wire::doneMessage(0.5, 8));
-    EXPECT_EQ(done.at("id"), 0.5);
-    EXPECT_EQ(done.at("revision"), 8);
+    EXPECT_EQ(fitting(wire::answerMessage(wire::Done{8}, 0.5)),
+              json::parse(R"({"type":"done","id":0.5,"revision":8})"));
 
     const json welcome =
         fitting(wire::welcomeMessage("k3v", "secret", R"({"message":8388608,"shown_timeout":1.5})", 1));
@@ -232,6 +231,16 @@ TEST(OtherMessages, FitTheirSchemas) {
     fitting(wire::keymapMessage({}));
 }
 
+TEST(OtherMessages, HaveTheDescribedMembersThatAreNotEmpty) {
+    EXPECT_EQ(wire::answerMessage(wire::Done{8, {}}, {}), R"({"type":"done","revision":8})");
+    EXPECT_EQ(wire::answerMessage(wire::Done{8, {"one", "two"}}, 3),
+              R"({"type":"done","id":3,"revision":8,"warnings":["one","two"]})");
+    EXPECT_EQ(wire::answerMessage(wire::Pong{2, 0, 1.25, 86400.5}, 14),
+              R"({"type":"pong","id":14,"workers":2,"waiting":0,"busy":1.25,"time":86400.5})");
+    EXPECT_EQ(wire::answerMessage(session::OpenAddress{"polytope=24-cell"}, 1),
+              R"({"type":"address","id":1,"query":"polytope=24-cell"})");
+}
+
 TEST(OtherMessages, GiveIdsBackAsTheyWere) {
     const std::string_view ids[] = {
         "0",       "1", "1000000", "100000", "123456789012", "-7", "1.5", "9007199254740992", "-9007199254740992",
@@ -239,7 +248,8 @@ TEST(OtherMessages, GiveIdsBackAsTheyWere) {
     for (const std::string_view text : ids) {
         const auto id = parsed(R"({"type":"undo","id":)" + std::string(text) + '}').id;
         const std::string member = R"("id":)" + std::string(text) + ',';
-        EXPECT_NE(wire::doneMessage(id, 1).find(member), std::string::npos) << wire::doneMessage(id, 1);
+        EXPECT_NE(wire::answerMessage(wire::Done{1}, id).find(member), std::string::npos)
+            << wire::answerMessage(wire::Done{1}, id);
         EXPECT_NE(wire::errorMessage({ErrorCode::internal, "x"}, id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::stateMessage(Session{}.current, {}, 1, id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::catalogueMessage(id).find(member), std::string::npos) << text;
