@@ -41,11 +41,13 @@ struct Rotate {
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
     static constexpr std::string_view kMessageType = "toward";
-    slicing::ElementKind kind = slicing::ElementKind::cell;
-    /// The index of the element. If it is absent, turnToward() (settings.hpp) chooses an element.
-    std::optional<std::size_t> index;
+    slicing::ElementKind element = slicing::ElementKind::cell;  ///< its kind
+    /// slicing::Element::index. If it is absent, turnToward() (settings.hpp) chooses an element.
+    std::optional<std::size_t> number;
     bool immediately = false;  ///< whether to turn the object at once, without a continuous motion
 };
+BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
+
 /// Loads an object from a file, or makes a field from a formula, and shows it.
 struct LoadObject {
     static constexpr std::string_view kMessageType = "load";

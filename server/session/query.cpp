@@ -146,7 +146,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
             if (colon < element.size()) {
                 const auto index = parseElementIndex(element.substr(colon + 1));
                 if (!index) return index.error();
-                toward->index = *index;
+                toward->number = *index;
             }
         } else if (auto done = parseSetting(name, value, set); !done) {
             return done.error().code == ErrorCode::unknown_command ? unknownName(name, others) : done.error();

@@ -324,11 +324,11 @@ void rotate(State& state, const geometry::Turn& turn) {
 }
 
 Result<std::monostate> turnToward(State& state, const TurnToward& command) {
-    if (auto valid = checkElement(state.object, {command.kind, command.index.value_or(0)}); !valid) return valid;
-    slicing::Element element{command.kind, command.index.value_or(0)};
-    if (!command.index) {
+    slicing::Element element{command.element, command.number.value_or(0)};
+    if (auto valid = checkElement(state.object, element); !valid) return valid;
+    if (!command.number) {
         const auto& lit = state.look.highlight;
-        element = slicing::elementToTurnTo(state.object, command.kind, state.orientation, lit).value_or(element);
+        element = slicing::elementToTurnTo(state.object, command.element, state.orientation, lit).value_or(element);
     }
     const geometry::Rotation way = slicing::wayToW(state.object, element, state.orientation);
     const geometry::Rotation goal = way * state.orientation;

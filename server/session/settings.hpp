@@ -78,9 +78,9 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn);
 void rotate(State& state, const geometry::Turn& turn);
 
 /// Starts to turn the object toward the orientation in which the element points to +w; with TurnToward::immediately,
-/// rotates it to this orientation at once. Without TurnToward::index, slicing::elementToTurnTo() chooses an element of
-/// TurnToward::kind: the one closest to +w or, if that already points there, the next one. If an element is
-/// highlighted, only this element and those that contain it or are contained in it can be chosen. Ends continuous
+/// rotates it to this orientation at once. Without TurnToward::number, slicing::elementToTurnTo() chooses an element
+/// of the kind TurnToward::element: the one closest to +w or, if that already points there, the next one. If an element
+/// is highlighted, only this element and those that contain it or are contained in it can be chosen. Ends continuous
 /// turning. Error: `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 

@@ -98,6 +98,10 @@ void readValue(const json& element, std::optional<slicing::Element>& into) {
     if (!element.is_null())
         into = slicing::Element{choiceOf(element.at("element"), slicing::kElementKinds), element.at("number")};
 }
+template <typename Value>
+void readValue(const json& value, std::optional<Value>& into) {
+    readValue(value, into.emplace());
+}
 
 // Returns the body of a valid message. A member that the message lacks keeps its default.
 template <typename T>
@@ -181,15 +185,6 @@ session::Set bodyOf(const json& message) {
 template <>
 session::Rotate bodyOf(const json& message) {
     return {turnOf(message, "rotate: "), message.value("continues", false)};
-}
-
-template <>
-session::TurnToward bodyOf(const json& message) {
-    session::TurnToward toward;
-    choose(message, "element", slicing::kElementKinds, toward.kind);
-    take(message, "number", toward.index);
-    toward.immediately = message.value("immediately", false);
-    return toward;
 }
 
 geometry::Centering centerOf(const json& center) {

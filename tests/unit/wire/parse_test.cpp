@@ -45,6 +45,11 @@ TEST(Parse, Commands) {
     EXPECT_EQ(turn, (geometry::Turn{geometry::Plane::yz, 1, -2.5}));
     EXPECT_EQ(parsedCommand<session::Rotate>(R"({"type":"rotate","planes":["xy"],"angles":[0.5]})").turn,
               (geometry::Turn{geometry::Plane::xy, 0.5, {}}));
+    const auto toward = parsedCommand<session::TurnToward>(R"({"type":"toward","element":"edge","number":3})");
+    EXPECT_EQ(toward.element, slicing::ElementKind::edge);
+    EXPECT_EQ(toward.number, 3U);
+    EXPECT_FALSE(toward.immediately);
+    EXPECT_FALSE(parsedCommand<session::TurnToward>(R"({"type":"toward","element":"cell"})").number);
     parsedCommand<session::Undo>(R"({"type":"undo"})");
     parsedCommand<session::Redo>(R"({"type":"redo"})");
     parsedCommand<session::Reset>(R"({"type":"reset"})");
