@@ -1,5 +1,6 @@
-// Generates protocol/ts/messages.ts, the types of messages, from their JSON Schemas; with --check, only compares. The
-// slices message is not among them: slices.ts beside it has its types as they are after decoding.
+// Generates protocol/ts/messages.ts, the types of messages and of the answers to requests, from the JSON Schemas of
+// messages; with --check, only compares. The slices message is not among them: slices.ts beside it has its types as they
+// are after decoding.
 import { readFile, readdir, writeFile } from "node:fs/promises";
 import { compile } from "json-schema-to-typescript";
 
@@ -37,7 +38,7 @@ function convert(schema) {
     return converted.get(schema);
 }
 
-function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, ...schema }) {
+function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, "x-answer": answer, ...schema }) {
     const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, default: initially, ...keywords } = schema;
     if ($ref !== undefined) return refer(find($ref), { ...schema, $ref: undefined });
     // Links of the documents lead nowhere in a comment.
@@ -107,18 +108,44 @@ const isRequest = ({ file }) => {
     const { id } = schemas.get(file).properties;
     return (id.$ref ? find(id.$ref) : id) === kRequestId;
 };
-/** Returns the type of a message, which has a name. */
-const named = (message) => {
-    const { file, type } = message;
+/** Returns the name of the type of a message. */
+const nameOfMessage = (message) => {
+    const { type } = message;
     const name = kNames[type] ?? type[0].toUpperCase() + type.slice(1);
-    return Object.assign(convert(schemas.get(file)), { title: isRequest(message) && type !== "address" ? `${name}Request` : name });
+    return isRequest(message) && type !== "address" ? `${name}Request` : name;
 };
-const union = (title, members) => ({ title, anyOf: members.map(named) });
-const requests = union("Request", messages.filter(isRequest));
-const answers = union("Answer", messages.filter((message) => !isRequest(message) || message.type === "address"));
+/** Returns the type of a message, which has a name. */
+const named = (message) => Object.assign(convert(schemas.get(message.file)), { title: nameOfMessage(message) });
+const union = (title, members, description) => ({ title, description, anyOf: members.map(named) });
+const requests = messages.filter(isRequest);
+const answers = messages.filter((message) => !isRequest(message) || message.type === "address");
+
+// The answer to a get has the type of what it asks for. Any other request without "x-answer" is a command.
+const withOneAnswer = requests.filter(({ type }) => type !== "get");
+const answerOf = ({ file }) => schemas.get(file)["x-answer"];
+const answerName = (request) => {
+    const type = answerOf(request) ?? "done";
+    return nameOfMessage(messages.find((message) => message.type === type));
+};
+const unions = [
+    union("Request", requests),
+    union("Answer", answers),
+    union(
+        "Command",
+        withOneAnswer.filter((request) => answerOf(request) === undefined),
+        "A request that may change the session. The server answers it with `done`.",
+    ),
+];
+const requestAnswers = {
+    title: "RequestAnswers",
+    description: "The messages that answer requests, by the types of the requests; without `get`, whose answer depends on `what`.",
+    type: "object",
+    properties: Object.fromEntries(withOneAnswer.map((request) => [request.type, { tsType: answerName(request) }])),
+    required: withOneAnswer.map(({ type }) => type),
+};
 
 // json-schema-to-typescript generates the types that one type needs, so one, which is then removed, needs all of them.
-const everything = { anyOf: [requests, answers, ...Object.values(namedParts).map(convert)] };
+const everything = { anyOf: [...unions, requestAnswers, ...Object.values(namedParts).map(convert)] };
 const generated = await compile(everything, "Everything", {
     additionalProperties: false,
     bannerComment: "// Types for the messages of protocol/README.md. Generated from the schemas in protocol/schema/ by tests/lint --fix.",

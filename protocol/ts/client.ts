@@ -3,10 +3,10 @@
 
 import { Arena } from "./arena.js";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
-import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, GetRequest, HelloRequest } from "./messages.js";
-import type { Keymap, PingRequest, Pong, Request, Scheme, State, Stream, Welcome } from "./messages.js";
+import type { Encoding, ErrorMessage, GetRequest, Request, RequestAnswers } from "./messages.js";
+import type { Scheme, State, Stream, Welcome } from "./messages.js";
 import type { Slices } from "./slices.js";
-import type { Command, ExportedFile, Message, Viewport } from "./types.js";
+import type { ExportedFile, Message, Viewport } from "./types.js";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {
@@ -64,18 +64,12 @@ export class RequestError extends Error {
     }
 }
 
-/** The answers to the requests of type "get", by their member `what`. */
-interface GetAnswers extends Record<GetRequest["what"], unknown> {
-    state: State;
-    slices: Slices;
-    frame: Uint8Array;
-    at: At;
-    file: ExportedFile;
-    critical: Critical;
-    catalogue: Catalogue;
-    keymap: Keymap;
-    address: Address;
-}
+/** The answer to a request of type "get": the message of the type `What`, or what arrives in a binary message. */
+type GetAnswer<What> = What extends "frame"
+    ? Uint8Array
+    : What extends "file"
+      ? ExportedFile
+      : Extract<Message, { type: What }>;
 
 interface PendingRequest {
     /** The kind of message that answers the request; a frame or a file arrives before its `done`. */
@@ -164,10 +158,8 @@ export class Client {
     }
 
     /** Sends a request; resolves to its answer. Rejects with RequestError if it is refused or cannot be sent. */
-    request(message: HelloRequest): Promise<Welcome>;
-    request(message: PingRequest): Promise<Pong>;
-    request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswers[What]>;
-    request(message: Command): Promise<Done>;
+    request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswer<What>>;
+    request<Type extends keyof RequestAnswers>(message: Request & { type: Type }): Promise<RequestAnswers[Type]>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;
         const answer = new Promise((resolve, reject) => {

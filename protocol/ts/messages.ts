@@ -74,6 +74,20 @@ export type Turn = {
     angles: number[];
 } | null;
 export type Answer = Address | At | Catalogue | Critical | Done | ErrorMessage | Keymap | Pong | State | Welcome;
+/**
+ * A request that may change the session. The server answers it with `done`.
+ */
+export type Command =
+    | Address
+    | CommandRequest
+    | KeyRequest
+    | LoadRequest
+    | RedoRequest
+    | ResetRequest
+    | RotateRequest
+    | SetRequest
+    | TowardRequest
+    | UndoRequest;
 export type Interval = [number, number];
 
 /**
@@ -1146,6 +1160,24 @@ export interface Welcome {
     limits: {
         [k: string]: number;
     };
+}
+/**
+ * The messages that answer requests, by the types of the requests; without `get`, whose answer depends on `what`.
+ */
+export interface RequestAnswers {
+    address: Done;
+    command: Done;
+    hello: Welcome;
+    key: Done;
+    load: Done;
+    ping: Pong;
+    redo: Done;
+    reset: Done;
+    rotate: Done;
+    set: Done;
+    shown: Done;
+    toward: Done;
+    undo: Done;
 }
 /**
  * The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices.

@@ -1,13 +1,10 @@
 // Names for parts of messages, and for what the functions of the client take and return.
 
-import type { Answer, GetRequest, Request, SetRequest, State } from "./messages.js";
+import type { Answer, GetRequest, SetRequest, State } from "./messages.js";
 import type { Slices } from "./slices.js";
 
 /** A message from the server. */
 export type Message = Answer | Slices;
-
-/** A request that may change the session. The server answers it with `done`. */
-export type Command = Exclude<Request, { type: "hello" | "get" | "shown" | "ping" }>;
 
 /** x, y and z. */
 export type Vector = [number, number, number];

@@ -1,11 +1,15 @@
 // The data files and the specification in protocol/ agree with the code.
 
 #include <algorithm>
+#include <boost/describe/members.hpp>
+#include <boost/describe/modifiers.hpp>
+#include <boost/mp11/algorithm.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <set>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -172,6 +176,51 @@ template <typename Choices>
 Names namesIn(const Choices& choices) {
     const auto names = text::namesOf(choices);
     return {names.begin(), names.end()};
+}
+
+/// Calls a function with a std::type_identity of each type in a list of types, such as a variant.
+template <typename Types, typename Visit>
+void forEachType(const Visit& visit) {
+    boost::mp11::mp_for_each<boost::mp11::mp_transform<std::type_identity, Types>>(visit);
+}
+
+using RequestBodies = boost::mp11::mp_flatten<decltype(Request::body)>;
+
+TEST(Tables, EveryRequestHasASchemaThatSaysWhatAnswersIt) {
+    const std::set<std::string> types = messageTypes();
+    Names requests;
+    for (const std::string& type : types) {
+        const json id =
+            json::parse(protocol_data::embeddedFile("schema/" + type + ".schema.json")).at("properties").at("id");
+        if (type == "hello" || id.value("$ref", "") == "hello.schema.json#/properties/id") requests.insert(type);
+    }
+    EXPECT_EQ(requests, Names(requestTypes().begin(), requestTypes().end()));
+    forEachType<RequestBodies>([&]<typename Body>(std::type_identity<Body> /*body*/) {
+        const std::string type(Body::kMessageType);
+        SCOPED_TRACE(type);
+        const json answer = readSchema(type + ".schema.json").value("x-answer", json());
+        if constexpr (boost::mp11::mp_contains<session::Command, Body>::value || std::is_same_v<Body, Get>) {
+            EXPECT_TRUE(answer.is_null()) << "done answers a command, and get names its answer";
+        } else {
+            EXPECT_TRUE(answer.is_string() && types.contains(answer.get<std::string>())) << answer;
+        }
+    });
+}
+
+TEST(Tables, DescribedMessagesHaveTheMembersOfTheirSchemas) {
+    const auto compare = []<typename Message>(std::type_identity<Message> /*message*/) {
+        if constexpr (boost::describe::has_describe_members<Message>::value) {
+            using Members = boost::describe::describe_members<Message, boost::describe::mod_public>;
+            Names described{"type", "id"}, inSchema;
+            boost::mp11::mp_for_each<Members>([&](auto member) { described.emplace(member.name); });
+            const std::string type(Message::kMessageType);
+            const json schema = readSchema(type + ".schema.json");
+            for (const auto& [name, property] : schema.at("properties").items()) inSchema.insert(name);
+            EXPECT_EQ(described, inSchema) << type;
+        }
+    };
+    forEachType<RequestBodies>(compare);
+    forEachType<Answer>(compare);
 }
 
 /// Returns the enum of a property, given as a path with dots: "scene.view".
