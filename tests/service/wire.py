@@ -7,6 +7,7 @@ import json
 import cbor2
 import websockets
 from harness import DEADLINE
+from schemas import answer_type, compare_with_schema, shape
 
 SUBPROTOCOL = "oval4d.v1"
 
@@ -36,7 +37,8 @@ class Client:
     """A session's client: `async with Client(server, stream="geometry") as client:` sends hello and awaits welcome.
 
     `messages` holds everything received: dictionaries, and bytes for frames and files. `address` is the local address.
-    If `acknowledges`, the client sends `shown` for each picture.
+    If `acknowledges`, the client sends `shown` for each picture. At the end, it compares what it has received as JSON
+    with the schemas: of messages of one type with the same members, the first.
     """
 
     def __init__(self, server, session="", acknowledges=True, address=None, **hello):
@@ -44,6 +46,7 @@ class Client:
         self.connect_options = {} if address is None else {"local_addr": (address, 0)}
         self.hello = hello
         self.messages = []
+        self._one_of_each_shape = {}
         self.close_code = None
         self._ids = itertools.count(1)
         self._changed = asyncio.Condition()
@@ -58,8 +61,11 @@ class Client:
             raise
         return self
 
-    async def __aexit__(self, *_):
+    async def __aexit__(self, exception, *_):
         await self.leave()
+        if exception is None:
+            for message in self._one_of_each_shape.values():
+                compare_with_schema(message)
 
     async def leave(self):
         await self.socket.close()
@@ -70,6 +76,8 @@ class Client:
             async for data in self.socket:
                 message = self.decode(data)
                 self.messages.append(message)
+                if isinstance(data, str):
+                    self._one_of_each_shape.setdefault((message["type"], shape(message)), message)
                 if self.acknowledges and self.is_picture(message):
                     await self.send("shown", revision=self.states()[-1]["revision"])
                 async with self._changed:
@@ -100,6 +108,7 @@ class Client:
         answer = await self.wait_until(lambda: self.answer_to(number), deadline)
         if answer["type"] == "error":
             raise Refused(answer)
+        assert answer["type"] == answer_type(type_, members.get("what"))
         return answer
 
     def answer_to(self, number):
@@ -167,6 +176,7 @@ async def hello_refusal(server, session="", **hello):
     async with connect(server, session) as socket:
         await socket.send(json.dumps({"type": "hello", **hello}))
         error = json.loads(await socket.recv())
+        compare_with_schema(error)
         try:
             await asyncio.wait_for(socket.recv(), DEADLINE)
         except websockets.ConnectionClosed:
