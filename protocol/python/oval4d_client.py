@@ -1,4 +1,4 @@
-"""A client of oval4d: exchanges messages with a server over a WebSocket, one call per message.
+"""A client of oval4d: exchanges messages with a server over a WebSocket.
 
     with connect("http://127.0.0.1:8080/") as oval:
         oval.hello()
@@ -6,10 +6,10 @@
         oval.rotate("xw,yz", 0.39, 1.42)
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
-../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
-slices in CBOR. With python3-numpy, arrays can be shown as fields, and the surfaces in slices are numpy arrays. A
-separate thread handles the socket. Therefore any thread may call the client, and the connection stays open while a
-script is idle.
+../README.md specifies the messages and their members. request() sends any of them; the other methods are shorter for
+some, or convert values. Needs python3-websockets (10 or later), and python3-cbor2 for slices in CBOR. With
+python3-numpy, arrays can be shown as fields, and the surfaces in slices are numpy arrays. A separate thread handles the
+socket. Therefore any thread may call the client, and the connection stays open while a script is idle.
 
 It is one file, although it is long, so that a project can copy it.
 """
@@ -392,8 +392,8 @@ class Client:
     # Transport
 
     def request(self, type, **members):
-        """Sends a message with an id, and returns the answer. Raises Refused if the answer is an error, Closed if the
-        connection ends, and TimeoutError if no answer arrives."""
+        """Sends a message of any type with an id, and returns the answer. Raises Refused if the answer is an error, Closed
+        if the connection ends, and TimeoutError if no answer arrives."""
         if type == "hello":
             self._stream = members.get("stream", "none")
             self._hello = members

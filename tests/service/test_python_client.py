@@ -26,7 +26,7 @@ def test_page_addresses_become_websocket_addresses():
     assert socket_url("ws://host") == "ws://host/ws"
 
 
-def test_the_client_sends_every_message(server):
+def test_the_methods_send_their_messages(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         assert oval.hello()["session"] == oval.welcome["session"]
         assert oval.key("y")["revision"] == 1
@@ -48,6 +48,14 @@ def test_the_client_sends_every_message(server):
         assert png_state(picture)["revision"] == 9
         assert [polytope["name"] for polytope in oval.catalogue()][0] == "5-cell"
         assert any(key["name"] == "Ctrl-r" for key in oval.keymap())
+
+
+def test_request_sends_any_message(server):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        assert oval.request("hello")["type"] == "welcome"
+        assert oval.request("ping")["type"] == "pong"
+        assert oval.request("rotate", planes=["xw"], angles=[0.1])["revision"] == 1
+        assert oval.request("get", what="state")["revision"] == 1
 
 
 @pytest.mark.parametrize("timeout", [0.1, 20])  # the library's own is 10
