@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kLabelGap = 0.014;  // between a slice and its label, as a fraction of the viewport's height
 
-// Labels are placed in the direction away from the curve of the oval, turned somewhat downward: a downward vector of
-// this length is added to the unit vector of the direction. With a longer vector, labels would cover the next slice;
-// with a shorter one, labels at the sides would leave less room for the slices.
-constexpr double kLabelDrop = 0.54;
-
 // The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
 // margins are those of the plates behind the labels.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
@@ -26,14 +21,13 @@ constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a sec
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
-constexpr double kLeastStripLabel = 0.45;  // the least size of labels in the strip view
-constexpr double kStripFocusDrop = 1.4;    // from the row of labels down to the focus slice's label, in heights of text
+constexpr double kLeastLabelSize = 0.45;  // of the labels that shrink
 
 }  // namespace
 
-LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double originW,
+LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double originW,
                          std::vector<SlicePlacement>& placements)
-    : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
+    : arrangement_(arrangement), space_(arrangement), placements_(placements) {
     // All labels have room for the longest number, with a sign. So the layout stays the same when the focus moves.
     double w = 0;
     for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
@@ -44,7 +38,7 @@ LabelLayout::LabelLayout(const Oval& oval, double radius, int decimals, double o
 void LabelLayout::shrink(double columnWidth) {
     const double size = columnWidth / ((width_ + 2 * kPlateMarginX) * style().textHeight);
     for (SlicePlacement& placement : placements_)
-        if (!placement.focus) placement.labelSize = std::clamp(size, kLeastStripLabel, 1.0);
+        if (!placement.focus) placement.labelSize = std::clamp(size, kLeastLabelSize, 1.0);
 }
 
 Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
@@ -130,13 +124,13 @@ glm::dvec2 LabelLayout::halfPlate(const SlicePlacement& placement) const {
 }
 
 glm::dvec2 LabelLayout::onPlane(double u) const {
-    const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+    const glm::dvec3 p = arrangement_.positionAt(u);
     return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
 }
 
 double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale) const {
-    const double r = radius_ * oval_.reachAt(u);
-    const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+    const double r = arrangement_.reach * arrangement_.reachAt(u);
+    const glm::dvec3 p = arrangement_.positionAt(u);
     const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.up(p)));
     const double e = (a * d + r * std::sqrt(std::max(a * a + d * d - r * r, 0.0))) / (d * d - r * r);
     return (e * d - a) * scale;
@@ -147,9 +141,10 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
     const glm::dvec2 along = onPlane(u + 1e-3) - onPlane(u - 1e-3);
     glm::dvec2 outward{0, -1};
     if (glm::length(along) > 0)
-        outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -kLabelDrop));
+        outward =
+            glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -arrangement_.labelDrop));
     const double radius = extentOf(u, outward, scale);
-    const double drop = oval_.isRow() && placements_[i].focus ? kStripFocusDrop * style().textHeight : 0;
+    const double drop = placements_[i].focus ? arrangement_.focusLabelDrop * style().textHeight : 0;
     return outward * (radius + kLabelGap + drop + glm::dot(glm::abs(outward), halfText(placements_[i])));
 }
 
@@ -169,7 +164,7 @@ bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& ca
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
         const double u = parameterOf(j, placements_.size());
-        const double radius = radius_ * oval_.reachAt(u) * camera.sizeAtUnitDepth() / -p.z;
+        const double radius = arrangement_.reach * arrangement_.reachAt(u) * camera.sizeAtUnitDepth() / -p.z;
         if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
     }
     return false;

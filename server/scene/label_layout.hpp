@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/arrangement.hpp"
 #include "scene/camera.hpp"
 #include "scene/layout.hpp"
-#include "scene/oval.hpp"
 #include "scene/picture_boxes.hpp"
 
 namespace oval4d::scene {
@@ -19,10 +19,9 @@ namespace oval4d::scene {
 /// Decides where the labels are and which of them are shown.
 class LabelLayout {
   public:
-    /// `radius` is the radius of the slices with their balls, in world units. `decimals` is the number of decimals in
-    /// the labels. `originW`: see LayoutContent. `oval` and `placements` must outlive this object, which changes the
-    /// labels in `placements`.
-    LabelLayout(const Oval& oval, double radius, int decimals, double originW, std::vector<SlicePlacement>& placements);
+    /// `decimals` is the number of decimals in the labels. `originW`: see LayoutContent. `arrangement` and `placements`
+    /// must outlive this object, which changes the labels in `placements`.
+    LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
     /// Reduces the size of all labels except that of the focus slice, so that they fit side by side in columns of this
     /// width, in viewport heights. They keep a minimum size.
@@ -33,8 +32,8 @@ class LabelLayout {
     /// picture, in viewport heights.
     Rect overhang(const Rect& bounds, double scale) const;
 
-    /// Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and
-    /// beside and somewhat below the slices on the arms of the oval.
+    /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice:
+    /// below the focus slice and the slices of a row, and beside and somewhat below the slices on the arms of the oval.
     void place(const Camera& camera);
 
     /// Appends the name of the section to the focus slice's label, if there is room for it in the picture.
@@ -90,10 +89,10 @@ class LabelLayout {
     // one, counted from the focus slice, is kept. `scale`: as in overhang().
     std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
 
-    const Oval& oval_;
+    const Arrangement& arrangement_;
     InitialViewSpace space_;
-    double radius_, width_ = 0;  // width_: of the longest number, as a multiple of the font size
-    double nameWidth_ = 0;       // of the section's name in the focus slice's label, as a multiple of the font size
+    double width_ = 0;      // of the longest number, as a multiple of the font size
+    double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;
 };
 

@@ -1,21 +1,19 @@
 #include "scene/layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
-#include <span>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "scene/arrangement.hpp"
 #include "scene/coordinates_layout.hpp"
 #include "scene/label_layout.hpp"
-#include "scene/oval.hpp"
 #include "scene/picture_boxes.hpp"
 #include "scene/slice_label.hpp"
 
@@ -23,89 +21,37 @@ namespace oval4d::scene {
 
 namespace {
 
-// Returns the bounds of the slices, projected onto the plane at distance 1 from the eye. Each slice is treated as a
-// sphere whose projection is a circle, as if the sphere were on the optical axis.
-Rect boundsOf(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius) {
-    const InitialViewSpace space(oval);
+// A circle on the plane at distance 1 from the eye.
+struct Circle {
+    glm::dvec2 center;
+    double radius;
+};
+
+// Returns the circle that a sphere appears as, as if the sphere were on the optical axis.
+Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
+    const double depth = space.depth(position);
+    return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};
+}
+
+// Returns the circles within which the slices are assumed to lie.
+std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const Arrangement& arrangement) {
+    const InitialViewSpace space(arrangement);
+    std::vector<Circle> circles;
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const double radius = arrangement.reach * arrangement.reachAt(parameterOf(i, placements.size()));
+        circles.push_back(circleOf(placements[i].position, radius, space));
+    }
+    return circles;
+}
+
+Rect boundsOf(const std::vector<Circle>& circles) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     Rect bounds{kInf, -kInf, kInf, -kInf};
-    for (std::size_t i = 0; i < placements.size(); ++i) {
-        const double u = parameterOf(i, placements.size());
-        const double r = radius * oval.reachAt(u) / space.depth(placements[i].position);
-        const double x = placements[i].position.x / space.depth(placements[i].position);
-        const double y = space.up(placements[i].position) / space.depth(placements[i].position);
-        bounds = {std::min(bounds.left, x - r), std::max(bounds.right, x + r), std::min(bounds.bottom, y - r),
-                  std::max(bounds.top, y + r)};
+    for (const auto& [center, radius] : circles) {
+        bounds = {std::min(bounds.left, center.x - radius), std::max(bounds.right, center.x + radius),
+                  std::min(bounds.bottom, center.y - radius), std::max(bounds.top, center.y + radius)};
     }
     return bounds;
-}
-
-// Extends `bounds`, a rectangle in the plane at distance 1 from the eye, so that it also contains the 4-D projection,
-// which stands at `placement`.
-void include(const ProjectionPlacement& placement, const InitialViewSpace& space, Rect& bounds) {
-    const double depth = space.depth(placement.position);
-    const double x = placement.position.x / depth, y = space.up(placement.position) / depth;
-    const double r = placement.radius / depth;
-    bounds = {std::min(bounds.left, x - r), std::max(bounds.right, x + r), std::min(bounds.bottom, y - r),
-              std::max(bounds.top, y + r)};
-}
-
-// Places the projection to the right of the focus slice or, in a tall room, above it. `reach`: the radius of the slice
-// with its balls.
-ProjectionPlacement besideFocusSlice(double aspect, double reach) {
-    constexpr double kGap = 0.2;
-    const double radius = 1.1 * reach, distance = reach + radius + kGap;
-    return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
-}
-
-// Places the projection above the row of the strip view. `halfWidth`: half the width of the row. `reach`: the radius of
-// a slice with its balls. The projection fills most of the height that the row leaves in a room with this aspect ratio,
-// but it is at least as large as a slice and at most as wide as the row.
-ProjectionPlacement aboveRow(double halfWidth, double aspect, double reach) {
-    constexpr double kGap = 0.3, kShare = 0.9;
-    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves, in world units
-    const double radius = std::clamp(kShare * left / 2, reach, halfWidth);
-    return {true, {0, reach + kGap + radius, 0}, radius};
-}
-
-// Places the projection in the middle of the oval, on the axis of this parabola: at the point where the largest circle
-// on the screen fits between the slices and below `top`, a height on the plane at distance 1 from the eye. `radius`:
-// the radius of the slices with their balls.
-ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius,
-                               double top) {
-    constexpr double kGap = 0.94;
-    const InitialViewSpace space(oval);
-    const auto radiusAt = [&](double depthOfOval) {
-        const glm::dvec3 p{0, 0, -depthOfOval};
-        const double y = space.up(p) / space.depth(p);
-        double room = top - y;
-        for (std::size_t i = 0; i < placements.size(); ++i) {
-            const double u = parameterOf(i, placements.size());
-            const glm::dvec3& q = placements[i].position;
-            const double depth = space.depth(q);
-            const double r = radius * oval.reachAt(u) / depth;
-            room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
-        }
-        return room;
-    };
-    // Along the axis, the room first grows with the distance from the focus slice, and then shrinks toward the upper
-    // end of the oval. So it has one maximum, which a golden-section search finds.
-    constexpr double kGolden = std::numbers::phi - 1;
-    constexpr int kSteps = 24;
-    double from = 0, to = oval.depth;
-    double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
-    double atLeft = radiusAt(left), atRight = radiusAt(right);
-    for (int step = 0; step < kSteps; ++step) {
-        if (atLeft > atRight) {
-            to = right, right = left, atRight = atLeft;
-            left = to - kGolden * (to - from), atLeft = radiusAt(left);
-        } else {
-            from = left, left = right, atLeft = atRight;
-            right = from + kGolden * (to - from), atRight = radiusAt(right);
-        }
-    }
-    const glm::dvec3 position{0, 0, -(from + to) / 2};
-    return {true, position, kGap * std::max(radiusAt(-position.z), 0.0) * space.depth(position)};
 }
 
 // Returns the greatest magnification at which `bounds` fits into `room`.
@@ -125,12 +71,12 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
     camera.shiftY = y - 0.5;
 }
 
-// Places the slices along the oval, and sets the text and size of their labels.
-void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, int decimals, const Oval& oval,
-                 const Look& look, std::vector<SlicePlacement>& placements) {
+// Places the slices, and sets the text and size of their labels.
+void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, int decimals,
+                 const Arrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
-    const InitialViewSpace space(oval);
+    const InitialViewSpace space(arrangement);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -138,7 +84,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
         placement.w = planes.w(i);
         placement.focus = placement.index == focus;
         placement.drawn = showsAllSlices(look.view) || placement.focus;
-        placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
+        placement.position = arrangement.positionAt(u);
         placement.label.clear();
         if (look.parts.labels)
             placement.label = (placement.focus ? "w = " : "") + labelNumber(originW + placement.w, decimals);
@@ -148,16 +94,16 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
 }
 
 // Points the camera at the focus slice from the direction that `orbit` specifies, and sets its clipping planes.
-void aim(const CameraOrbit& orbit, const Oval& oval, Camera& camera) {
+void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camera) {
     constexpr double kMaxPitch = 1.55;  // less than π/2, where the up vector would be undefined
-    const double pitch = std::clamp(oval.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
+    const double pitch = std::clamp(arrangement.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
     const glm::dvec3 away{std::sin(orbit.azimuth) * std::cos(pitch), std::sin(pitch),
                           std::cos(orbit.azimuth) * std::cos(pitch)};
     camera.target = glm::dvec3(0);
-    camera.eye = away * oval.distance;
+    camera.eye = away * arrangement.distance;
     camera.up = {0, 1, 0};
-    camera.near = 0.05 * oval.distance;
-    camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
+    camera.near = 0.05 * arrangement.distance;
+    camera.far = arrangement.distance + 2 * arrangement.extent() + 10;
 }
 
 // Returns a box that contains the axes symbol and the names of the axes, in whatever direction the axes point.
@@ -181,21 +127,10 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
     return inside;
 }
 
-// A circle on the plane at distance 1 from the eye.
-struct Circle {
-    glm::dvec2 center;
-    double radius;
-};
-
-Circle circleOf(const ProjectionPlacement& placement, const InitialViewSpace& space) {
-    const double depth = space.depth(placement.position);
-    return {glm::dvec2(placement.position.x, space.up(placement.position)) / depth, placement.radius / depth};
-}
-
 // Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
-// slice and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
-// the symbol or the part below it, whichever lets the slice be larger.
-Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, std::span<const Circle> circles,
+// slices and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
+// the symbol or the part below it, whichever lets the slices be larger.
+Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, const std::vector<Circle>& circles,
                  const Box& axes) {
     const Rect inside = roomInside(room, bounds, labels);
     const double scale = scaleFor(bounds, inside);
@@ -258,42 +193,31 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     out.axes = {0.06, 0.075, 0.045};
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
-    out.matrix = look.view == View::matrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
-    const bool single = !showsAllSlices(look.view), strip = look.view == View::strip;
-    // With twice as many slices on the same parabola, each slice has about half the space.
-    out.sliceRadius =
-        single || strip ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
-    const double reach = out.sliceRadius * (1 + ballRadius);
-    const Oval oval = single ? singleSlice() : strip ? rowFor(planes.count, reach) : ovalFor(aspect);
+    const Arrangement arrangement = arrangementOf(look.view, planes.count, ballRadius, aspect);
+    out.matrix = arrangement.showsMatrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
+    out.sliceRadius = arrangement.sliceRadius;
     const int decimals = labelDecimals(planes);
-    placeSlices(planes, focus, content.originW, decimals, oval, look, out.placements);
-    aim(look.orbit, oval, out.camera);
-    Rect bounds = boundsOf(out.placements, oval, reach);
+    placeSlices(planes, focus, content.originW, decimals, arrangement, look, out.placements);
+    aim(look.orbit, arrangement, out.camera);
+    std::vector<Circle> circles = circlesOf(out.placements, arrangement);
     const bool projected = look.projection.kind != ProjectionKind::off;
-    const bool alone = single || planes.count == 1;
-    out.projectionPlacement = {};
-    if (projected && alone) {
-        out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
-        include(out.projectionPlacement, InitialViewSpace(oval), bounds);
-    } else if (projected && strip) {
-        out.projectionPlacement =
-            aboveRow(oval.halfWidth + reach, (room.right - room.left) / (room.top - room.bottom), reach);
-        include(out.projectionPlacement, InitialViewSpace(oval), bounds);
+    ProjectionPlacement& projection = out.projectionPlacement;
+    projection = {};
+    if (projected) {
+        const double aspectOfRoom = (room.right - room.left) / (room.top - room.bottom);
+        projection = projectionBeside(look.view, arrangement, planes.count, aspectOfRoom);
     }
-    LabelLayout labels(oval, reach, decimals, content.originW, out.placements);
-    if (strip) labels.shrink((room.right - room.left) / planes.count);
-    Rect inside{};
-    if (alone) {
-        const Circle slice{glm::dvec2(0), reach / oval.distance};
-        const std::array circles{slice, projected ? circleOf(out.projectionPlacement, InitialViewSpace(oval)) : slice};
-        inside = clearOfAxes(room, bounds, labels, circles, boxOf(out.axes));
-    } else {
-        inside = roomInside(room, bounds, labels);
-    }
-    if (projected && !alone && !strip) {
+    if (projection.shown)
+        circles.push_back(circleOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
+    const Rect bounds = boundsOf(circles);
+    LabelLayout labels(arrangement, decimals, content.originW, out.placements);
+    if (arrangement.labelColumns > 0) labels.shrink((room.right - room.left) / arrangement.labelColumns);
+    const Rect inside = arrangement.isClearOfAxes ? clearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
+                                                  : roomInside(room, bounds, labels);
+    if (projected && !projection.shown) {
         const double scale = scaleFor(bounds, inside);
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
-        out.projectionPlacement = insideOval(out.placements, oval, reach, top);
+        projection = projectionInside(arrangement, out.placements, top);
     }
     fit(bounds, inside, aspect, look.orbit.zoom, out.camera);
     labels.place(out.camera);

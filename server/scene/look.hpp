@@ -1,9 +1,11 @@
 #pragma once
 // The user's choices of how the object is displayed.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,11 +25,22 @@ enum class View : std::uint8_t {
     matrix = 2,  ///< the focus slice, beside the matrix of planar sections
     strip = 3,   ///< all slices, at the same size in a straight row
 };
-inline constexpr auto kViews = std::to_array<text::Choice<View>>(
-    {{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}, {"strip", View::strip}});
+/// A row of the table of views. arrangement.cpp says where each view has the slices, the labels and the projection.
+struct ViewRow {
+    std::string_view name;  ///< in messages, queries and on the command line
+    View value;
+    bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
+};
+inline constexpr auto kViews =
+    std::to_array<ViewRow>({{.name = "oval", .value = View::oval, .showsAllSlices = true},
+                            {.name = "single", .value = View::single, .showsAllSlices = false},
+                            {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
+                            {.name = "strip", .value = View::strip, .showsAllSlices = true}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
-/// Returns whether a view shows all slices, not only the focus slice.
-constexpr bool showsAllSlices(View view) { return view == View::oval || view == View::strip; }
+/// Returns ViewRow::showsAllSlices of a view.
+constexpr bool showsAllSlices(View view) {
+    return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.showsAllSlices; });
+}
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
 /// the cell from which it was cut. Stored sessions contain the numbers of the enumerators.
@@ -60,9 +73,8 @@ inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
-/// The kinds of projection of the whole object to three dimensions. In the oval, the projection is shown in the middle;
-/// in the strip view, above the row. If only the focus slice is drawn, the projection is beside it or, in a tall
-/// picture, above it. Stored sessions contain the numbers of the enumerators.
+/// The kinds of projection of the whole object to three dimensions. projectionBeside() says where each view shows the
+/// projection. Stored sessions contain the numbers of the enumerators.
 enum class ProjectionKind : std::uint8_t {
     off = 0,
     perspective = 1,  ///< from an eye on the positive w axis

@@ -135,10 +135,10 @@ std::vector<Action> allActions() {
         actions.push_back(
             {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
     }
-    for (const auto& [name, view] : scene::kViews) {
+    for (const scene::ViewRow& row : scene::kViews) {
         // The action "view" of ownActions() toggles View::single.
-        if (view == scene::View::oval || view == scene::View::single) continue;
-        actions.push_back({std::string(name), [to = view](ActionContext& c) -> Done {
+        if (row.value == scene::View::oval || row.value == scene::View::single) continue;
+        actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> Done {
                                toggleView(c.state, to);
                                return std::monostate{};
                            }});

@@ -5,6 +5,7 @@ import { test } from "./support/suite.mjs";
 import { accurateBrowser, openPage, openWithScript, presented, shownValues } from "./support/browser.mjs";
 import { within } from "./support/hang_limit.mjs";
 import { assertSimilar, assertStreamsAgree, drawBy, picture } from "./support/drawing.mjs";
+import { toggledViews } from "./support/keys.mjs";
 import { below, compare, decode, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
@@ -87,7 +88,9 @@ const views = [
         settings: { polytope: "24-cell", camera: { azimuth: 0.5, elevation: 0.3, zoom: 1.6 } },
     },
     { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
-    { name: "all slices in a row", settings: { polytope: "24-cell", view: "strip" } },
+    ...toggledViews
+        .filter((view) => view !== "matrix") // which has tests of its own
+        .map((view) => ({ name: `the view ${view}`, settings: { polytope: "24-cell", view } })),
     { name: "101 slices", settings: { polytope: "8-cell", slices: { count: 101, spacing: 0.02 } } },
     { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
     { name: "colored by kind", settings: { polytope: "truncated tesseract", color: "kind" } },

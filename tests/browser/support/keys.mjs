@@ -4,8 +4,15 @@ import { readFileSync } from "node:fs";
 
 import { assertMatrix, isNear, turned } from "./rotation.mjs";
 
+const read = (file) => JSON.parse(readFileSync(new URL(`../../../protocol/${file}`, import.meta.url), "utf8"));
+
 /** The key table, which the server has, too. */
-export const { keys: table } = JSON.parse(readFileSync(new URL("../../../protocol/keymap.json", import.meta.url), "utf8"));
+export const { keys: table } = read("keymap.json");
+
+/** The views that have an action of their name: all but the oval and the single view, whose action is "view". */
+export const toggledViews = read("schema/settings.schema.json").properties.view.enum.filter(
+    (view) => view !== "oval" && view !== "single",
+);
 
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 
@@ -47,8 +54,7 @@ export const effects = {
     polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
-    strip: (_, after) => assert.equal(after.view, "strip"),
-    matrix: (_, after) => assert.equal(after.view, "matrix"),
+    ...Object.fromEntries(toggledViews.map((view) => [view, (_, after) => assert.equal(after.view, view)])),
     projection: (_, after) => assert.equal(after.projection, "perspective"),
     cells: toggles("cells"),
     back: toggles("back"),

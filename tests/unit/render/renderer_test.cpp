@@ -201,9 +201,10 @@ TEST_F(Pictures, OfNothingIsBackground) {
 TEST_F(Pictures, OfEverySizeAndViewAreDrawn) {
     for (const scene::Viewport viewport :
          {scene::Viewport{1, 1}, {1, 2}, {3, 1}, {16, 4096}, {4096, 16}, {2, 2000}, {7680, 64}})
-        for (const scene::View view : {scene::View::oval, scene::View::single, scene::View::strip}) {
+        for (const scene::ViewRow& view : scene::kViews) {
+            SCOPED_TRACE(view.name);
             scene::Look look;
-            look.view = view;
+            look.view = view.value;
             const image::Image image = Subject("120-cell", randomRotation(8), 5, look, viewport).draw(renderer());
             EXPECT_EQ(image.width, viewport.width);
             EXPECT_EQ(image.height, viewport.height);

@@ -32,15 +32,15 @@ TEST(Labels, areInThePictureAndApart) {
     for (const scene::Viewport viewport : kWindows) {
         for (const int count : {1, 3, 5, 11, 21, 41, 61, 101, 151, 201}) {
             for (const double spacing : {0.0, 1.0 / 4096, 1e-8, 1e3}) {
-                for (const auto view : {scene::View::oval, scene::View::single, scene::View::strip}) {
+                for (const scene::ViewRow& view : scene::kViews) {
                     for (const bool whole : {false, true}) {
                         scene::Look look;
-                        look.view = view;
+                        look.view = view.value;
                         look.parts.coordinates = !whole;
                         if (whole) look.projection.kind = scene::ProjectionKind::perspective;
                         const Scene s = composed("24-cell", count, viewport, look, whole ? 5 : 0, spacing);
                         SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count
-                                                        << " slices, " << spacing << ", " << whole);
+                                                        << " slices, " << spacing << ", " << view.name << whole);
                         const double strip = whole ? 0 : s.coordinates.zero + s.coordinates.amplitude;
                         for (const LabelBox& box : expectLabelsApart(s)) {
                             EXPECT_TRUE(box.isInside(viewport));

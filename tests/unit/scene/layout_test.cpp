@@ -134,9 +134,10 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
          {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
         for (const char* name : {"5-cell", "120-cell"}) {
             for (const int count : {1, 3, 5, 21, 61, 201}) {
-                for (const auto view : {scene::View::oval, scene::View::single, scene::View::strip}) {
+                for (const scene::ViewRow& view : scene::kViews) {
+                    SCOPED_TRACE(view.name);
                     scene::Look look;
-                    look.view = view;
+                    look.view = view.value;
                     look.projection.kind = scene::ProjectionKind::perspective;
                     const Scene s = composed(name, count, viewport, look);
                     ASSERT_TRUE(s.projectionPlacement.shown);
@@ -218,10 +219,11 @@ TEST(Matrix, standsBesideTheFocusSlice) {
 TEST(Axes, areBesideTheSliceAndTheProjection) {
     for (const scene::Viewport viewport :
          {scene::Viewport{768, 1024}, {900, 600}, {640, 640}, {1280, 720}, {375, 667}}) {
-        for (const auto view : {scene::View::single, scene::View::matrix}) {
+        for (const scene::ViewRow& view : scene::kViews) {
+            if (view.showsAllSlices) continue;
             for (const bool whole : {false, true}) {
                 scene::Look look;
-                look.view = view;
+                look.view = view.value;
                 if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
                 const Scene s = composed("24-cell", 21, viewport, look);
                 SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << whole);

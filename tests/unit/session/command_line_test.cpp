@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/look.hpp"
 #include "session/query.hpp"
 #include "session/setting_text.hpp"
 #include "session/settings.hpp"
+#include "text/choice.hpp"
 #include "text/message_text.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/session/support.hpp"
@@ -294,8 +296,9 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");
     refused("set zoom=0", ErrorCode::out_of_range, "zoom must be from");
     refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
-    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval, single, matrix or strip");
-    refused("view", ErrorCode::bad_expression, "oval, single, matrix or strip");
+    const std::string views = text::alternatives(text::namesOf(scene::kViews));
+    refused("set view=oblong", ErrorCode::bad_expression, ("view must be " + views).c_str());
+    refused("view", ErrorCode::bad_expression, views.c_str());
     refused("set point=0,0,0", ErrorCode::bad_expression, "four numbers");
     refused("set point=0,0,0,0,0", ErrorCode::bad_expression, "four numbers");
     refused("set point=", ErrorCode::bad_expression, "four numbers");

@@ -18,9 +18,9 @@ using Numbers = std::vector<std::pair<std::string, unsigned>>;
 template <text::HasChoices Enum>
 Numbers numbersOf() {
     Numbers numbers;
-    for (const auto& [name, value] : choicesOf(Enum{})) {
-        const bool isAlias = name != text::nameOf(choicesOf(Enum{}), value);
-        if (!isAlias) numbers.emplace_back(name, static_cast<unsigned>(value));
+    for (const auto& choice : choicesOf(Enum{})) {
+        const bool isAlias = choice.name != text::nameOf(choicesOf(Enum{}), choice.value);
+        if (!isAlias) numbers.emplace_back(choice.name, static_cast<unsigned>(choice.value));
     }
     return numbers;
 }

@@ -2,10 +2,12 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "scene/look.hpp"
 #include "session/session.hpp"
 #include "text/message_text.hpp"
 #include "unit/wire/support.hpp"
@@ -208,6 +210,13 @@ TEST_P(BadMessages, GetTheirError) {
     EXPECT_FALSE(wire::errorMessage(bad->error, bad->id).empty());
 }
 
+/// Returns the names of all views as the title of the setting in its schema lists them: "oval", "single" or "matrix".
+std::string quotedViews() {
+    std::vector<std::string> quoted;
+    for (const scene::ViewRow& row : scene::kViews) quoted.push_back('"' + std::string(row.name) + '"');
+    return text::alternatives(std::vector<std::string_view>(quoted.begin(), quoted.end()));
+}
+
 constexpr auto kBadJson = ErrorCode::bad_json;
 constexpr auto kBadMessage = ErrorCode::bad_message;
 constexpr auto kUnknownType = ErrorCode::unknown_type;
@@ -300,7 +309,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"type":"set","id":3,"alpha":-7.123456789})", kOutOfRange, "in radians, not −7.12346", 3},
         Bad{R"({"type":"set","id":3,"alpha":null})", kBadMessage, "set: /alpha must be an angle", 3},
         Bad{R"({"type":"set","id":3,"view":"oblong"})", kBadMessage,
-            "set: /view must be \"oval\", \"single\", \"matrix\" or \"strip\", not 'oblong'", 3},
+            "set: /view must be " + quotedViews() + ", not 'oblong'", 3},
         Bad{R"({"type":"set","id":3,"polytope":""})", kBadMessage, "set: /polytope must be the name of a polytope", 3},
         Bad{R"({"type":"set","id":3,"polytope":{}})", kBadMessage, "set: /polytope/name is missing", 3},
         Bad{R"({"type":"set","id":3,"polytope":5})", kBadMessage, "set: /polytope must be the name", 3},

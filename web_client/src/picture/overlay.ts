@@ -76,7 +76,10 @@ function drawLabels(
     const sample = 100; // a font size
     setFont(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
-    labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
+    // The order in which LabelLayout::thin() in C++ decides; of two slices equally far from the focus, the first one.
+    const focusIndex = slices.find((slice) => slice.focus)?.index ?? 0;
+    const fromFocus = ({ index }: Slice): number => Math.abs(index - focusIndex);
+    labeled.sort((a, b) => fromFocus(a) - fromFocus(b));
     for (const slice of labeled) {
         const at = viewCamera.project(slice.label_at);
         if (!at) continue;

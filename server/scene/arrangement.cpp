@@ -1,0 +1,149 @@
+#include "scene/arrangement.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace oval4d::scene {
+
+namespace {
+
+// The number of slices for which the oval was designed.
+constexpr int kReferenceCount = 21;
+// The ovals of wide and of tall pictures. Their numbers were found by a search for the largest focus slice at which
+// neighboring slices hide little of each other.
+constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
+constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
+
+constexpr double kRowStep = 2.12;      // between neighboring slices in a row, in radii of slices with balls
+constexpr double kRowDistance = 4;     // from the eye to a row, in half widths: nearly a parallel projection
+constexpr double kRowFocusDrop = 1.4;  // from the labels of a row down to that of the focus slice, in heights of text
+constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
+
+double mix(double a, double b, double t) { return a + (b - a) * t; }
+
+Arrangement ovalOf(int count, double aspect) {
+    const double t = std::clamp((1.6 - aspect) / 1.04, 0.0, 1.0);
+    Arrangement made;
+    made.halfWidth = mix(kWideOval.halfWidth, kTallOval.halfWidth, t);
+    made.depth = mix(kWideOval.depth, kTallOval.depth, t);
+    made.pitch = mix(kWideOval.pitch, kTallOval.pitch, t);
+    made.distance = mix(kWideOval.distance, kTallOval.distance, t);
+    // With twice as many slices on the same parabola, each slice has about half the space.
+    made.sliceRadius = std::clamp(std::pow(static_cast<double>(kReferenceCount) / count, 0.8), 0.1, 1.25);
+    made.isClearOfAxes = count == 1;
+    return made;
+}
+
+// Returns a straight row. `reach`: the radius of a slice with its balls.
+Arrangement rowOf(int count, double reach) {
+    Arrangement made;
+    made.halfWidth = kRowStep * reach * (count - 1) / 2;
+    made.distance = kRowDistance * made.halfWidth + kSingleDistance;
+    made.isClearOfAxes = count == 1;
+    made.focusLabelDrop = count == 1 ? 0 : kRowFocusDrop;
+    made.labelColumns = count;
+    return made;
+}
+
+// Returns the arrangement of the focus slice alone.
+Arrangement focusSliceAlone() {
+    Arrangement made;
+    made.distance = kSingleDistance;
+    made.isClearOfAxes = true;
+    return made;
+}
+
+// Places the projection to the right of the focus slice or, in a tall room, above it.
+ProjectionPlacement besideFocusSlice(double reach, double aspect) {
+    constexpr double kGap = 0.2;
+    const double radius = 1.1 * reach, distance = reach + radius + kGap;
+    return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
+}
+
+// Places the projection above a row. It fills most of the height that the row leaves in a room with this aspect ratio,
+// but it is at least as large as a slice and at most as wide as the row. `halfWidth`: half the width of the row.
+ProjectionPlacement aboveRow(double halfWidth, double reach, double aspect) {
+    constexpr double kGap = 0.3, kShare = 0.9;
+    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves, in world units
+    const double radius = std::clamp(kShare * left / 2, reach, halfWidth);
+    return {true, {0, reach + kGap + radius, 0}, radius};
+}
+
+}  // namespace
+
+// The switches over the views have no default, so that a view without a case does not compile.
+
+Arrangement arrangementOf(View view, int count, double ballRadius, double aspect) {
+    Arrangement made;
+    switch (view) {
+        case View::oval:
+            made = ovalOf(count, aspect);
+            break;
+        case View::single:
+            made = focusSliceAlone();
+            break;
+        case View::matrix:
+            made = focusSliceAlone();
+            made.showsMatrix = true;
+            break;
+        case View::strip:
+            made = rowOf(count, 1 + ballRadius);
+            break;
+    }
+    made.reach = made.sliceRadius * (1 + ballRadius);
+    return made;
+}
+
+ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect) {
+    const double reach = arrangement.reach;
+    if (count == 1) return besideFocusSlice(reach, aspect);
+    switch (view) {
+        case View::oval:
+            break;
+        case View::single:
+        case View::matrix:
+            return besideFocusSlice(reach, aspect);
+        case View::strip:
+            return aboveRow(arrangement.halfWidth + reach, reach, aspect);
+    }
+    return {};
+}
+
+ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
+                                     double top) {
+    constexpr double kGap = 0.94;
+    const InitialViewSpace space(arrangement);
+    const auto radiusAt = [&](double depthOfOval) {
+        const glm::dvec3 p{0, 0, -depthOfOval};
+        const double y = space.up(p) / space.depth(p);
+        double room = top - y;
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            const double u = parameterOf(i, placements.size());
+            const glm::dvec3& q = placements[i].position;
+            const double depth = space.depth(q);
+            const double r = arrangement.reach * arrangement.reachAt(u) / depth;
+            room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
+        }
+        return room;
+    };
+    // Along the axis, the room first grows with the distance from the focus slice, and then shrinks toward the upper
+    // end of the oval. So it has one maximum, which a golden-section search finds.
+    constexpr double kGolden = std::numbers::phi - 1;
+    constexpr int kSteps = 24;
+    double from = 0, to = arrangement.depth;
+    double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+    double atLeft = radiusAt(left), atRight = radiusAt(right);
+    for (int step = 0; step < kSteps; ++step) {
+        if (atLeft > atRight) {
+            to = right, right = left, atRight = atLeft;
+            left = to - kGolden * (to - from), atLeft = radiusAt(left);
+        } else {
+            from = left, left = right, atLeft = atRight;
+            right = from + kGolden * (to - from), atRight = radiusAt(right);
+        }
+    }
+    const glm::dvec3 position{0, 0, -(from + to) / 2};
+    return {true, position, kGap * std::max(radiusAt(-position.z), 0.0) * space.depth(position)};
+}
+
+}  // namespace oval4d::scene
