@@ -34,8 +34,8 @@ struct ExportedFile {
 /// The slice set must contain the surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the
 /// solid bodies of a field, unless an element of the field's box is exported.
 ///
-/// Bodies are in millimeters (in GLB and X3D in meters, as these formats require), closed and 2-manifold: every edge
-/// belongs to exactly two triangles that traverse it in opposite directions, and normals point outward.
+/// Bodies are in millimeters, unless the format requires meters, closed and 2-manifold: every edge belongs to exactly
+/// two triangles that traverse it in opposite directions, and normals point outward.
 ///
 /// Returns an error if a limit is exceeded, if there is nothing to export, if the format cannot contain what is asked,
 /// or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font of a label

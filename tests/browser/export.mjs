@@ -1,5 +1,6 @@
 // The export dialog: its options, and the files that it makes.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
 
 import { named, openWithScript, presented } from "./support/browser.mjs";
@@ -7,6 +8,8 @@ import { bytesOf, pagesOf } from "./support/downloads.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
+
+const table = JSON.parse(readFileSync(new URL("../../protocol/export_formats.json", import.meta.url)));
 
 const text = (bytes, length = bytes.length) => Buffer.from(bytes.subarray(0, length)).toString();
 
@@ -64,6 +67,8 @@ test("export: every format makes its file, with a descriptive name", async () =>
         x3d: /^<\?xml[^]*<X3D/,
         vtp: /^<\?xml[^]*<PolyData/,
     };
+    const ofPolytopes = table.formats.filter(({ objects }) => objects !== "fields").map(({ name }) => name);
+    assert.deepEqual(new Set(Object.keys(begins)), new Set(ofPolytopes), "begins has a row for each format");
     for (const some of pagesOf(Object.entries(begins))) {
         const { page, script, press, errors, close } = await openWithScript();
         await script.request({ type: "set", polytope: "24-cell" });

@@ -1,4 +1,4 @@
-#include "export/formats/csv.hpp"
+#include "export/formats/writers.hpp"
 
 #include <utility>
 #include <vector>

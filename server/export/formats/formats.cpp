@@ -6,18 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "export/formats/csv.hpp"
-#include "export/formats/glb.hpp"
-#include "export/formats/obj.hpp"
-#include "export/formats/off.hpp"
-#include "export/formats/pdf.hpp"
-#include "export/formats/ply.hpp"
-#include "export/formats/stl.hpp"
-#include "export/formats/svg.hpp"
-#include "export/formats/three_mf.hpp"
-#include "export/formats/vti.hpp"
-#include "export/formats/vtp.hpp"
-#include "export/formats/x3d.hpp"
+#include "export/formats/writers.hpp"
 #include "protocol_data/embedded_files.hpp"
 #include "text/choice.hpp"
 
@@ -47,6 +36,9 @@ constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = thr
                                                  {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
                                                  {.name = "x3d", .ofBodies = x3d}});
 
+constexpr auto kArrangements = std::to_array<text::Choice<Format::Arrangement>>(
+    {{"", Format::Arrangement::none}, {"plate", Format::Arrangement::plate}, {"oval", Format::Arrangement::oval}});
+
 constexpr auto kObjects =
     std::to_array<text::Choice<Format::Objects>>({{"all", Format::Objects::all},
                                                   {"fields", Format::Objects::fields},
@@ -63,8 +55,7 @@ std::vector<Format> readTable() {
         const std::string bodies = row.value("bodies", "");
         if (writer == kWriters.end() || (writer->ofBodies != nullptr) == bodies.empty())
             throw std::logic_error("export_formats.json: no matching writer for " + format.name);
-        if (!bodies.empty())
-            format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
+        format.arrangement = text::valueNamed(kArrangements, bodies).value();
         format.objects = text::valueNamed(kObjects, row.value("objects", "all")).value();
         for (const std::string of : row.at("of"))
             format.contents.push_back(text::valueNamed(kExportContents, of).value());

@@ -1,4 +1,4 @@
-#include "export/formats/glb.hpp"
+#include "export/formats/writers.hpp"
 
 #include <tiny_gltf.h>
 
@@ -122,7 +122,10 @@ std::string glb(const MeshesToWrite& meshes) {
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model.materials.push_back(std::move(material));
-    for (const PlacedMesh& solid : meshes.solids) addMesh(solid, meshes, model);
+    for (const PlacedMesh& solid : meshes.solids) {
+        meshes.budget.checkTime();
+        addMesh(solid, meshes, model);
+    }
     std::ostringstream out;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
         throw std::runtime_error("tinygltf cannot write the file");

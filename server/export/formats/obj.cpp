@@ -1,4 +1,6 @@
-#include "export/formats/obj.hpp"
+#include "export/formats/writers.hpp"
+
+#include <algorithm>
 
 #include "export/formats/text.hpp"
 
@@ -6,11 +8,9 @@ namespace oval4d::exports {
 
 namespace {
 
-// Replaces spaces and line ends by underscores, because the names of objects in OBJ files must not contain any.
+// Replaces white space and other control characters by underscores: the name of an object in an OBJ file is one word.
 std::string wordOf(std::string name) {
-    for (char& c : name) {
-        if (c == ' ' || c == '\n') c = '_';
-    }
+    std::ranges::replace_if(name, [](unsigned char c) { return c <= ' ' || c == 0x7F; }, '_');
     return name;
 }
 
@@ -20,6 +20,7 @@ std::string obj(const MeshesToWrite& meshes) {
     std::string out = "# oval4d, millimeters\n";
     std::size_t first = 1;
     for (const PlacedMesh& solid : meshes.solids) {
+        meshes.budget.checkTime();
         const Mesh& mesh = solid.mesh;
         out += "o " + wordOf(solid.name) + "\n";
         for (const glm::dvec3& point : mesh.points) {

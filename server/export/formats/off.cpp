@@ -1,4 +1,4 @@
-#include "export/formats/off.hpp"
+#include "export/formats/writers.hpp"
 
 namespace oval4d::exports {
 

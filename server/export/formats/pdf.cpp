@@ -1,4 +1,4 @@
-#include "export/formats/pdf.hpp"
+#include "export/formats/writers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "export/formats/ply.hpp"
+#include "export/formats/writers.hpp"
 
 #include <limits>
 
@@ -39,9 +39,13 @@ std::string ply(const MeshesToWrite& meshes) {
                       std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +
                       (colored ? colors + "property float value\n" : "") + "element face " + std::to_string(triangles) +
                       "\nproperty list uchar uint vertex_indices\n" + (colored ? "" : colors) + "end_header\n";
-    for (const PlacedMesh& solid : solids) putPoints(out, solid, colored);
+    for (const PlacedMesh& solid : solids) {
+        meshes.budget.checkTime();
+        putPoints(out, solid, colored);
+    }
     std::uint32_t first = 0;
     for (const PlacedMesh& solid : solids) {
+        meshes.budget.checkTime();
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
             put(out, std::uint8_t{3});
             for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);

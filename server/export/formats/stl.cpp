@@ -1,4 +1,4 @@
-#include "export/formats/stl.hpp"
+#include "export/formats/writers.hpp"
 
 #include <array>
 #include <bit>
@@ -24,6 +24,7 @@ std::string stl(const MeshesToWrite& meshes) {
     out.resize(kHeader, ' ');
     put(out, static_cast<std::uint32_t>(count));
     for (const PlacedMesh& solid : solids) {
+        meshes.budget.checkTime();
         for (const auto& triangle : solid.mesh.triangles) {
             const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, triangle);
             const double length = glm::length(across);

@@ -1,4 +1,4 @@
-#include "export/formats/svg.hpp"
+#include "export/formats/writers.hpp"
 
 #include <array>
 #include <cstdio>

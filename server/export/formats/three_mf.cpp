@@ -1,4 +1,4 @@
-#include "export/formats/three_mf.hpp"
+#include "export/formats/writers.hpp"
 
 #include <lib3mf/Model/COM/NMR_DLLInterfaces.h>
 
@@ -80,7 +80,10 @@ std::string threeMf(const MeshesToWrite& meshes) {
     // lib3mf escapes names, but not metadata.
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
-    for (const PlacedMesh& solid : meshes.solids) addMesh(model.get(), solid);
+    for (const PlacedMesh& solid : meshes.solids) {
+        meshes.budget.checkTime();
+        addMesh(model.get(), solid);
+    }
     const auto writer = owned<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
     check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&meshes.budget)),

@@ -1,4 +1,4 @@
-#include "export/formats/vtp.hpp"
+#include "export/formats/writers.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "export/formats/x3d.hpp"
+#include "export/formats/writers.hpp"
 
 #include "export/formats/text.hpp"
 

@@ -9,6 +9,7 @@
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/dual.hpp"
 #include "polytopes/construction/over_polyhedra.hpp"
+#include "polytopes/construction/prism_names.hpp"
 #include "polytopes/construction/solids.hpp"
 #include "polytopes/construction/truncation_or_rectification.hpp"
 #include "polytopes/construction/uniform.hpp"
@@ -62,84 +63,23 @@ DesignOrError designFrom(const Result& read) {
     return designOf(std::get<Diagram>(read));
 }
 
-std::optional<Design> snubPrismNamed(std::string_view linearNotation) {
-    const std::string wanted = text::normalizedName(linearNotation);
-    for (const NamedPolyhedron& base : namedPolyhedra()) {
-        const std::string own(base.linearNotation);
-        if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismOf(base);
-    }
-    if (wanted == "s3s3sx" || wanted == "xs3s3s") return prismOf(namedPolyhedra()[4]);  // the icosahedral prism
-    for (const auto& [before, after] : {std::pair{"s2s", "sx"}, {"xs2s", "s"}}) {
-        const std::string_view start(before);
-        const std::string_view end(after);
-        if (!wanted.starts_with(start) || !wanted.ends_with(end) || wanted.size() <= start.size() + end.size())
-            continue;
-        const auto polygon =
-            parseBranch(std::string_view(wanted).substr(start.size(), wanted.size() - start.size() - end.size()));
-        if (polygon && polygon->denominator == 1 && polygon->numerator > 2) return antiprismPrism(polygon->numerator);
-    }
-    return {};
-}
-
-DesignOrError duoprismNamed(std::vector<std::string> words) {
-    // "5,7" and "5x7" are single words.
-    if (words.size() == 1) {
-        std::string pair = words[0];
-        for (const std::string_view times : {"×", "*"}) {
-            if (const std::size_t at = pair.find(times); at != std::string::npos) pair.replace(at, times.size(), ",");
-        }
-        const std::size_t between = std::min(pair.find(','), pair.find('x'));
-        if (between != std::string::npos) words = {pair.substr(0, between), pair.substr(between + 1)};
-    }
-    std::vector<RegularPolygon> polygons;
-    for (const std::string& word : words) {
-        std::string own = word;
-        if (own.ends_with(',')) own.pop_back();
-        if (own == "gonal" || own.empty()) continue;
-        const auto polygon = polygonNamed(own);
-        if (!polygon || polygon->numerator < 3) {
-            return NameError::impossible(
-                "a duoprism is named after two polygons with at least three sides, as in 5,7-duoprism or "
-                "5/2,5-duoprism");
-        }
-        polygons.push_back(*polygon);
-    }
-    if (polygons.size() == 1) polygons.push_back(polygons[0]);
-    if (polygons.size() != 2)
-        return NameError::impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
-    return duoprism(polygons[0], polygons[1]);
-}
-
-DesignOrError prismNamed(const std::vector<std::string>& words) {
-    const std::string base = text::joined(words, 0, words.size());
-    for (const NamedPolyhedron& solid : namedPolyhedra()) {
-        if (base == solid.name || base == solid.adjective) return prismOf(solid);
-    }
-    if (words.size() < 2) return NameError{};
-    const std::string_view last = words.back();
-    const bool antiprism = last == "antiprism" || last == "antiprismatic";
-    if (!antiprism && last != "prism" && last != "prismatic") return NameError{};
-    const auto polygon = polygonNamed(text::joined(words, 0, words.size() - 1));
-    if (!polygon) return NameError{};
-    if (polygon->numerator < 3 || (antiprism && polygon->denominator != 1)) {
-        return NameError::impossible(antiprism
-                                         ? "the polygon of an antiprism must have at least three sides and be no star"
-                                         : "the polygon of a prism must have at least three sides");
-    }
-    return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
-}
-
-DesignOrError operationNamed(const std::vector<std::string>& words) {
+std::optional<DesignOrError> operationNamed(const NameWords& text) {
     for (const Operation& operation : kOperations) {
-        if (words[0] != operation.name) continue;
+        if (text.words[0] != operation.name) continue;
         for (const UniformPolychoron& row : uniformPolychora()) {
-            if (!isRegular(row) || !isCalled(row, text::joined(words, 1, words.size()))) continue;
+            if (!isRegular(row) || !isCalled(row, text.joinedFrom(1))) continue;
             Diagram diagram = diagramOf(row);
             diagram.ringed = operation.rings;
             return designFrom(parseDiagram(linearNotationOf(diagram)));
         }
     }
-    return NameError{};
+    return {};
+}
+
+std::optional<DesignOrError> schlaefliNamed(const NameWords& text) {
+    const std::string symbol = text.joinedFrom(0);
+    if (symbol.find('{') == std::string::npos) return {};
+    return designFrom(parseSchlaefli(symbol));
 }
 
 bool looksLikeDiagram(std::string_view text) {
@@ -147,45 +87,122 @@ bool looksLikeDiagram(std::string_view text) {
     return begins && text.size() > 2 && text.find_first_not_of("xo0123456789/ *abcd") == std::string_view::npos;
 }
 
+std::optional<DesignOrError> diagramNamed(const NameWords& text) {
+    const std::string diagram = text.joinedFrom(0);
+    if (!looksLikeDiagram(diagram)) return {};
+    return designFrom(parseDiagram(diagram));
+}
+
 /// All notations, in the order in which they are tried. The first one that returns a design, or an error with a
-/// message, gives the result.
-constexpr auto kNotations = std::to_array<Notation>({
-    // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
-    dualNamed,
-    // A polytope over a polyhedron: "prism of rhombic dodecahedron", "pyramid of cube", "bipyramid of icosahedron".
-    overPolyhedronNamed,
-    // A polytope with its vertices cut off: "truncation of grand antiprism", "rectification of pyramid of cube".
-    truncationOrRectificationNamed,
-    // Two polytopes or polygons: "hull of tesseract and 16-cell", "intersection of …", "product of 5-gon and 7-gon".
-    combinationNamed,
-    // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
-    [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (text.joinedFrom(0).find('{') == std::string::npos) return {};
-        return designFrom(parseSchlaefli(text.joinedFrom(0)));
+/// message, gives the result. From the texts, tests/lint --fix makes the table of notations in protocol/README.md.
+constexpr auto kNotations = std::to_array<NotationRow>({
+    {
+        .polytopes = "`dual of X`, of a convex polytope, or of a star without cells whose hyperplanes pass through the "
+                     "center: the polar reciprocal about the center. Its circumradius is that of X, unless X is "
+                     "regular. The dual of a dual is the polytope itself",
+        .examples = "`dual of rectified 5-cell`, `dual 3,5-duoprism`",
+        .edges = "2 if X is regular; otherwise they follow from X",
+        .constructions = "dual",
+        .parse = dualNamed,
     },
-    // A diagram: "x5o3o3x", "x3o3o *b3o", "x5o x7o".
-    [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (!looksLikeDiagram(text.joinedFrom(0))) return {};
-        return designFrom(parseDiagram(text.joinedFrom(0)));
+    {
+        .polytopes = "`prism of P`, `pyramid of P` and `bipyramid of P`, over a polyhedron: the prism of height 2, or "
+                     "the convex hull of P and a point, or two points, on its axis",
+        .examples = "`prism of rhombic dodecahedron`, `pyramid of cube`, `bipyramid of icosahedron`",
+        .edges = "those of P, which are 2 if P is uniform; 2 between the bases of a prism; to an apex, 2 if P is "
+                 "uniform and has a circumradius of less than 2, otherwise such that the distance of the apex from the "
+                 "center of P is the circumradius of P",
+        .constructions = "prism,pyramid,bipyramid",
+        .parse = overPolyhedronNamed,
     },
-    // The diagram of a snub prism: "s4s3s x".
-    [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (auto snub = snubPrismNamed(text.joinedFrom(0))) return *snub;
-        return {};
+    {
+        .polytopes =
+            "`truncation of X`, of a convex polytope: the convex hull of the points that divide the edges into thirds. "
+            "For regular polytopes with triangles, this is the `truncated` polytope; the squares of a `truncated "
+            "tesseract` are cut to regular octagons instead.<br>`rectification of X`, of a convex polytope: the convex "
+            "hull of the midpoints of the edges. For regular polytopes, this is the `rectified` polytope",
+        .examples = "`truncation of grand antiprism`, `rectification of pyramid of cube`",
+        .edges = "2 if it is a `truncated` or `rectified` polytope; otherwise they follow from X",
+        .constructions = "truncation,rectification",
+        .parse = truncationOrRectificationNamed,
     },
-    // A duoprism: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism", "pentagonal duoprism" (both pentagons).
-    [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (text.words.back() != "duoprism") return {};
-        return duoprismNamed(text.withoutLast());
+    {
+        .polytopes = "`product of A and B`, of two polygons such as `5-gon`, `pentagon` and `5/2-gon`, or of a "
+                     "polyhedron and `segment`: the duoprism, or the prism over the polyhedron.<br>`hull of X and Y`, "
+                     "of two convex polytopes: the convex hull of both, with the same center.<br>`intersection of X "
+                     "and Y`, of two convex polytopes: the points that belong to both, with the same center",
+        .examples = "`product of 5-gon and 7-gon`, `hull of tesseract and 16-cell`, `intersection of tesseract and "
+                    "16-cell of circumradius 3`",
+        .edges = "2 for the product of polygons, or of a uniform polyhedron and a segment; otherwise they follow from "
+                 "X and Y, or from the polyhedron",
+        .constructions = "product,hull,intersection",
+        .parse = combinationNamed,
     },
-    // A prism: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube prism", "truncated cubic prism".
-    [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (text.words.back() != "prism" || text.words.size() < 2) return {};
-        return prismNamed(text.withoutLast());
+    {
+        .polytopes = "a Schläfli symbol",
+        .examples = "`{5,5/2,5}`, `t0,1{3,3,5}`, `{5}×{7}`, `tr{4,3}×{}`",
+        .edges = "2",
+        .parse = schlaefliNamed,
     },
-    // An operation on a regular polychoron: "omnitruncated 120-cell", "rectified hexacosichoron".
-    [](const NameWords& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
+    {
+        .polytopes = "a Coxeter–Dynkin diagram in linear notation: x is a ringed node, o an unringed one, numbers "
+                     "label branches, a blank separates unconnected parts, `*b` refers back to the second node",
+        .examples = "`o5o3o3x`, `x3o3o *b3o`, `x5o x7o`, `x5/2o5o3o`",
+        .edges = "2",
+        .parse = diagramNamed,
+    },
+    {
+        .polytopes = "the diagram of a prism over a snub polyhedron or an antiprism, in which s is a node of the snub "
+                     "or antiprism",
+        .examples = "`s4s3s x`, `s2s5s x`",
+        .edges = "2",
+        .parse = snubPrismNamed,
+    },
+    {
+        .polytopes = "a duoprism, including those of star polygons; a single polygon stands for two",
+        .examples =
+            "`5,7-duoprism`, `5-7 duoprism`, `triangular-square duoprism`, `pentagonal duoprism`, `5/2,5-duoprism`",
+        .edges = "2",
+        .parse = duoprismNamed,
+    },
+    {
+        .polytopes = "a prism over a Platonic, Archimedean or Kepler–Poinsot solid, a prism or an antiprism",
+        .examples = "`snub cube prism`, `truncated cubic prism`, `great icosahedral prism`, `9-gonal prism prism`, "
+                    "`pentagonal antiprism prism`",
+        .edges = "2",
+        .parse = prismNamed,
+    },
+    {
+        .polytopes = "an operation on a regular polytope by any of its names",
+        .examples = "`truncated tesseract`, `rectified hexacosichoron`",
+        .edges = "2",
+        .parse = operationNamed,
+    },
 });
+
+// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows them;
+// after "dual", it may be omitted.
+const std::vector<std::string_view>& constructionWords() {
+    static const std::vector<std::string_view> all = [] {
+        std::vector<std::string_view> found;
+        for (const NotationRow& row : kNotations) {
+            for (const std::string_view word : text::splitAtCommas(row.constructions)) found.push_back(word);
+        }
+        return found;
+    }();
+    return all;
+}
+
+// Counts the constructions in a name: each word of constructionWords() that is followed by "of", and each "dual" that
+// is followed by any word.
+std::size_t constructionsIn(const std::vector<std::string>& words) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        const bool begins = std::ranges::find(constructionWords(), words[i]) != constructionWords().end();
+        if (begins && (words[i + 1] == "of" || words[i] == "dual")) ++count;
+    }
+    return count;
+}
 
 // Returns the reason why a text in none of the notations names no polytope; an empty string if no particular reason is
 // known.
@@ -196,12 +213,14 @@ std::string reasonFor(const std::vector<std::string>& words) {
                ", the pyramid of " + name + " and the bipyramid of " + name;
     }
     if (words.size() < 3 || words[1] != "of") return {};
-    const auto known = constructionWords();
+    const std::vector<std::string_view>& known = constructionWords();
     return text::inQuotes(words[0]) + " is not a construction" + text::didYouMean(words[0], known) + "; there are " +
            text::commaSeparated(known);
 }
 
 }  // namespace
+
+std::span<const NotationRow> notations() { return kNotations; }
 
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
     const std::vector<std::string> words = text::wordsOf(text);
@@ -210,8 +229,8 @@ DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
         return NameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +
                                      std::to_string(kMaxConstructions) + " are allowed");
     }
-    for (const Notation notation : kNotations) {
-        auto found = notation({words, lookup});
+    for (const NotationRow& notation : kNotations) {
+        auto found = notation.parse({words, lookup});
         if (!found) continue;
         const auto* error = std::get_if<NameError>(&*found);
         if (error == nullptr || error->reason != NameError::Reason::unknown || !error->message.empty())

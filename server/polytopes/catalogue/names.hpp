@@ -2,6 +2,8 @@
 // Names of polytopes that need not be in the catalogue: operations on regular polychora, products, prisms,
 // Coxeter–Dynkin diagrams and Schläfli symbols.
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,10 +12,26 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design that a text describes in one of the notations; kNotations in names.cpp lists them with examples.
-/// Returns an error if the text is in no notation, if it is in a notation but describes no polytope, or if it has more
-/// than kMaxConstructions constructions (combination.hpp). Ignores case; blanks and hyphens between words are
-/// equivalent. Calls `lookup` for the name of another polytope within the text, as in "dual of rectified 5-cell".
+/// A notation. The first three texts are Markdown, of which tests/lint --fix makes a row of protocol/README.md.
+struct NotationRow {
+    std::string_view polytopes;  ///< the polytopes with names in the notation: "a duoprism"
+    std::string_view examples;   ///< names in backquotes: "`5,7-duoprism`, `5/2,5-duoprism`"
+    std::string_view edges;      ///< the lengths of edges; "2" if all edges of all these polytopes have the length 2
+    /// The words, separated by commas, that begin constructions, which are names such as "hull of X and Y".
+    std::string_view constructions = {};
+    Notation parse;
+};
+
+/// Returns all notations, in the order in which describedBy() tries them.
+std::span<const NotationRow> notations();
+
+/// The maximum number of constructions in a name.
+inline constexpr std::size_t kMaxConstructions = 8;
+
+/// Returns the design that a text describes in one of the notations. Returns an error if the text is in no notation, if
+/// it is in a notation but describes no polytope, or if it has more than kMaxConstructions constructions. Ignores case;
+/// blanks and hyphens between words are equivalent. Calls `lookup` for the name of another polytope within the text, as
+/// in "dual of rectified 5-cell".
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
 /// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as

@@ -1,11 +1,13 @@
 #include "polytopes/construction/combination.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -20,8 +22,6 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr auto kConstructions = std::to_array<std::string_view>(
-    {"dual", "prism", "pyramid", "bipyramid", "truncation", "rectification", "product", "hull", "intersection"});
 constexpr double kLeastRadius = 0.01, kMostRadius = 100;
 
 bool isOfTwo(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
@@ -153,16 +153,5 @@ std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     return Design{words[0] + " of " + a.name() + " and " + b.name(),
                   std::make_shared<HullOrIntersection>(words[0] == "intersection", a, b)};
 }
-
-std::size_t constructionsIn(const Words& words) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-        const bool begins = std::ranges::find(kConstructions, words[i]) != kConstructions.end();
-        if (begins && (words[i + 1] == "of" || words[i] == "dual")) ++count;
-    }
-    return count;
-}
-
-std::vector<std::string_view> constructionWords() { return {kConstructions.begin(), kConstructions.end()}; }
 
 }  // namespace oval4d::polytopes

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "polytopes/construction/notation.hpp"
 
@@ -22,16 +19,5 @@ namespace oval4d::polytopes {
 /// The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
 /// over the polyhedron.
 std::optional<DesignOrError> combinationNamed(const NameWords& text);
-
-/// The maximum number of constructions in a name (see constructionsIn()) that describedBy() accepts.
-inline constexpr std::size_t kMaxConstructions = 8;
-
-/// Counts the constructions in a name: each word of constructionWords() that is followed by "of", and each "dual" that
-/// is followed by any word.
-std::size_t constructionsIn(const std::vector<std::string>& words);
-
-/// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows them;
-/// after "dual", it may be omitted.
-std::vector<std::string_view> constructionWords();
 
 }  // namespace oval4d::polytopes

@@ -1,5 +1,6 @@
 #include "polytopes/construction/polyhedra.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -158,6 +159,29 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word) {
         }
     }
     return parseBranch(word);
+}
+
+std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words) {
+    // "5,7" and "5x7" are single words, and so is "hexagonal", which also contains an x.
+    if (words.size() == 1 && !polygonNamed(words[0])) {
+        std::string pair = words[0];
+        for (const std::string_view times : {"×", "*"}) {
+            if (const std::size_t at = pair.find(times); at != std::string::npos) pair.replace(at, times.size(), ",");
+        }
+        const std::size_t between = std::min(pair.find(','), pair.find('x'));
+        if (between != std::string::npos) words = {pair.substr(0, between), pair.substr(between + 1)};
+    }
+    std::vector<RegularPolygon> polygons;
+    for (const std::string& word : words) {
+        std::string own = word;
+        if (own.ends_with(',')) own.pop_back();
+        if (own == "gonal" || own.empty()) continue;
+        const auto polygon = polygonNamed(own);
+        if (!polygon) return {};
+        polygons.push_back(*polygon);
+    }
+    if (polygons.size() == 1) polygons.push_back(polygons[0]);
+    return polygons;
 }
 
 std::string nameOf(const PolyhedronSignature& shape, double tolerance) {

@@ -40,8 +40,15 @@ std::string adjectiveOf(RegularPolygon polygon);
 std::string nounOf(RegularPolygon polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
-/// std::nullopt if the word names no polygon. The result for "2" is a polygon of two sides, which callers must reject.
+/// std::nullopt if the word names no polygon. The result for "2" is a polygon of two sides, which callers must reject
+/// unless they accept it.
 std::optional<RegularPolygon> polygonNamed(std::string_view word);
+
+/// Returns the polygons that words name before a word such as "duoprism": two for "5,7", "5x7", "5" "7" or "triangular"
+/// "square". A single polygon, such as "pentagonal", stands for two equal ones. Returns std::nullopt if one of the
+/// words names no polygon. Callers must reject other numbers of polygons than two, and polygons of two sides unless
+/// they accept them.
+std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words);
 
 /// The properties by which nameOf() recognizes a uniform polyhedron.
 struct PolyhedronSignature {

@@ -3,8 +3,6 @@
 #include <sstream>
 
 #include "export/omissions.hpp"
-#include "fields/formula_field.hpp"
-#include "slicing/slicer.hpp"
 #include "unit/export/support.hpp"
 
 namespace {
@@ -42,20 +40,10 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
 
 // The measurements of a field take long. They stop in time, and count their memory.
 TEST(File, ofAFieldIsBounded) {
-    auto read = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2 < 1", {glm::dvec4(-1.2), glm::dvec4(1.2)});
-    ASSERT_TRUE(read) << read.error().message;
-    const Object object = std::make_shared<const fields::Field>(std::move(*read));
-    const Rotation none;
-    const Hyperplanes planes{-2, 5, 0.2};
-    SurfaceDetail detail;
-    setEvenDetail(infoOf(object).circumradius, planes, Quality::file, detail);
-    SliceSet slices;
-    Slicer().slice(object, none, planes, {}, detail, slices);
-    scene::Scene scene;
-    scene::Composer().compose(object, none, slices, 0, {}, {}, scene);
+    const SlicedBall ball({-2, 5, 0.2});
     const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
         const ExportRequest request{.format = formatNamed(format), .contents = ExportContents::oval};
-        const auto made = exportScene(scene, object, none, request, limits, std::move(stop));
+        const auto made = ball.exported(request, limits, std::move(stop));
         return std::holds_alternative<ExportedFile>(made) ? "none" : std::get<ExportError>(made).message;
     };
     std::stop_source stop;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <stop_token>
@@ -22,7 +23,9 @@
 
 #include "export/export.hpp"
 #include "export/mesh/mesh.hpp"
+#include "fields/formula_field.hpp"
 #include "scene/composer.hpp"
+#include "slicing/slicer.hpp"
 #include "unit/slicing/directed_edges.hpp"
 #include "unit/slicing/support.hpp"
 
@@ -102,13 +105,42 @@ inline std::variant<ExportedFile, ExportError> exported(
                                 limits, std::move(stop));
 }
 
+/// The slices of a field, a ball of radius 1, and their scene.
+struct SlicedBall {
+    slicing::Object object;
+    slicing::SliceSet slices;
+    scene::Scene scene;  ///< refers to `slices`
+
+    explicit SlicedBall(const geometry::Hyperplanes& planes) {
+        auto read = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2 < 1", {glm::dvec4(-1.2), glm::dvec4(1.2)});
+        EXPECT_TRUE(read) << read.error().message;
+        object = std::make_shared<const fields::Field>(std::move(*read));
+        slicing::SurfaceDetail detail;
+        slicing::setEvenDetail(slicing::infoOf(object).circumradius, planes, slicing::Quality::file, detail);
+        slicing::Slicer().slice(object, {}, planes, {}, detail, slices);
+        scene::Composer().compose(object, {}, slices, 0, {}, {}, scene);
+    }
+    SlicedBall(const SlicedBall&) = delete;
+    SlicedBall& operator=(const SlicedBall&) = delete;
+
+    std::variant<ExportedFile, ExportError> exported(const ExportRequest& request,
+                                                     const ExportLimits& limits = kUnhurried,
+                                                     std::stop_token stop = {}) const {
+        return exports::exportScene(scene, object, {}, request, limits, std::move(stop));
+    }
+};
+
 /// Returns the bytes of the file, or "refused: " and the reason.
+inline std::string bytesOf(std::variant<ExportedFile, ExportError> made) {
+    if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
+    return std::get<ExportedFile>(std::move(made)).bytes;
+}
+
+/// Slices a polytope, exports the slices, and returns what bytesOf() returns.
 inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
                           const ExportLimits& limits = kUnhurried) {
-    auto made = exported(polytope, orientation, planes, request, limits);
-    if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
-    return std::get<ExportedFile>(std::move(made)).bytes;
+    return bytesOf(exported(polytope, orientation, planes, request, limits));
 }
 
 /// Returns two polytopes as one, with the second translated by `by`.

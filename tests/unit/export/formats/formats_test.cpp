@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -6,6 +8,7 @@
 
 #include "polytopes/import/import.hpp"
 #include "protocol_data/embedded_files.hpp"
+#include "text/message_text.hpp"
 #include "unit/export/support.hpp"
 
 namespace {
@@ -34,25 +37,97 @@ TEST(Formats, areThoseOfTheTable) {
                                       : bodies == "oval" ? Format::Arrangement::oval
                                                          : Format::Arrangement::none);
         EXPECT_EQ(format.writeBodies != nullptr, !bodies.empty());
-        EXPECT_EQ(format.writeDrawing != nullptr, rows[i].at("group") == "figure");
-        EXPECT_EQ(format.writeScene != nullptr, rows[i].at("group") == "data");
+        const std::string group = rows[i].at("group");
+        EXPECT_EQ(format.writeBodies != nullptr, group == "print" || group == "model");
+        EXPECT_EQ(format.writeDrawing != nullptr, group == "figure");
+        EXPECT_EQ(format.writeScene != nullptr, group == "data");
     }
     EXPECT_EQ(formatNamed("STL"), nullptr);
     EXPECT_EQ(formatNamed(""), nullptr);
 }
 
+TEST(Formats, haveOnlyMembersThatTheTableDescribes) {
+    const auto table = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json"));
+    const std::string description = table.at("description");
+    for (const auto& row : table.at("formats")) {
+        for (const auto& [member, value] : row.items())
+            EXPECT_NE(description.find(' ' + member + ": "), std::string::npos) << member << ": " << value;
+    }
+}
+
+// Returns whether a file may begin with this byte, so that it is neither a frame nor CBOR. protocol/README.md and
+// CONTRIBUTING.md state the rule.
+bool mayBeginAFile(char byte) {
+    return std::isalnum(static_cast<unsigned char>(byte)) != 0 ||
+           std::string_view("#%</").find(byte) != std::string::npos;
+}
+
 TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
-        if (format.objects == Format::Objects::fields) continue;
         for (const ExportContents contents : format.contents) {
             using enum ExportContents;
             if (contents == projection || contents == matrix || contents == highlight) continue;  // need other scenes
             const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
-            const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .contents = contents});
-            EXPECT_GT(bytes.size(), 100U) << format.name;
+            const ExportRequest request{.format = &format, .contents = contents};
+            const std::string bytes = format.objects == Format::Objects::fields
+                                          ? bytesOf(SlicedBall(planes).exported(request))
+                                          : fileOf(named("24-cell"), {}, planes, request);
+            ASSERT_GT(bytes.size(), 100U) << format.name;
             EXPECT_FALSE(bytes.starts_with("refused")) << bytes;
+            EXPECT_TRUE(mayBeginAFile(bytes[0])) << format.name << ": " << static_cast<int>(bytes[0]);
         }
     }
+}
+
+PlacedMesh tetrahedron(const std::string& name) {
+    PlacedMesh body{name, {}, 0xff8800, glm::dvec3(1, 2, 3)};
+    body.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    body.mesh.add(0, 2, 1, kNoCell);
+    body.mesh.add(0, 1, 3, kNoCell);
+    body.mesh.add(0, 3, 2, kNoCell);
+    body.mesh.add(1, 2, 3, kNoCell);
+    return body;
+}
+
+// Returns a file of two bodies with this name.
+std::string fileOfBodies(const Format& format, const std::string& name, const Budget& budget = unhurried()) {
+    const std::vector<PlacedMesh> solids{tetrahedron(name), tetrahedron(name)};
+    return format.writeBodies({solids, {}, name, budget});
+}
+
+TEST(Formats, ofBodiesStopWhenTheirTimeIsOver) {
+    const Budget spent({.time = std::chrono::seconds(-1)}, {});
+    for (const Format& format : formats()) {
+        if (format.writeBodies == nullptr) continue;
+        EXPECT_THROW((void)fileOfBodies(format, "body", spent), ExportRefused) << format.name;
+    }
+}
+
+std::size_t countOf(const std::string& text, std::string_view characters) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [&](char c) { return characters.find(c) != std::string_view::npos; }));
+}
+
+const std::string kHostileName = "a \"b\" 'c'\r\nv 1 2\t3\n<d/> & é";
+
+TEST(Formats, ofBodiesAreNotBrokenByNames) {
+    for (const Format& format : formats()) {
+        if (format.writeBodies == nullptr) continue;
+        SCOPED_TRACE(format.name);
+        const std::string plain = fileOfBodies(format, "body");
+        if (plain.find('\0') != std::string::npos) continue;  // a binary file
+        const std::string bytes = fileOfBodies(format, kHostileName);
+        EXPECT_TRUE(text::isUtf8(bytes));
+        EXPECT_EQ(countOf(bytes, "\r\n"), countOf(plain, "\r\n"));
+        if (!plain.starts_with('<')) continue;  // no XML
+        EXPECT_EQ(countOf(bytes, "<>\"'"), countOf(plain, "<>\"'"));
+        EXPECT_EQ(bytes.find("& "), std::string::npos);
+    }
+}
+
+TEST(Obj, namesAreWords) {
+    EXPECT_NE(fileOfBodies(*formatNamed("obj"), kHostileName).find("\no a_\"b\"_'c'__v_1_2_3_<d/>_&_é\n"),
+              std::string::npos);
 }
 
 std::vector<double> numbersIn(const std::string& row) {

@@ -1,0 +1,81 @@
+#pragma once
+// The writers of the file formats. The source of each has the name of its format, and formats.cpp lists them all.
+
+#include <string>
+
+#include "export/drawing/drawing.hpp"
+#include "export/formats/format.hpp"
+
+namespace oval4d::exports {
+
+// --- Formats of bodies. Each writer throws ExportRefused if the time limit is exceeded or a stop is requested.
+
+/// Returns a binary glTF 2.0 file in meters, with a node for each body and with vertex colors. The normals of the
+/// surfaces of fields vary smoothly, except across sharp edges (see smoothNormals()). Throws std::runtime_error if
+/// tinygltf fails.
+std::string glb(const MeshesToWrite& meshes);
+
+/// Returns a Wavefront OBJ file in millimeters. Each body is an object; in it, the triangles of each cell form a group.
+std::string obj(const MeshesToWrite& meshes);
+
+/// Returns a binary little-endian PLY file in millimeters, with all bodies in one mesh and a color for each triangle.
+/// For fields, not the triangles but the points have colors, and each point has the value of the function as the
+/// property `value`; the value is NaN at the points of labels.
+std::string ply(const MeshesToWrite& meshes);
+
+/// Returns a binary STL file in millimeters, with all bodies in one mesh.
+std::string stl(const MeshesToWrite& meshes);
+
+/// Returns a 3MF file in millimeters, with an object for each body. Throws std::runtime_error if lib3mf fails.
+std::string threeMf(const MeshesToWrite& meshes);
+
+/// Returns an X3D 3.3 file in the XML encoding (ISO/IEC 19775-1 and 19776-1), in meters, with a Shape for each body and
+/// a color for each triangle or, for fields, for each point.
+std::string x3d(const MeshesToWrite& meshes);
+
+// --- Formats of data.
+
+/// Returns a CSV file. Lengths, areas and volumes are in the units of the object.
+///
+/// For a field, the file has one row per slice and level, in the order of the levels: n (the index of the hyperplane),
+/// w, the level if there are several, volume, area of the level set without caps, centroid (empty if there is no
+/// volume), number of connected components, Euler characteristic of the surface (see slicing::SurfaceMeasurements), and
+/// the mean of the second function on the surface if there is such a function. Computes the surfaces anew by
+/// slicing::ExactSlicer, and ignores those of the scene. Throws ExportRefused if a limit is exceeded or a stop is
+/// requested, and for ExportContents::critical.
+///
+/// For other objects, the file has one row per slice: n, w, the numbers of vertices, edges and faces, volume, area, and
+/// centroid (empty if the slice is empty). For ExportContents::critical, it has instead one row per critical value of
+/// w, at which the combinatorial type of the slices changes: w, and the number of the object's vertices there.
+std::string measurementsCsv(const SceneInput& source);
+
+/// Returns the rotated object, a polytope or a point cloud, as a 4OFF file in the object's own units. Importing the
+/// file of a polytope gives the rotated polytope; the file of a point cloud has vertices only.
+std::string off(const SceneInput& source);
+
+/// Returns a VTK XML file of the type ImageData: the values of a field in slice 0, on a regular lattice that fills the
+/// bounding box of the domain's slice, in the object's own units. The values of points outside the domain are NaN. The
+/// object must be a field, and the contents must be ExportContents::focus. Throws ExportRefused if the slice is empty,
+/// if a limit is exceeded, or if a stop is requested.
+std::string vti(const SceneInput& source);
+
+/// Returns a VTK XML file of the type PolyData, in the object's own units. For ExportContents::oval, the slices are
+/// placed as in the picture. For a polytope, the file has the faces of the slices, with the array `cell`. For a field,
+/// it has the surfaces of all levels, with the arrays `value`, `second_value` (if there is a second function),
+/// `normals` and `growth` (see slicing::SliceSurface) for each point, and `level` and `cap` for each triangle. The
+/// arrays `n` and `w` have, for each face or triangle, the index n and the w of the hyperplane of its slice. Infinite
+/// growth is written as NaN. Adds a warning about slices without faces or triangles. Throws ExportRefused if a limit is
+/// exceeded or a stop is requested.
+std::string vtp(const SceneInput& source);
+
+// --- Formats of drawings.
+
+/// Returns the drawing as a PDF 1.4 document of one page, which has the size of the drawing on paper. Width and height
+/// must be from 3 to 14,400 points (1/72 inch). Throws std::runtime_error if they are not, or if there is not enough
+/// memory.
+std::string pdf(const Drawing& drawing);
+
+/// Returns the drawing as an SVG 1.1 image.
+std::string svg(const Drawing& drawing);
+
+}  // namespace oval4d::exports
