@@ -458,6 +458,7 @@ class Client:
 
     async def _read(self):
         while True:
+            unreadable = None
             try:
                 async for message in self._socket:
                     picture = self._receive(message)
@@ -466,7 +467,12 @@ class Client:
                         await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
             except websockets.ConnectionClosed:
                 pass
+            except (ImportError, ValueError) as fault:  # the client cannot decode the message
+                unreadable = fault
+                await self._socket.close(1003)
             end = (self._socket.close_code, self._socket.close_reason or "")
+            if unreadable:
+                end = (1003, str(unreadable))
             again = self.welcome is not None and end[0] in RECONNECT_CODES and not self._closing
             with self._change:
                 for number, answer in self._waiting.items():
@@ -509,15 +515,15 @@ class Client:
         """Handles a message. Returns its revision if it is a picture of the stream, else None."""
         picture = None
         with self._change:
-            if isinstance(data, bytes) and data.startswith(PNG):
-                self._binary = self.newest_frame = data
-                picture = png_state(data)["revision"]
+            message = decode(data)
+            if isinstance(message, bytes):
+                self._binary = message
+                if message[0] != PNG[0]:  # a file
+                    return None
+                self.newest_frame = message
+                picture = png_state(message)["revision"]
                 self._change.notify_all()
                 return picture
-            if isinstance(data, bytes) and not 0xA0 <= data[0] < 0xC0:  # not a CBOR map, so a file
-                self._binary = data
-                return None
-            message = from_json(data) if isinstance(data, str) else from_cbor(data)
             kind, number = message["type"], message.get("id")
             if kind == "slices" and number is None:
                 picture = message["revision"]
@@ -633,6 +639,19 @@ def png_state(png):
     raise ValueError("not an oval4d frame: it contains no state")
 
 
+def decode(data):
+    """Returns a message from the server: text and slices as a dict, as from_json() and from_cbor() do, and the bytes of
+    frames and files unchanged. Raises ValueError if no kind of binary message begins with the first byte, or if the
+    bytes are not a message of their kind."""
+    if isinstance(data, str):
+        return from_json(data)
+    for first_bytes, read in BINARY_KINDS.values():
+        if data and data[0] in first_bytes:
+            return read(data)
+    what = f"begins with the byte {data[0]:#04x}" if data else "is empty"
+    raise ValueError(f"a binary message {what}: this client knows no such message")
+
+
 def from_json(text):
     """Returns a JSON message as a dict. The surfaces of a slices message have the form that slices() describes."""
     message = json.loads(text)
@@ -667,6 +686,12 @@ def from_cbor(data):
             TypeError) as fault:
         raise ValueError(f"not a slices message in CBOR: {fault}") from fault
     return message
+
+
+# The kinds of binary messages, as ../README.md lists them ("Binary messages"): their first bytes, and the function that
+# decodes them. Each encoding of slices has a kind of its name.
+BINARY_KINDS = {"file": (range(0x21, 0x7F), bytes), "frame": (range(0x89, 0x8A), bytes),
+                "cbor": (range(0xA0, 0xC0), from_cbor)}
 
 
 def _rows(flat, sizes, width=1):

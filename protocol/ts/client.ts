@@ -2,7 +2,7 @@
 // session. It reports the status of the connection.
 
 import { Arena } from "./arena.js";
-import { decodeCbor, decodeText, isFile, isPng } from "./decode.js";
+import { decodeBinary, decodeText } from "./decode.js";
 import type { Encoding, ErrorMessage, GetRequest, Request, RequestAnswers } from "./messages.js";
 import type { Scheme, State, Stream, Welcome } from "./messages.js";
 import type { Slices } from "./slices.js";
@@ -197,11 +197,12 @@ export class Client {
             return;
         }
         const bytes = new Uint8Array(data);
-        if (isFile(bytes)) {
+        const keep = !this.options.transient || this.isAwaiting("slices");
+        const message = decodeBinary(bytes, keep ? undefined : this.arena);
+        if (message === "file") {
             this.heldFile = bytes; // until its `done` arrives
-        } else if (!isPng(bytes)) {
-            const keep = !this.options.transient || this.isAwaiting("slices");
-            this.handle(decodeCbor(bytes, keep ? undefined : this.arena));
+        } else if (message !== "frame") {
+            this.handle(message);
         } else if (this.isAwaiting("frame")) {
             this.passFrame();
             this.heldFrame = bytes; // the next message shows whether the frame is an answer or part of the stream

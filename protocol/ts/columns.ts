@@ -1,6 +1,6 @@
-// Converts the slices of a CBOR message to objects. The message has one array (a column) per property, with the values
-// of all slices in turn. It stores the vertices, edges and faces of the projection's parts (see ObjectProjection)
-// likewise.
+// Converts the slices of a binary message to objects. The message has one array (a column) per property, with the
+// values of all slices in turn. It stores the vertices, edges and faces of the projection's parts (see
+// ObjectProjection) likewise.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
@@ -28,7 +28,7 @@ interface ElementColumns {
     balls?: { scale: Float32Array; opacity: Float32Array };
 }
 
-/** The member `slices` of a CBOR message (protocol/README.md, "CBOR"). */
+/** The member `slices` of a message in a binary encoding (protocol/README.md, "Binary encodings"). */
 export interface SliceColumns extends ElementColumns {
     index: number[];
     w: Float64Array;
@@ -68,7 +68,7 @@ export interface SliceColumns extends ElementColumns {
     };
 }
 
-/** The member `projection.parts` of a CBOR message. */
+/** The member `projection.parts` of a message in a binary encoding. */
 export interface PartColumns extends ElementColumns {
     looks: ProjectionLook[];
 }

@@ -1,10 +1,11 @@
-// Decodes the server's text and binary messages. A decoded slices message has the same flat typed arrays, whether its
-// encoding was JSON or CBOR.
+// Decodes the server's text and binary messages. A decoded slices message has the same flat typed arrays in every
+// encoding.
 
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, TypedArrayConstructor } from "./arena.js";
 import { partsOf, rowsOf, type SliceColumns, type PartColumns } from "./columns.js";
+import type { Encoding } from "./messages.js";
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
 import type { Message } from "./types.js";
 
@@ -15,7 +16,7 @@ const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
-let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeCbor()
+let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeBinary()
 
 /** Registers a decoder for little-endian typed arrays with this tag of RFC 8746. It copies only unaligned arrays. */
 function registerTypedArrayTag<T>(tag: number, arrayType: TypedArrayConstructor<T>): void {
@@ -31,36 +32,60 @@ registerTypedArrayTag(70, Uint32Array);
 registerTypedArrayTag(85, Float32Array);
 registerTypedArrayTag(86, Float64Array);
 
-const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
-
-export function isPng(bytes: Uint8Array): boolean {
-    return kPngSignature.every((byte, i) => bytes[i] === byte);
+/** Decodes CBOR. Throws an Error if the bytes are not CBOR. */
+function readCbor(bytes: Uint8Array): unknown {
+    // Each item takes at least one byte. Without these limits, cbor-x reads beyond the end of a message that announces
+    // more items than it has.
+    setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
+    return cbor.decode(bytes);
 }
 
-/** Returns whether a binary message is an exported file, which begins with an ASCII character. PNG and CBOR do not. */
-export function isFile(bytes: Uint8Array): boolean {
-    return bytes[0]! < 0x80;
+/** A kind of binary message: its first byte is in the range `firstByte`. `read` decodes slices; other kinds lack it. */
+interface BinaryKind {
+    firstByte: [least: number, greatest: number];
+    read?: (bytes: Uint8Array) => unknown;
 }
+
+/** The kinds of binary messages, as protocol/README.md lists them (see "Binary messages"). */
+export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, BinaryKind> = {
+    file: { firstByte: [0x21, 0x7e] },
+    frame: { firstByte: [0x89, 0x89] },
+    cbor: { firstByte: [0xa0, 0xbf], read: readCbor },
+};
 
 export function decodeText(text: string): Message {
     return flattened(JSON.parse(text) as Message);
 }
 
 /**
- * Decodes a CBOR message. Throws an Error if the bytes are not a CBOR message. If `within` is given, the arrays of the
- * message are valid until this arena is used for another message.
+ * Decodes a binary message: returns a slices message, or "file" or "frame", whose bytes are used as they are. If
+ * `within` is given, the arrays of the message are valid until this arena is used for another message. Throws an Error
+ * if no kind of message begins with the first byte, or if the bytes are not a message of their kind.
  */
-export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
+export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file" | "frame" {
+    const first = bytes[0] ?? -1;
+    for (const [name, { firstByte, read }] of Object.entries(kBinaryKinds)) {
+        if (first < firstByte[0] || first > firstByte[1]) continue;
+        return read ? decodeSlices(bytes, read, within) : (name as "file" | "frame");
+    }
+    const what = first < 0 ? "is empty" : `begins with the byte 0x${first.toString(16)}`;
+    throw new Error(`a binary message ${what}: this client knows no such message`);
+}
+
+function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
     within?.begin(6 * bytes.length); // enough for arrays that are copied, or converted from 1-byte to 4-byte integers
     arena = within;
-    // Each item takes at least one byte. Without these limits, cbor-x reads beyond the end of a message that announces
-    // more items than it has.
-    setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
     try {
-        return flattened(cbor.decode(bytes) as Message);
+        return flattened(read(bytes) as Message);
     } finally {
         arena = undefined;
     }
+}
+
+const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
+
+function isPng(bytes: Uint8Array): boolean {
+    return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
 /** Returns the text of the uncompressed iTXt chunk with this keyword; undefined if the file has none or is cut off. */

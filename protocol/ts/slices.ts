@@ -1,4 +1,4 @@
-// Types of the slices message after decoding. Long arrays of numbers are typed arrays, both with JSON and with CBOR.
+// Types of the slices message after decoding. Long arrays of numbers are typed arrays, in every encoding.
 // Angles are in radians. Lengths are in the polytope's units, except where world units are stated. In world units, the
 // polytope's circumradius is 1; in the oval, this holds for 21 slices, and the circumradius is less for more slices and
 // greater for fewer.
@@ -6,7 +6,7 @@
 import type { Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
 
-/** An array of integers. With CBOR, it has the narrowest type that its largest value fits into. */
+/** An array of integers. In binary encodings, it has the narrowest type that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
 /** How to draw the slices. A client that follows it draws the same picture as the server's frame of this size. */

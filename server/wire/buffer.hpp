@@ -36,6 +36,12 @@ class Buffer {
         reserve(text.size());
         at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, allows an empty text whose data() is null
     }
+    /// Appends `size` bytes without a value. Returns a pointer to the first one, which is valid until more is appended.
+    char* append(std::size_t size) {
+        reserve(size);
+        at_ += size;
+        return at_ - size;
+    }
 
   private:
     void grow(std::size_t size);

@@ -1,6 +1,6 @@
 #include "wire/fog_writer.hpp"
 
-#include "wire/cbor_writer.hpp"
+#include "wire/binary_writer.hpp"
 #include "wire/json_writer.hpp"
 
 namespace oval4d::wire {
@@ -41,7 +41,7 @@ void FogWriter::write(JsonWriter& w, const scene::Scene& scene, std::size_t i) {
     w.endObject();
 }
 
-void FogWriter::write(CborWriter& w, const scene::Scene& scene) {
+void FogWriter::write(BinaryWriter& w, const scene::Scene& scene) {
     if (scene.fog.empty()) return;
     clear();
     for (const SliceFog& fog : scene.slices->fogs) {

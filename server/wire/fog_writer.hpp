@@ -1,5 +1,5 @@
 #pragma once
-// Writes the fog of a field's slices. The JSON encoding has one object per slice; the CBOR encoding has one array per
+// Writes the fog of a field's slices. The JSON encoding has one object per slice; binary encodings have one array per
 // property with the values of all slices.
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace oval4d::wire {
 
-class CborWriter;
+class BinaryWriter;
 class JsonWriter;
 
 /// Writes fog. Reuses its memory.
@@ -22,7 +22,7 @@ class FogWriter {
     /// Writes the member `fog` of slice i, or nothing if the slice has no fog.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
     /// Writes the member `fog` with the fog of all slices, or nothing if there is no fog.
-    void write(CborWriter& w, const scene::Scene& scene);
+    void write(BinaryWriter& w, const scene::Scene& scene);
 
   private:
     void clear();

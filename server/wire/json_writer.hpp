@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as JSON. JsonWriter and CborWriter have functions of the same names, so that one template can write a
-// message in both encodings.
+// Writes messages as JSON. JsonWriter and BinaryWriter have functions of the same names, so that one template can write
+// a message in any encoding.
 
 #include <cstdint>
 #include <cstring>
@@ -49,8 +49,10 @@ class JsonWriter {
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
     void null();
-    /// Appends JSON text unchanged: a value, or members of an object.
+    /// Appends JSON text unchanged: a value.
     void raw(std::string_view text);
+    /// Appends the members of an object that another JsonWriter has written. The object must have members.
+    void membersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
 
     // Arrays of numbers. Coordinates of vectors are rounded to single precision.
     void vector(const glm::dvec3& v);

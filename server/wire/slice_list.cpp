@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "wire/cbor_writer.hpp"
 #include "wire/json_writer.hpp"
 
 namespace oval4d::wire {
@@ -133,6 +132,7 @@ void writeFill(W& w, const Fill& fill, const slicing::Visibilities& visibilities
 }
 
 void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
+    w.beginObject();
     w.member("index", placement.index);
     w.member("w", placement.w);
     w.key("position");
@@ -143,6 +143,7 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
     w.member("label_size", placement.labelSize);
     w.member("focus", placement.focus);
     w.member("drawn", placement.drawn);
+    w.endObject();
 }
 
 // Writes the elements of one slice, or of one part of a projection.
@@ -166,7 +167,7 @@ void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std:
 void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i, SurfaceWriter& surfaces,
                 FogWriter& fogs) {
     w.beginObject();
-    w.raw(placement);
+    w.membersOf(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
     if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
         Fill fill;
@@ -183,7 +184,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
 
 // Writes one property of all placements: vectors and doubles as a typed array, other values as an ordinary array.
 template <typename Property>
-void writeColumn(CborWriter& w, std::string_view name, const std::vector<SlicePlacement>& placements,
+void writeColumn(BinaryWriter& w, std::string_view name, const std::vector<SlicePlacement>& placements,
                  Property property) {
     using Value = std::decay_t<decltype(property(placements[0]))>;
     constexpr bool kVectors = std::is_same_v<Value, glm::dvec3>;
@@ -203,18 +204,6 @@ void writeColumn(CborWriter& w, std::string_view name, const std::vector<SlicePl
     }
 }
 
-void writePlacements(CborWriter&& w, const std::vector<SlicePlacement>& placements) {
-    writeColumn(w, "index", placements, [](const SlicePlacement& placement) { return placement.index; });
-    writeColumn(w, "w", placements, [](const SlicePlacement& placement) { return placement.w; });
-    writeColumn(w, "position", placements, [](const SlicePlacement& placement) { return placement.position; });
-    writeColumn(w, "label", placements,
-                [](const SlicePlacement& placement) { return std::string_view(placement.label); });
-    writeColumn(w, "label_at", placements, [](const SlicePlacement& placement) { return placement.labelAt; });
-    writeColumn(w, "label_size", placements, [](const SlicePlacement& placement) { return placement.labelSize; });
-    writeColumn(w, "focus", placements, [](const SlicePlacement& placement) { return placement.focus; });
-    writeColumn(w, "drawn", placements, [](const SlicePlacement& placement) { return placement.drawn; });
-}
-
 template <typename W>
 void writePart(W& w, const scene::ProjectionPart& part) {
     w.member("ball", part.ballRadius);
@@ -226,26 +215,41 @@ void writePart(W& w, const scene::ProjectionPart& part) {
 
 }  // namespace
 
-void SliceListWriter::write(JsonWriter& w, const Scene& scene) {
+void SliceListWriter::write(JsonWriter& w, const Scene& scene, PlacementTexts& texts) {
     w.beginArray();
-    placements_.resize(scene.placements.size());
+    texts.perSlice.resize(scene.placements.size());
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         const SlicePlacement& placement = scene.placements[i];
         const auto text =
-            placements_[i].textFor(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
+            texts.perSlice[i].textFor(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
         writeSlice(w, text, scene, i, surfaces_, fogs_);
     }
     w.endArray();
 }
 
-void SliceListWriter::writeSizes(CborWriter& w, std::string_view name, Numbers begin) {
+void SliceListWriter::writePlacements(BinaryWriter& w, const std::vector<SlicePlacement>& placements) {
+    w.beginObject();
+    writeColumn(w, "index", placements, [](const SlicePlacement& placement) { return placement.index; });
+    writeColumn(w, "w", placements, [](const SlicePlacement& placement) { return placement.w; });
+    writeColumn(w, "position", placements, [](const SlicePlacement& placement) { return placement.position; });
+    writeColumn(w, "label", placements,
+                [](const SlicePlacement& placement) { return std::string_view(placement.label); });
+    writeColumn(w, "label_at", placements, [](const SlicePlacement& placement) { return placement.labelAt; });
+    writeColumn(w, "label_size", placements, [](const SlicePlacement& placement) { return placement.labelSize; });
+    writeColumn(w, "focus", placements, [](const SlicePlacement& placement) { return placement.focus; });
+    writeColumn(w, "drawn", placements, [](const SlicePlacement& placement) { return placement.drawn; });
+    w.endObject();
+}
+
+void SliceListWriter::writeSizes(BinaryWriter& w, std::string_view name, Numbers begin) {
     sizes_.resize(begin.size() - 1);
     for (std::size_t i = 0; i < sizes_.size(); ++i) sizes_[i] = begin[i + 1] - begin[i];
     w.key(name);
     w.numbers(sizes_);
 }
 
-void SliceListWriter::writeElements(CborWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
+void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
+                                    const std::vector<std::uint32_t>& faceCells,
                                     const slicing::Visibilities& visibilities) {
     const std::size_t count = slices.vertexBegin.size() - 1;
     const Sources of = sourcesOf(slices, 0, count);
@@ -268,11 +272,10 @@ void SliceListWriter::writeElements(CborWriter& w, const SliceSet& slices, const
     writeVisibilities(w, visibilities, of);
 }
 
-void SliceListWriter::write(CborWriter& w, const Scene& scene) {
+void SliceListWriter::writeColumns(BinaryWriter& w, std::string_view placements, const Scene& scene) {
     const std::size_t count = scene.placements.size();
     w.beginObject();
-    w.raw(columns_.textFor(scene.placements,
-                           [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
+    w.membersOf(placements);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities);
     if (!scene.fill.empty()) {
         Fill fill;
@@ -309,7 +312,7 @@ void SliceListWriter::writeProjection(JsonWriter& w, const Scene& scene) {
     w.endArray();
 }
 
-void SliceListWriter::writeProjection(CborWriter& w, const Scene& scene) {
+void SliceListWriter::writeProjection(BinaryWriter& w, const Scene& scene) {
     const scene::ObjectProjection& projection = scene.projection;
     w.beginObject();
     w.key("looks");

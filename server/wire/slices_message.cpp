@@ -15,7 +15,7 @@ namespace {
 
 using scene::Scene;
 
-// Writes an array of pairs of numbers, in JSON and CBOR alike as nested ordinary arrays.
+// Writes an array of pairs of numbers, in all encodings as nested ordinary arrays.
 template <typename W, typename Pairs>
 void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.key(name);
@@ -28,7 +28,7 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.endArray();
 }
 
-// Writes an array of numbers, in JSON and CBOR alike as an ordinary array.
+// Writes an array of numbers, in all encodings as an ordinary array.
 template <typename W, typename Numbers = std::initializer_list<double>>
 void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);
@@ -123,6 +123,7 @@ void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
 template <typename W>
 void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
     const scene::Style& style = scene::style();
+    w.beginObject();
     w.member("view", text::nameOf(scene::kViews, fixed.view));
     w.key("shown");
     w.beginObject();
@@ -156,13 +157,14 @@ void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
     w.endObject();
     writeCoordinatesLayout(w, fixed.coordinates);
     w.member("text", style.textHeight);
+    w.endObject();
 }
 
 }  // namespace
 
 template <typename W>
-void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, const Scene& scene,
-                                       std::uint64_t revision, std::optional<double> id, slicing::Quality quality) {
+void SlicesMessageWriter::writeMessage(W&& w, Texts& texts, const Scene& scene, std::uint64_t revision,
+                                       std::optional<double> id, slicing::Quality quality) {
     w.beginObject();
     w.member("type", "slices");
     if (id) {
@@ -176,7 +178,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
     const StaticScene fixed{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
                             scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
                             scene.faceOpacity, scene.axes,         scene.coordinates};
-    w.raw(cache.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
+    w.membersOf(texts.staticScene.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
     writeColors(w, scene.style(), scene.cellColors);
     SurfaceWriter::writeLook(w, scene.surfaces);
     writeFogTable(w, scene.fog);
@@ -210,7 +212,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
         w.endObject();
     }
     w.key("slices");
-    list_.write(w, scene);
+    list_.write(w, scene, texts.placements);
     if (scene.projectionPlacement.shown) writeProjection(w, scene);
     if (scene.matrix.shown) writeMatrix(w, scene);
     w.endObject();
@@ -282,11 +284,12 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
 
 void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                                 std::string& out, slicing::Quality quality) {
+    Texts& texts = texts_.at(static_cast<std::size_t>(encoding));
     switch (encoding) {
         case Encoding::json:
-            return writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id, quality);
+            return writeMessage(JsonWriter(out), texts, scene, revision, id, quality);
         case Encoding::cbor:
-            return writeMessage(CborWriter(out), cborStatic_, scene, revision, id, quality);
+            return writeMessage(CborWriter(out), texts, scene, revision, id, quality);
     }
 }
 

@@ -2,6 +2,7 @@
 // Writes the `slices` message. It contains everything that a client needs to draw the picture, so the client need not
 // compute slices, colors or positions.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,8 +20,7 @@ namespace oval4d::wire {
 /// one thread at a time.
 class SlicesMessageWriter {
   public:
-    /// Writes the message of this scene as JSON, or as CBOR (RFC 8949) with typed arrays (RFC 8746). Overwrites `out`
-    /// and reuses its memory.
+    /// Writes the message of this scene. Overwrites `out` and reuses its memory.
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out, slicing::Quality quality = slicing::Quality::full);
 
@@ -39,15 +39,21 @@ class SlicesMessageWriter {
     };
 
   private:
+    // What stays the same from one message to the next, in one encoding.
+    struct Texts {
+        CachedText<StaticScene> staticScene;  // an object
+        PlacementTexts placements;
+    };
+
     template <typename W>
-    void writeMessage(W&& w, CachedText<StaticScene>& cache, const scene::Scene& scene, std::uint64_t revision,
-                      std::optional<double> id, slicing::Quality quality);
+    void writeMessage(W&& w, Texts& texts, const scene::Scene& scene, std::uint64_t revision, std::optional<double> id,
+                      slicing::Quality quality);
     template <typename W>
     void writeProjection(W& w, const scene::Scene& scene);
     template <typename W>
     void writeMatrix(W& w, const scene::Scene& scene);
 
-    CachedText<StaticScene> jsonStatic_, cborStatic_;
+    std::array<Texts, kEncodings.size()> texts_;  // for each Encoding
     SliceListWriter list_;
 };
 

@@ -1,6 +1,6 @@
 #include "wire/surface_writer.hpp"
 
-#include "wire/cbor_writer.hpp"
+#include "wire/binary_writer.hpp"
 #include "wire/json_writer.hpp"
 
 namespace oval4d::wire {
@@ -64,7 +64,7 @@ void SurfaceWriter::write(JsonWriter& w, const scene::Scene& scene, std::size_t 
     w.endObject();
 }
 
-void SurfaceWriter::write(CborWriter& w, const scene::Scene& scene) {
+void SurfaceWriter::write(BinaryWriter& w, const scene::Scene& scene) {
     if (scene.surfaces.empty()) return;
     clear();
     pointCounts_.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the surfaces of a field's slices. The JSON encoding has one object per slice; the CBOR encoding has one array
+// Writes the surfaces of a field's slices. The JSON encoding has one object per slice; binary encodings have one array
 // per property with the values of all slices.
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace oval4d::wire {
 
-class CborWriter;
+class BinaryWriter;
 class JsonWriter;
 
 /// Writes surfaces. Reuses its memory.
@@ -22,7 +22,7 @@ class SurfaceWriter {
     /// Writes the member `surface` of slice i, or nothing if the slice has no surface.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
     /// Writes the member `surface` with the surfaces of all slices, or nothing if the object has no surfaces.
-    void write(CborWriter& w, const scene::Scene& scene);
+    void write(BinaryWriter& w, const scene::Scene& scene);
     /// Writes the member `surfaces` of the scene, which says how each level is drawn, or nothing if it has no levels.
     template <typename W>
     static void writeLook(W& w, const scene::SurfaceLook& look) {

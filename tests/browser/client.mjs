@@ -1,6 +1,7 @@
 // The client of protocol/ts, used by a script.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { cp, mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -10,7 +11,9 @@ import { promisify } from "node:util";
 import WebSocket from "ws";
 
 import { Client, pngText, RequestError } from "./node_modules/.oval4d/client.mjs";
+import { decodeBinary, kBinaryKinds } from "./node_modules/.oval4d/decode.mjs";
 import { common, named, openPage, scriptFor } from "./support/browser.mjs";
+import { kBinaryEncodings, kEncodings } from "./support/encodings.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startProxy } from "./support/proxy.mjs";
 import { joinSession } from "./support/script.mjs";
@@ -35,16 +38,16 @@ async function listen(options) {
     return { client, next: (event) => within(new Promise((resolve) => (waiting[event] = resolve)), event) };
 }
 
-test("client: slices are the same from JSON and from CBOR", async () => {
-    const pictures = [];
-    for (const encoding of ["json", "cbor"]) {
+test("client: slices are the same in all encodings", async () => {
+    const pictures = {};
+    for (const encoding of kEncodings) {
         const { client, next } = await listen({ stream: "geometry", encoding, viewport: { width: 640, height: 480 } });
         const slices = next("slices");
         client.connect();
-        pictures.push(await slices);
+        pictures[encoding] = await slices;
         client.close();
     }
-    const [json, cbor] = pictures;
+    const { json } = pictures;
     assert.ok(json.slices.some(({ faces }) => faces.corners.length > 0));
     const compare = (a, b, path) => {
         if (typeof a === "number") assert.ok(Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a)), `${path}: ${a}, ${b}`);
@@ -52,8 +55,28 @@ test("client: slices are the same from JSON and from CBOR", async () => {
         else for (const key of Object.keys(a)) compare(a[key], b[key], `${path}.${key}`);
         if (ArrayBuffer.isView(a)) assert.ok(b instanceof a.constructor && a.length === b.length, path);
     };
-    compare(json, cbor, "slices");
-    compare(cbor, json, "slices");
+    for (const encoding of kBinaryEncodings) {
+        compare(json, pictures[encoding], encoding);
+        compare(pictures[encoding], json, encoding);
+    }
+});
+
+test("client: it knows the binary messages that protocol/README.md lists, and refuses others", () => {
+    const readme = readFileSync(new URL("../../protocol/README.md", import.meta.url), "utf8");
+    const [, section] = /### Binary messages\n(.*?)\n### /s.exec(readme);
+    const known = Object.entries(kBinaryKinds);
+    for (const [name, { firstByte }] of known) {
+        const row = new RegExp(`^\\| 0x(..)(?:–0x(..))? \\|.*\\[${name}\\]`, "m").exec(section);
+        const [least, greatest = least] = row.slice(1);
+        assert.deepEqual(firstByte, [parseInt(least, 16), parseInt(greatest, 16)], name);
+    }
+    assert.deepEqual(Object.keys(kBinaryKinds).sort(), ["file", "frame", ...kBinaryEncodings].sort());
+    for (let first = 0; first < 256; ++first) {
+        if (known.some(([, { firstByte }]) => firstByte[0] <= first && first <= firstByte[1])) continue;
+        const says = `begins with the byte 0x${first.toString(16)}: this client knows no such message`;
+        assert.throws(() => decodeBinary(Uint8Array.of(first, 0x61)), ({ message }) => message.endsWith(says));
+    }
+    assert.throws(() => decodeBinary(new Uint8Array(0)), /is empty/);
 });
 
 test("client: a requested frame is not mistaken for one of the stream", async () => {

@@ -4,6 +4,7 @@ import { test } from "./support/suite.mjs";
 
 import { common, named, openWithScript, presented, spoken } from "./support/browser.mjs";
 import { assertSimilar, assertStreamsAgree, drawBy, picture } from "./support/drawing.mjs";
+import { kBinaryEncodings, kEncodings } from "./support/encodings.mjs";
 import { focusSurface, openPanel, write } from "./support/field.mjs";
 import { below, compare, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb } from "./support/scene.mjs";
@@ -146,14 +147,14 @@ test("fields: surfaces and fog are drawn again after the WebGL context was lost"
     await close();
 });
 
-test("fields: both encodings have the same surfaces", async () => {
+test("fields: all encodings have the same surfaces", async () => {
     const script = await joinSession((await common()).url);
     for (const color of ["cell", "growth", "w", "value"]) {
         await script.request({ type: "load", name: "formula", format: "formula", data: "x^2 + y^2 - z^2 < w" });
         const caps = color === "cell" ? "value" : "plain";
         await script.request({ type: "set", color, caps, levels: [0, 1], slices: { count: 5 } });
         const surfaces = {};
-        for (const encoding of ["json", "cbor"]) {
+        for (const encoding of kEncodings) {
             await script.client.hello({ encoding });
             const { slices } = await script.request({ type: "get", what: "slices", width: 160, height: 90 });
             surfaces[encoding] = slices.map(({ surface = {} }) =>
@@ -164,7 +165,7 @@ test("fields: both encodings have the same surfaces", async () => {
         assert.equal(surfaces.json.some((surface) => surface.some(([name]) => name === "colors")), ["growth", "value"].includes(color));
         assert.equal(surfaces.json.some((surface) => surface.some(([name]) => name === "cap_colors")), caps === "value");
         assert.equal(surfaces.json.some((surface) => surface.some(([name]) => name === "color")), color === "w");
-        assert.deepEqual(surfaces.cbor, surfaces.json);
+        for (const encoding of kBinaryEncodings) assert.deepEqual(surfaces[encoding], surfaces.json, encoding);
     }
     script.leave();
 });

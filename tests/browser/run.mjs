@@ -42,10 +42,14 @@ function chosenFiles() {
     return [...kLongest, ...others];
 }
 
-/** Bundles the TypeScript client, and the reader of keys, for the tests. */
+/** Bundles the TypeScript client, its decoder and the reader of keys for the tests. */
 function bundleClient() {
     buildSync({
-        entryPoints: { client: join(here, "../../protocol/ts/index.ts"), keys: join(here, "../../web_client/src/keys.ts") },
+        entryPoints: {
+            client: join(here, "../../protocol/ts/index.ts"),
+            decode: join(here, "../../protocol/ts/decode.ts"),
+            keys: join(here, "../../web_client/src/keys.ts"),
+        },
         outdir: join(here, "node_modules/.oval4d"),
         outExtension: { ".js": ".mjs" },
         bundle: true,

@@ -1,11 +1,12 @@
 // Fuzzes the `slices` message. The input consists of a viewport and command lines, which set the state of a session.
-// The message of this state must have the same contents in JSON and in CBOR. nlohmann::json decodes the CBOR message;
-// its arrays with the values of all slices are then converted to one object per slice, as in JSON.
+// The message of this state must have the same contents in all encodings. nlohmann::json decodes binary messages; their
+// arrays with the values of all slices are then converted to one object per slice, as in JSON.
 
 #include <cstring>
 #include <initializer_list>
 #include <utility>
 
+#include "../unit/wire/decoded.hpp"
 #include "scene/composer.hpp"
 #include "support.hpp"
 #include "wire/slices_message.hpp"
@@ -16,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Returns the numbers of a typed array (RFC 8746).
+/// Returns the numbers of a typed array.
 template <typename T>
 json numbersOf(const json::binary_t& bytes) {
     require(bytes.size() % sizeof(T) == 0, "a typed array holds whole numbers");
@@ -41,7 +42,7 @@ json plain(const json& value) {
             case 86:
                 return numbersOf<double>(bytes);
             default:
-                require(false, "a typed array has a tag of RFC 8746");
+                require(false, "a typed array has a known type");
         }
     }
     json out = value;
@@ -153,10 +154,9 @@ void roundToFloats(json& value) {
 /// Divides a list into rows of `width` numbers.
 json rows(const json& list, std::size_t width) { return Column(list).rows(list.size() / width, width); }
 
-json fromCbor(const std::string& text) {
-    json message = json::from_cbor(text, true, false, json::cbor_tag_handler_t::store);
-    require(!message.is_discarded(), "a message is CBOR");
-    message = plain(message);
+/// Returns the contents of a decoded binary message in the form of JSON.
+json fromBinary(const json& decoded) {
+    json message = plain(decoded);
     if (message.contains("coordinates")) message["coordinates"] = rows(message["coordinates"], 4);
     if (message.contains("density"))
         message["density"] = rows(message["density"], message["scene"]["coordinates"]["columns"]);
@@ -194,15 +194,19 @@ OVAL4D_FUZZER(slices) {
     static scene::Composer composer;
     static scene::Scene scene;
     static wire::SlicesMessageWriter writer;
-    static std::string text, cbor;
+    static std::string text;
     const session::State& state = session.current;
     slicer.sliceWithoutSurfaces(state.object, state.orientation, state.hyperplanes(), slices);
     composer.limitFill(100'000);
     composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport, scene);
-    using wire::Encoding;
-    writer.write(scene, session.revision, 3, Encoding::json, text);
-    writer.write(scene, session.revision, 3, Encoding::cbor, cbor);
-    const json one = fromJson(text), other = fromCbor(cbor);
-    require(one == other, "both encodings say the same:", one == other ? "" : json::diff(one, other).dump());
+    writer.write(scene, session.revision, 3, wire::Encoding::json, text);
+    const json one = fromJson(text);
+    for (const auto& [name, encoding] : wire::kEncodings) {
+        if (encoding == wire::Encoding::json) continue;
+        writer.write(scene, session.revision, 3, encoding, text);
+        const json other = fromBinary(wire::decoded(text, encoding));
+        require(one == other, "an encoding says the same as JSON:",
+                one == other ? "" : std::string(name) + " " + json::diff(one, other).dump());
+    }
     return 0;
 }

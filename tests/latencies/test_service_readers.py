@@ -4,7 +4,7 @@ import contextlib
 import random
 import time
 
-from test_readers import damaged_copy, from_cbor, png_state, read_damaged, write_messages
+from test_readers import READERS, damaged_copy, read_damaged, write_messages
 
 
 def processor_time(read, data):
@@ -22,7 +22,7 @@ async def test_the_python_client_reads_damaged_messages_fast(server, tmp_path):
     await write_messages(server, tmp_path)
     rng = random.Random(11)
     undamaged = damaged = 0
-    for read, kind in ((from_cbor, "cbor"), (png_state, "png")):
+    for kind, read in READERS.items():
         for file in sorted(tmp_path.glob(f"*.{kind}")):
             whole = file.read_bytes()
             undamaged = max(undamaged, processor_time(read, whole))

@@ -10,7 +10,9 @@ const kRounds = 400; // damaged copies of each file
 const kMaxArrayBytes = 256 * 1024 * 1024; // bytes in typed arrays, including garbage of earlier inputs
 
 globalThis.location = { pathname: "/", search: "", hash: "", href: "http://localhost/" };
-const { Arena, commandLines, decodeCbor, decodeText, pngText } = await import(pathToFileURL(join(folder, "readers.mjs")));
+const { Arena, commandLines, decodeBinary, decodeText, kBinaryKinds, pngText } = await import(
+    pathToFileURL(join(folder, "readers.mjs"))
+);
 
 // Mulberry32, a pseudorandom generator with a seed.
 let state = Number(seed);
@@ -58,7 +60,6 @@ function damagedCopy(bytes) {
 const arena = new Arena();
 const asText = (bytes) => Buffer.from(bytes).toString("latin1");
 const readers = {
-    cbor: (bytes) => decodeCbor(bytes, random(2) ? arena : undefined),
     json: (bytes) => decodeText(new TextDecoder().decode(bytes)),
     png: (bytes) => {
         const text = pngText(bytes);
@@ -71,6 +72,9 @@ const readers = {
         return lines;
     },
 };
+for (const [encoding, { read }] of Object.entries(kBinaryKinds)) {
+    if (read) readers[encoding] = (bytes) => decodeBinary(bytes, random(2) ? arena : undefined);
+}
 
 /** Reads an input; returns the result, which is null if it was refused. */
 function readOrRefuse(kind, bytes) {

@@ -6,7 +6,7 @@ from unittest.mock import ANY
 
 import pytest
 from harness import DEADLINE
-from wire import SUBPROTOCOL, Client, Refused, connect
+from wire import ENCODINGS, SUBPROTOCOL, Client, Refused, connect
 
 ALPHA = math.pi / 36
 
@@ -188,7 +188,7 @@ async def test_the_subprotocol_is_optional(server):
 IDS = ["0", "1", "1000000", "100000", "123456789012", "9007199254740992", "-1", "-1000000", "-9007199254740992", "1.5"]
 
 
-@pytest.mark.parametrize("encoding", ["json", "cbor"])
+@pytest.mark.parametrize("encoding", ENCODINGS)
 async def test_answers_repeat_the_id_of_the_request(server, encoding):
     async with connect(server) as socket:
         async def answer(request, id_):

@@ -1,7 +1,6 @@
 """4-D scalar fields that formulas define: their slices against closed forms, settings, pictures, storage."""
 
 import asyncio
-import json
 import math
 import sys
 from pathlib import Path
@@ -13,11 +12,10 @@ from harness import Server, run_oval4d
 from surfaces import (components_and_euler, ellipsoid_slice, field_client, lattice_step, load_field, random_rotation,
                       surface_centroid, surface_volume, tiger_slice)
 from test_geometry import volume as domain_volume
-from wire import Client, Refused
+from wire import BINARY_ENCODINGS, Client, Refused
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "protocol/python"))
 import oval4d_client  # noqa: E402
-from oval4d_client import from_cbor  # noqa: E402
 
 SIZE = {"width": 480, "height": 270}
 BALL = "x^2 + y^2 + z^2 + w^2 < 1"
@@ -224,22 +222,15 @@ async def test_surfaces_of_difficult_formulas_are_closed(server, formula):
 # --- Encodings
 
 
-class DecodingClient(Client):
-    """A client that decodes slices in CBOR to the form of JSON."""
-
-    @staticmethod
-    def decode(data):
-        return json.loads(data) if isinstance(data, str) else from_cbor(data)
-
-
+@pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
 @pytest.mark.parametrize("color", ["cell", "w", "growth"])
-async def test_slices_in_json_and_cbor_are_equal(server, color, monkeypatch):
+async def test_all_encodings_have_the_same_surfaces(server, color, encoding, monkeypatch):
     monkeypatch.setattr(oval4d_client, "numpy", None)
-    async with DecodingClient(server) as client:
+    async with Client(server) as client:
         await load_field(client, TIGER, TIGER_BOX)
         await client.request("set", orientation=random_rotation(1), color=color, levels=[0.1, 0], slices={"count": 5})
         text = await slices_of(client)
-        await client.request("hello", encoding="cbor")
+        await client.request("hello", encoding=encoding)
         packed = await slices_of(client)
         assert len(text["slices"]) == len(packed["slices"])
         for piece, own in zip(text["slices"], packed["slices"]):

@@ -9,18 +9,13 @@ import png
 import pytest
 from harness import Server
 from surfaces import field_client, load_field, random_rotation
-from wire import Client
+from wire import BINARY_ENCODINGS, ENCODINGS, Client
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "protocol/python"))
 import oval4d_client  # noqa: E402
 
 SIZE = {"width": 480, "height": 270}
 FOG = [{"value": -1, "opacity": 0.9}, {"value": 0, "opacity": 0.5, "color": 0xff8000}, {"value": 1, "opacity": 0}]
-
-
-def by_python_client(data):
-    """Decodes a message by the Python client. Not only the reply to a request arrives: a `state` may be in between."""
-    return oval4d_client.from_json(data) if isinstance(data, str) else oval4d_client.from_cbor(data)
 
 
 async def slices_of(client):
@@ -72,14 +67,14 @@ async def test_the_table_is_the_transfer_function(server):
         assert table[128] & 0xffffff == 0xff8000
 
 
-async def test_slices_in_json_and_cbor_have_the_same_fog(server, monkeypatch):
+@pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
+async def test_all_encodings_have_the_same_fog(server, encoding, monkeypatch):
     monkeypatch.setattr(oval4d_client, "numpy", None)
     async with Client(server) as client:
         await load_field(client, "sqrt(x) + y*z - w")  # without values where x < 0
         await client.request("set", fog=FOG, orientation=random_rotation(2), slices={"count": 5, "spacing": 1.5})
         text = await slices_of(client)
-        await client.request("hello", encoding="cbor")
-        client.decode = by_python_client
+        await client.request("hello", encoding=encoding)
         packed = await slices_of(client)
         assert list(packed["scene"]["fog"]["table"]) == text["scene"]["fog"]["table"]
         holes = []
@@ -103,8 +98,8 @@ async def test_the_python_client_has_the_lattices_as_arrays(server):
     async with Client(server) as client:
         await load_field(client, "x")
         await client.request("set", fog=[{"value": -2, "opacity": 0}, {"value": 2, "opacity": 1}])
-        client.decode = by_python_client
-        for encoding in ("json", "cbor"):
+        client.decode = oval4d_client.decode
+        for encoding in ENCODINGS:
             await client.request("hello", encoding=encoding)
             for piece in (await slices_of(client))["slices"]:
                 fog = piece["fog"]

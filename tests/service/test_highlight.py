@@ -2,7 +2,7 @@
 
 import png
 import pytest
-from wire import Client, Refused
+from wire import ENCODINGS, Client, Refused
 
 SIZE = {"width": 640, "height": 360}
 HIGHLIGHT = 0xff4fb8
@@ -63,18 +63,17 @@ async def test_wrong_lines_say_what_is_allowed(server, line, says):
             await client.request("command", line=line)
 
 
-@pytest.mark.parametrize("encoding", ["json", "cbor"])
+@pytest.mark.parametrize("encoding", ENCODINGS)
 async def test_the_geometry_tells_what_to_highlight(server, encoding):
     """Cell 5 of a tesseract: its 6 faces are cut to bars, its 12 edges are in the projection."""
     async with Client(server, stream="geometry", encoding=encoding) as client:
         done = await client.request("set", polytope="tesseract", projection="perspective", highlight={"element": "cell", "number": 5})
         slices = await client.wait_for_slices(done["revision"])
-        highlight = {name: list(getattr(list_, "value", list_)) for name, list_ in slices["highlight"].items()}
+        highlight = slices["highlight"]
         assert len(highlight["own_vertices"]) == 8
         assert len(highlight["edges"]) == 6 + 12 and len(highlight["vertices"]) == 0
         assert slices["scene"]["colors"]["highlight"] == HIGHLIGHT
-        if encoding == "json":
-            assert [color == HIGHLIGHT for color in slices["scene"]["colors"]["cells"]] == [False] * 5 + [True] + [False] * 2
+        assert [color == HIGHLIGHT for color in slices["scene"]["colors"]["cells"]] == [False] * 5 + [True] + [False] * 2
 
 
 @pytest.mark.parametrize("element", ["vertex", "edge", "face", "cell"])

@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 from harness import Server, is_sanitizer_build
-from wire import Client, connect
+from wire import ENCODINGS, Client, connect
 
 LARGEST = "omnitruncated 120-cell"
 NOISE = 8_000_000  # bytes; memory that a burst did not free would be several times as much
@@ -34,7 +34,7 @@ async def wait_for_memory_below(server, most):
 @pytest.mark.skipif(is_sanitizer_build(), reason="sanitizers keep what is freed")
 async def test_memory_is_freed_after_a_burst():
     with Server("--session-expiry", 1) as server:
-        streams = [{"stream": "frames"}, {"stream": "geometry"}, {"stream": "geometry", "encoding": "cbor"}]
+        streams = [{"stream": "frames"}, *({"stream": "geometry", "encoding": encoding} for encoding in ENCODINGS)]
         before = await reference_picture(server)
         for hello in streams:
             await receive_pictures(server, "5-cell", 3, **hello)

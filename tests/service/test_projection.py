@@ -1,4 +1,4 @@
-"""The projection of the whole object: settings, both encodings of the geometry, and frames."""
+"""The projection of the whole object: settings, geometry, and frames."""
 
 import math
 

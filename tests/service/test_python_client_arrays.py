@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from harness import DEADLINE
+from wire import BINARY_ENCODINGS, ENCODINGS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "protocol/python"))
 import oval4d_client  # noqa: E402
@@ -20,8 +21,8 @@ def without_typed_arrays(value):
     return [without_typed_arrays(item) for item in value] if isinstance(value, list) else value
 
 
-def cbor_slices_as_json(message):
-    """Converts a decoded CBOR `slices` message to the form of the JSON message."""
+def binary_slices_as_json(message):
+    """Converts a decoded binary `slices` message to the form of the JSON message."""
     def groups(flat, size):
         return [list(group) for group in zip(*[iter(flat)] * size)]
 
@@ -59,6 +60,7 @@ def assert_approximately_equal(got, expected):
 FIELD = "formula x^2 + y^2 - z^2 < w"
 
 
+@pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
 @pytest.mark.parametrize("lines", [
     ["polytope 5-cell"],
     ["polytope 8-cell"],                                              # whole cells in hyperplanes: `tints`
@@ -71,24 +73,25 @@ FIELD = "formula x^2 + y^2 - z^2 < w"
     [FIELD, "rotate xw 0.3", "color growth"],
     [FIELD, "rotate xw 0.3", "color w"],
 ])
-def test_cbor_and_json_slices_are_equal(server, lines):
+def test_all_encodings_have_the_same_slices(server, lines, encoding):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         for line in lines:
             oval.command(line)
         text = oval.slices()
-        oval.hello(encoding="cbor")
+        oval.hello(encoding=encoding)
         packed = oval.slices()
     assert packed.pop("id") > text.pop("id")
-    assert_approximately_equal(cbor_slices_as_json(packed), without_typed_arrays(text))
+    assert_approximately_equal(binary_slices_as_json(packed), without_typed_arrays(text))
     kinds = {kind for piece in text["slices"] for kind in ("tints", "seen", "fill", "surface") if kind in piece}
     assert kinds == {"polytope 8-cell": {"tints"}, "polytope truncated tesseract": {"seen"},
                      "polytope grand 600-cell": {"fill"}, FIELD: {"surface"}}.get(lines[0], set())
 
 
-def test_cbor_arrays_have_the_documented_types(server):
+@pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
+def test_binary_arrays_have_the_documented_types(server, encoding):
     with connect(server.url, timeout=DEADLINE) as oval:
-        oval.hello("geometry", encoding="cbor")
+        oval.hello("geometry", encoding=encoding)
         oval.wait(0)
         focus = oval.newest_slices["slices"][10]
         assert focus["focus"]
@@ -100,7 +103,7 @@ def test_cbor_arrays_have_the_documented_types(server):
 BALL = "x^2 + y^2 + z^2 + w^2 < a; a=1"
 
 
-@pytest.mark.parametrize("encoding", ["json", "cbor"])
+@pytest.mark.parametrize("encoding", ENCODINGS)
 @pytest.mark.parametrize("with_numpy", [True, False])
 def test_surfaces_are_numpy_arrays_or_lists(server, monkeypatch, encoding, with_numpy):
     numpy = pytest.importorskip("numpy") if with_numpy else None

@@ -9,11 +9,14 @@ from pathlib import Path
 
 import pytest
 from harness import DEADLINE
-from wire import connect
+from wire import BINARY_ENCODINGS, ENCODINGS, connect
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol/python"))
-from oval4d_client import from_cbor, png_state  # noqa: E402
+from oval4d_client import BINARY_KINDS, png_state  # noqa: E402
+
+# The functions of the Python client that read binary data, by the suffixes of the files that write_messages() writes.
+READERS = {encoding: BINARY_KINDS[encoding][1] for encoding in BINARY_ENCODINGS} | {"png": png_state}
 
 # States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density
 # strip, surfaces of a field.
@@ -47,13 +50,13 @@ def message_folder(tmp_path_factory):
 
 
 async def write_messages(server, folder):
-    if any(folder.glob("*.cbor")):
+    if any(folder.glob("*.json")):
         return
     for number, lines in enumerate(STATES):
-        cbor, frame = await slices_and_frame(server, lines, "cbor")
-        text, _ = await slices_and_frame(server, lines, "json")
-        for kind, data in (("cbor", cbor), ("json", text), ("png", frame)):
-            (folder / f"{number}.{kind}").write_bytes(data)
+        for encoding in ENCODINGS:
+            slices, frame = await slices_and_frame(server, lines, encoding)
+            (folder / f"{number}.{encoding}").write_bytes(slices)
+        (folder / f"{number}.png").write_bytes(frame)
     (folder / "query.link").write_text("?polytope=24-cell&rotate=xw,yz:pi/8,0.2&slices=31&view=%C3%B6&token=x%20y")
 
 
@@ -83,7 +86,7 @@ async def test_the_python_client_reads_or_refuses_damaged_messages(server, messa
     await write_messages(server, message_folder)
     rng = random.Random(11)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    for read, kind in ((from_cbor, "cbor"), (png_state, "png")):
+    for kind, read in READERS.items():
         refused = 0
         for file in sorted(message_folder.glob(f"*.{kind}")):
             whole = file.read_bytes()
@@ -104,7 +107,7 @@ async def test_the_python_client_reads_or_refuses_damaged_messages(server, messa
                                   b"\xc4\x82\x1b" + b"\x7f" * 8 + b"\x01", b"\xa1\x66slices\xa0",
                                   b"\xa1\x66slices\xa1\x66counts\xf6"])
 def test_the_python_client_refuses_invalid_data_with_value_error(data):
-    for read in (from_cbor, png_state):
+    for read in READERS.values():
         with pytest.raises(ValueError):
             read(data)
     text = b"[" * 50_000
@@ -116,8 +119,8 @@ def test_the_python_client_refuses_invalid_data_with_value_error(data):
 async def test_the_typescript_client_reads_or_refuses_damaged_messages(server, message_folder):
     await write_messages(server, message_folder)
     counts = read_damaged(message_folder)
-    assert set(counts) == {"cbor", "json", "png", "link"}
-    assert counts["cbor"]["refused"] > 200 and counts["json"]["refused"] > 200 and counts["link"]["refused"] == 0
+    assert set(counts) == {*ENCODINGS, "png", "link"}
+    assert all(counts[encoding]["refused"] > 200 for encoding in ENCODINGS) and counts["link"]["refused"] == 0
 
 
 def read_damaged(message_folder):

@@ -3,13 +3,21 @@
 import asyncio
 import itertools
 import json
+import sys
+from pathlib import Path
 
-import cbor2
 import websockets
 from harness import DEADLINE
 from schemas import answer_type, compare_with_schema, shape
 
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "protocol/python"))
+import oval4d_client  # noqa: E402
+
 SUBPROTOCOL = "oval4d.v1"
+_HELLO = json.loads((ROOT / "protocol/schema/hello.schema.json").read_text(encoding="utf-8"))
+ENCODINGS = _HELLO["properties"]["encoding"]["enum"]  # of slices
+BINARY_ENCODINGS = [encoding for encoding in ENCODINGS if encoding != "json"]
 
 
 def connect(server, session="", **keywords):
@@ -90,9 +98,8 @@ class Client:
 
     @staticmethod
     def decode(data):
-        if isinstance(data, str):
-            return json.loads(data)
-        return cbor2.loads(data) if 0xa0 <= data[0] < 0xc0 else data  # a CBOR map; other bytes are a frame or a file
+        """Returns JSON as it is, and binary messages as the Python client decodes them."""
+        return json.loads(data) if isinstance(data, str) else oval4d_client.decode(data)
 
     @staticmethod
     def is_picture(message):

@@ -6,6 +6,7 @@
 
 #include "scene/composer.hpp"
 #include "slicing/slicer.hpp"
+#include "unit/wire/decoded.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/slices_message.hpp"
 
@@ -49,6 +50,18 @@ std::string messageOf(const Picture& picture, Encoding encoding, double id = 3) 
     std::string out = "what was there before";
     SlicesMessageWriter().write(picture.scene, 7, id, encoding, out);
     return out;
+}
+
+json decodedMessageOf(const Picture& picture, Encoding encoding, double id = 3) {
+    return decoded(messageOf(picture, encoding, id), encoding);
+}
+
+std::vector<Encoding> binaryEncodings() {
+    std::vector<Encoding> encodings;
+    for (const auto& choice : kEncodings) {
+        if (choice.value != Encoding::json) encodings.push_back(choice.value);
+    }
+    return encodings;
 }
 
 void expectPoint(const json& point, const double* expected, std::size_t size) {
@@ -155,10 +168,11 @@ TEST(SlicesMessage, HasTheDensityOfManyVertices) {
     }
     EXPECT_EQ(pixels, many.scene.plotTones);
 
-    const json cbor =
-        json::from_cbor(messageOf(many, Encoding::cbor), true, true, json::cbor_tag_handler_t::store).at("density");
-    EXPECT_EQ(cbor.get_binary().subtype(), 64U);
-    EXPECT_EQ(std::vector<std::uint8_t>(cbor.get_binary()), pixels);
+    for (const Encoding encoding : binaryEncodings()) {
+        const json density = decodedMessageOf(many, encoding).at("density");
+        EXPECT_EQ(density.get_binary().subtype(), 64U);
+        EXPECT_EQ(std::vector<std::uint8_t>(density.get_binary()), pixels);
+    }
 
     const json hidden = fitting(messageOf(pictureOf({"polytope 120-cell", "set coordinates=off"}), Encoding::json));
     EXPECT_FALSE(hidden.contains("density"));
@@ -186,10 +200,12 @@ TEST(SlicesMessage, HasTheHistogramOfAField) {
     ASSERT_EQ(histogram.at("levels").size(), 2U);
     EXPECT_EQ(histogram.at("levels")[1].at("value"), 1);
 
-    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
-    EXPECT_EQ(std::vector<std::uint8_t>(cbor.at("density").get_binary()), tones);
-    EXPECT_EQ(cbor.at("histogram"), histogram);
-    EXPECT_FALSE(cbor.contains("coordinates"));
+    for (const Encoding encoding : binaryEncodings()) {
+        const json binary = decodedMessageOf(picture, encoding);
+        EXPECT_EQ(std::vector<std::uint8_t>(binary.at("density").get_binary()), tones);
+        EXPECT_EQ(binary.at("histogram"), histogram);
+        EXPECT_FALSE(binary.contains("coordinates"));
+    }
 
     std::vector<std::string> without = lines;
     without.emplace_back("set coordinates=off");
@@ -231,10 +247,11 @@ TEST(SlicesMessage, HasTheFogOfAField) {
         values.insert(values.end(), own.begin(), own.end());
     }
     EXPECT_GT(foggy, 5U);
-    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
-    const json& columns = cbor.at("slices").at("fog");
-    EXPECT_EQ(std::vector<std::uint8_t>(columns.at("values").get_binary()), values);
-    EXPECT_EQ(columns.at("size").get_binary().size(), sizes.size()) << "a byte each";
+    for (const Encoding encoding : binaryEncodings()) {
+        const json columns = decodedMessageOf(picture, encoding).at("slices").at("fog");
+        EXPECT_EQ(std::vector<std::uint8_t>(columns.at("values").get_binary()), values);
+        EXPECT_EQ(columns.at("size").get_binary().size(), sizes.size()) << "a byte each";
+    }
     const json none = fitting(messageOf(pictureOf({"formula x^2+y^2+z^2 < 0.1 + w^2"}), Encoding::json));
     EXPECT_FALSE(none.at("scene").contains("fog"));
     EXPECT_FALSE(none.at("slices")[10].contains("fog"));
@@ -248,9 +265,11 @@ TEST(SlicesMessage, EmptySlicesAreEmptyLists) {
         EXPECT_EQ(slice.at("vertices"), json::array());
         EXPECT_EQ(slice.at("faces"), json::array());
     }
-    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
-    EXPECT_TRUE(cbor.at("slices").at("vertices").get_binary().empty());
-    EXPECT_EQ(cbor.at("slices").at("index").size(), 21U);
+    for (const Encoding encoding : binaryEncodings()) {
+        const json columns = decodedMessageOf(picture, encoding).at("slices");
+        EXPECT_TRUE(columns.at("vertices").get_binary().empty());
+        EXPECT_EQ(columns.at("index").size(), 21U);
+    }
 }
 
 TEST(SlicesMessage, ReusesItsMemory) {
@@ -277,16 +296,16 @@ TEST(SlicesMessage, DoesNotDependOnTheMessagesBefore) {
     SlicesMessageWriter writer;
     for (int round = 0; round < 2; ++round) {
         for (const Picture& picture : pictures) {
-            for (const Encoding encoding : {Encoding::json, Encoding::cbor}) {
+            for (const auto& [name, encoding] : kEncodings) {
                 std::string out;
                 writer.write(picture.scene, 7, 3, encoding, out);
-                ASSERT_EQ(out, messageOf(picture, encoding));
+                ASSERT_EQ(out, messageOf(picture, encoding)) << name;
             }
         }
     }
 }
 
-// Returns the numbers of a typed array (RFC 8746).
+// Returns the numbers of a typed array.
 template <typename T>
 json numbersOf(const json& typed, std::uint64_t tag) {
     const auto& bytes = typed.get_binary();
@@ -335,7 +354,7 @@ class Reader {
 
 constexpr std::uint64_t kFloat32 = 85, kFloat64 = 86;
 
-// Converts the slices of a CBOR message to the form of the JSON message.
+// Converts the slices of a binary message to the form of the JSON message.
 json slicesOf(const json& columns) {
     const auto floats = [&](const char* name) { return numbersOf<float>(columns.at(name), kFloat32); };
     const auto ofEach = [&](const char* name, const char* kind) { return integersOf(columns.at(name).at(kind)); };
@@ -368,30 +387,37 @@ json slicesOf(const json& columns) {
     return slices;
 }
 
-TEST(SlicesMessage, CborSaysTheSame) {
+// Returns a decoded binary message in the form of the JSON message. `vertices` is the number of the polytope's
+// vertices.
+json asJson(json message, std::size_t vertices) {
+    Reader coordinates(numbersOf<float>(message.at("coordinates"), kFloat32));
+    message["coordinates"] = coordinates.rows(vertices, 4);
+    if (message.contains("density")) {
+        Reader density(numbersOf<std::uint8_t>(message.at("density"), 64));
+        message["density"] = density.rows(scene::DensityPlot::kRows, scene::DensityPlot::kColumns);
+    }
+    message["scene"]["colors"]["cells"] = integersOf(message.at("scene").at("colors").at("cells"));
+    message["slices"] = slicesOf(message.at("slices"));
+    return message;
+}
+
+TEST(SlicesMessage, AllEncodingsSayTheSame) {
     for (const char* name : {"5-cell", "8-cell", "120-cell"}) {
         // Unrotated, so that the message has tints.
         const Picture picture = pictureOf({std::string("polytope ") + name});
-        const std::string cbor = messageOf(picture, Encoding::cbor);
-        json message = json::from_cbor(cbor, true, true, json::cbor_tag_handler_t::store);
-        Reader coordinates(numbersOf<float>(message.at("coordinates"), kFloat32));
-        message["coordinates"] = coordinates.rows(picture.slices.rotatedVertices.size(), 4);
-        if (message.contains("density")) {
-            Reader density(numbersOf<std::uint8_t>(message.at("density"), 64));
-            message["density"] = density.rows(scene::DensityPlot::kRows, scene::DensityPlot::kColumns);
-        }
-        message["scene"]["colors"]["cells"] = integersOf(message.at("scene").at("colors").at("cells"));
-        message["slices"] = slicesOf(message.at("slices"));
-        fitting(message.dump());
-        expectSlices(message.at("slices"), picture);
         const json plain = json::parse(messageOf(picture, Encoding::json));
-        EXPECT_EQ(message.at("scene"), plain.at("scene"));
-        for (std::size_t i = 0; i < plain.at("slices").size(); ++i) {
-            const json& slice = plain.at("slices").at(i);
-            const json& other = message.at("slices").at(i);
-            EXPECT_EQ(other.at("label_size"), slice.at("label_size"));
-            EXPECT_EQ(other.value("tints", other.at("of").at("faces")),
-                      slice.value("tints", other.at("of").at("faces")));
+        for (const Encoding encoding : binaryEncodings()) {
+            const json message = asJson(decodedMessageOf(picture, encoding), picture.slices.rotatedVertices.size());
+            fitting(message.dump());
+            expectSlices(message.at("slices"), picture);
+            EXPECT_EQ(message.at("scene"), plain.at("scene"));
+            for (std::size_t i = 0; i < plain.at("slices").size(); ++i) {
+                const json& slice = plain.at("slices").at(i);
+                const json& other = message.at("slices").at(i);
+                EXPECT_EQ(other.at("label_size"), slice.at("label_size"));
+                EXPECT_EQ(other.value("tints", other.at("of").at("faces")),
+                          slice.value("tints", other.at("of").at("faces")));
+            }
         }
     }
 }
@@ -402,16 +428,15 @@ TEST(SlicesMessage, GivesIdsBackAsTheyWere) {
         const auto integer = static_cast<std::int64_t>(whole);
         const std::string plain = messageOf(picture, Encoding::json, whole);
         EXPECT_NE(plain.find("\"id\":" + std::to_string(integer) + ','), std::string::npos) << plain.substr(0, 80);
-        const json id =
-            json::from_cbor(messageOf(picture, Encoding::cbor, whole), true, true, json::cbor_tag_handler_t::ignore)
-                .at("id");
-        EXPECT_TRUE(id.is_number_integer()) << id;
-        EXPECT_EQ(id.get<std::int64_t>(), integer);
+        for (const auto& [name, encoding] : kEncodings) {
+            const json id = decodedMessageOf(picture, encoding, whole).at("id");
+            EXPECT_TRUE(id.is_number_integer()) << name << ' ' << id;
+            EXPECT_EQ(id.get<std::int64_t>(), integer) << name;
+        }
     }
     EXPECT_NE(messageOf(picture, Encoding::json, 1.5).find(R"("id":1.5,)"), std::string::npos);
-    EXPECT_EQ(
-        json::from_cbor(messageOf(picture, Encoding::cbor, 1.5), true, true, json::cbor_tag_handler_t::ignore).at("id"),
-        1.5);
+    for (const auto& [name, encoding] : kEncodings)
+        EXPECT_EQ(decodedMessageOf(picture, encoding, 1.5).at("id"), 1.5) << name;
 }
 
 TEST(SlicesMessage, CborIsShorter) {

@@ -1,0 +1,76 @@
+#pragma once
+// The interface of the writers of binary encodings. It chooses how arrays of numbers are written.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "wire/arrays.hpp"
+
+namespace oval4d::wire {
+
+/// The types of the numbers in a typed array. Their values are the tags of such arrays in CBOR, little-endian (RFC
+/// 8746, section 2.1).
+enum class ArrayType : std::uint8_t { uint8 = 64, uint16 = 69, uint32 = 70, float32 = 85, float64 = 86 };
+
+/// Writes a message in a binary encoding. JsonWriter has functions of the same names, so that one template can write a
+/// message in any encoding.
+class BinaryWriter {
+  public:
+    virtual void beginObject() = 0;
+    virtual void endObject() = 0;
+    virtual void beginArray() = 0;
+    virtual void endArray() = 0;
+    virtual void key(std::string_view name) = 0;
+
+    virtual void value(double number) = 0;
+    virtual void value(std::uint64_t number) = 0;
+    virtual void value(std::int64_t number) = 0;
+    virtual void value(bool flag) = 0;
+    virtual void value(std::string_view text) = 0;
+    void value(std::uint32_t number) { value(std::uint64_t{number}); }
+    void value(int number) { value(std::int64_t{number}); }
+    void value(const char* text) { value(std::string_view(text)); }
+    void id(double number);  ///< writes an integer within ±2^53 as an integer, other numbers like value()
+    /// Appends the members of an object that another writer of the same class has written.
+    virtual void membersOf(std::string_view object) = 0;
+
+    template <typename T>
+    void member(std::string_view name, const T& content) {
+        key(name);
+        value(content);
+    }
+
+    // Typed arrays. doubles() writes double precision; vectors() and floatsForPictures() write single precision, to
+    // which vectors() rounds doubles; pairs(), triples() and numbers() write integers of 8, 16 or 32 bits, the smallest
+    // size that fits all numbers of the array. Vectors, pairs and triples are flattened.
+    void doubles(std::span<const double> list);
+    void vectors(std::span<const glm::vec3> list);
+    void vectors(std::span<const glm::dvec3> list);
+    void vectors(std::span<const glm::dvec4> list);
+    void pairs(std::span<const Pair> list);
+    void triples(std::span<const Triple> list);
+    void numbers(std::span<const std::uint32_t> list);
+    void floatsForPictures(std::span<const float> list);  ///< does not round the numbers; only JsonWriter does
+    void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row
+
+  protected:
+    ~BinaryWriter() = default;
+
+  private:
+    /// Begins a typed array whose numbers take `bytes` bytes. Returns where these are to be written, little-endian.
+    virtual char* beginTypedArray(ArrayType type, std::size_t bytes) = 0;
+
+    template <typename Number>
+    void copyNumbers(ArrayType type, std::span<const Number> list);
+    template <typename Integer>
+    void integersAs(ArrayType type, std::span<const std::uint32_t> list);
+    template <typename V>
+    void floatVectors(std::span<const V> list);
+};
+
+}  // namespace oval4d::wire
