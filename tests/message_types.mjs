@@ -38,7 +38,7 @@ function convert(schema) {
     return converted.get(schema);
 }
 
-function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, "x-answer": answer, ...schema }) {
+function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, "x-answer": answer, examples, ...schema }) {
     const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, default: initially, ...keywords } = schema;
     if ($ref !== undefined) return refer(find($ref), { ...schema, $ref: undefined });
     // Links of the documents lead nowhere in a comment.

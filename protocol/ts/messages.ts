@@ -908,6 +908,22 @@ export interface KeyBinding {
     text: string;
     label: string;
     /**
+     * The quantity that the key decreases. Another key of the group increases it; the page shows the two as one control with this name.
+     */
+    decreases?: string;
+    /**
+     * The quantity that the key increases.
+     */
+    increases?: string;
+    /**
+     * Whether the action is repeated while the button is held down.
+     */
+    repeats?: boolean;
+    /**
+     * The setting that is not off when the key has a visible effect; otherwise its button is disabled.
+     */
+    needs?: "projection";
+    /**
      * The client handles this key itself; the server refuses it.
      */
     client?: boolean;

@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "geometry/range.hpp"
+
 namespace oval4d::geometry {
 
 /// Returns the Galilean transformation r' = r − v w, w' = w, where r is (x, y, z). After it, an object that had the
@@ -24,9 +26,13 @@ glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 /// time into `pace` units of length; and the Lorentz boost with the velocity `boost`. The default frame maps every
 /// point to itself.
 struct ReferenceFrame {
-    double pace = 1;       ///< greater than 0
+    static constexpr Range kPaceRange{1e-3, 1e3};
+    static constexpr Range kFollowRange{-1000, 1000};  ///< of each component of `follow`
+    static constexpr double kMaxBoost = 0.999;         ///< the greatest length of `boost`
+
+    double pace = 1;
     glm::dvec3 follow{0};  ///< in units of x, y and z per unit of w, before `pace` scales w
-    glm::dvec3 boost{0};   ///< |boost| < 1; the speed of light is 1, after `pace` has scaled w
+    glm::dvec3 boost{0};   ///< the speed of light is 1, after `pace` has scaled w
 
     /// Returns the linear map M from the object's own coordinates to those of this frame. Its determinant is `pace`.
     glm::dmat4 matrix() const;

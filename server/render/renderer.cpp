@@ -64,8 +64,8 @@ bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 /// Returns a rectangle of the picture that contains the projection of the whole object.
 PixelArea areaOfProjection(const scene::Scene& scene) {
     const glm::ivec2 size(scene.viewport.width, scene.viewport.height);
-    const auto& [shown, position, radius] = scene.projectionPlacement;
-    const glm::dvec3 center(scene.camera.view() * glm::dvec4(position, 1));
+    const double radius = scene.projectionPlacement.radius;
+    const glm::dvec3 center(scene.camera.view() * glm::dvec4(scene.projectionPlacement.position, 1));
     const double nearest = -center.z - radius;  // the distance of the nearest point from the eye, along the view axis
     if (nearest <= 0) return {{0, 0}, size};
     const Projection projection = Projection::of(scene.camera, scene.viewport);

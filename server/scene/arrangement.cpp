@@ -73,7 +73,7 @@ ProjectionPlacement aboveRow(double halfWidth, double reach, double aspect) {
 
 // The switches over the views have no default, so that a view without a case does not compile.
 
-Arrangement arrangementOf(View view, int count, double ballRadius, double aspect) {
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect) {
     Arrangement made;
     switch (view) {
         case View::oval:
@@ -87,10 +87,10 @@ Arrangement arrangementOf(View view, int count, double ballRadius, double aspect
             made.showsMatrix = true;
             break;
         case View::strip:
-            made = rowOf(count, 1 + ballRadius);
+            made = rowOf(count, 1 + relativeBall);
             break;
     }
-    made.reach = made.sliceRadius * (1 + ballRadius);
+    made.reach = made.sliceRadius * (1 + relativeBall);
     return made;
 }
 

@@ -45,9 +45,9 @@ struct Arrangement {
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
-/// Returns how a view arranges this number of slices in a picture with this aspect ratio. `ballRadius`: the radius of
+/// Returns how a view arranges this number of slices in a picture with this aspect ratio. `relativeBall`: the radius of
 /// balls as a fraction of the slice radius.
-Arrangement arrangementOf(View view, int count, double ballRadius, double aspect);
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect);
 
 /// Places the projection of the whole object beside the slices of a view. `aspect`: that of the room for the slices and
 /// the projection. If the view has the projection between its slices, which projectionInside() places, the result is

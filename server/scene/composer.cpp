@@ -1,7 +1,6 @@
 #include "scene/composer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -33,7 +32,7 @@ void Composer::setObject(const Object& object, const Look& look, Viewport viewpo
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;
     object_ = info.serial;
-    if (objectChanged_) ballRadius_ = slicing::relativeBallRadius(object);
+    if (objectChanged_) relativeBallRadius_ = slicing::relativeBallRadius(object);
     out.title = info.name;
     out.circumradius = info.circumradius;
     out.look = look;
@@ -91,9 +90,6 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
-    out.ballRadius = ballRadius_ * out.sliceRadius;
-    out.barRadius = 0.4 * out.ballRadius;
-
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
     if (out.matrix.shown) cutMatrix(object, orientation, focus, out);
 
@@ -157,21 +153,18 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
     input.planes = planes;
     input.focus = focus;
     input.content = {slicing::elementCounts(object)[0], slicing::fieldIn(object) != nullptr,
-                     slicing::infoOf(object).originInFile.w};
-    input.ballRadius = ballRadius_;
+                     slicing::infoOf(object).originInFile.w, relativeBallRadius_};
     input.look = out.look;
     input.viewport = out.viewport;
     if (laidOutIn_ == &out && laidOut_ == input) return;
-    layOut(input.planes, focus, input.content, ballRadius_, out.look, out.viewport, input.focusName, out);
+    layOut(input.planes, focus, input.content, out.look, out.viewport, input.focusName, out);
     laidOut_ = input;
     laidOutIn_ = &out;
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
-    // The projection has many more bars in less room than a slice, so its balls and bars are thinner, by the factor
-    // kThickness. kSection and kThinSection: the radius of the bars of the focus slice's section, and of other
-    // sections, relative to the bars of the object.
-    constexpr double kThickness = 0.55, kSection = 1.2, kThinSection = 0.4;
+    // The radius of the bars of the focus slice's section, and of other sections, relative to the bars of the object.
+    constexpr double kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
     const bool perspective = look.projection.kind == ProjectionKind::perspective;
@@ -186,11 +179,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
 
-    // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
-    const double magnification = perspective ? eye / std::sqrt(eye * eye - 1) : 1;
-    const double radius = out.projectionPlacement.radius / (magnification + kThickness * ballRadius_);
-    projection.scale = radius / out.circumradius;
-    const double ball = kThickness * ballRadius_ * radius, bar = 0.4 * ball;
+    projection.scale = out.projectionPlacement.objectRadius / out.circumradius;
+    const double ball = out.projectionPlacement.ballRadius, bar = out.projectionPlacement.barRadius;
     const Style& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
@@ -199,11 +189,11 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                 look.parts.balls ? styles.ball : styles.bar, styles.bar, 0.25});
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
         const bool isFocus = i == focusSlice;
-        const double thickness = (isFocus ? kSection : kThinSection) * bar;
+        const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
         const bool filled = isFocus && look.parts.faces && !out.facesMayCross;
         const bool points = !slices.ballScale.empty();
-        projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});
+        projection.parts.push_back({points ? 1.02 * ball : sectionBar, sectionBar, color, color, filled ? 0.5 : 0});
     }
 }
 

@@ -49,7 +49,6 @@ class Composer {
         geometry::Hyperplanes planes;
         int focus = 0;
         LayoutContent content;
-        double ballRadius = 0;
         Look look;
         Viewport viewport;
         std::string focusName;
@@ -70,9 +69,9 @@ class Composer {
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     CellPainter cellPainter_;
     slicing::FaceFiller filler_;
-    std::uint64_t object_ = 0;    // the serial number of the object of the last call
-    bool objectChanged_ = false;  // whether the object has changed since the last call of compose()
-    double ballRadius_ = 0;       // the ball radius of the object of the last call, as a fraction of the slice radius
+    std::uint64_t object_ = 0;       // the serial number of the object of the last call
+    bool objectChanged_ = false;     // whether the object has changed since the last call of compose()
+    double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of the object of the last call
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;

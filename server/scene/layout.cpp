@@ -21,6 +21,8 @@ namespace oval4d::scene {
 
 namespace {
 
+constexpr double kBarPerBall = 0.4;  // the radius of bars as a fraction of that of balls
+
 // A circle on the plane at distance 1 from the eye.
 struct Circle {
     glm::dvec2 center;
@@ -52,6 +54,20 @@ Rect boundsOf(const std::vector<Circle>& circles) {
                   std::min(bounds.bottom, center.y - radius), std::max(bounds.top, center.y + radius)};
     }
     return bounds;
+}
+
+// Sets the radii of the object, its balls and its bars, so that the projection with its balls fits into the sphere of
+// `placement`. `relativeBall`: the radius of the balls of slices, as a fraction of the slice radius.
+void setRadii(const ProjectionSettings& projection, double relativeBall, ProjectionPlacement& placement) {
+    // The projection has many more bars in less room than a slice, so its balls and bars are thinner by this factor.
+    constexpr double kThinner = 0.55;
+    // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
+    const double eye = projection.eye;
+    const double magnification = projection.kind == ProjectionKind::perspective ? eye / std::sqrt(eye * eye - 1) : 1;
+    const double thinBall = kThinner * relativeBall;
+    placement.objectRadius = placement.radius / (magnification + thinBall);
+    placement.ballRadius = thinBall * placement.objectRadius;
+    placement.barRadius = kBarPerBall * placement.ballRadius;
 }
 
 // Returns the greatest magnification at which `bounds` fits into `room`.
@@ -149,7 +165,7 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
 }
 
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
-MatrixLayout placeMatrix(Rect& room, double ballRadius) {
+MatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
     const bool wide = width > height;
@@ -159,7 +175,7 @@ MatrixLayout placeMatrix(Rect& room, double ballRadius) {
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
     // Objects with many elements have small balls and sections with many points. So these points are small, too.
-    matrix.pointRadius = std::min(ballRadius * matrix.panel, 0.0042);
+    matrix.pointRadius = std::min(relativeBall * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {
         room.right -= side + kGap;
@@ -186,16 +202,19 @@ std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) co
     return found;
 }
 
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, double ballRadius,
-            const Look& look, Viewport viewport, std::string_view focusName, Layout& out) {
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, const Look& look,
+            Viewport viewport, std::string_view focusName, Layout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
-    const Arrangement arrangement = arrangementOf(look.view, planes.count, ballRadius, aspect);
-    out.matrix = arrangement.showsMatrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
+    const double relativeBall = content.relativeBallRadius;  // all radii of balls and bars are proportional to it
+    const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect);
+    out.matrix = arrangement.showsMatrix ? placeMatrix(room, relativeBall) : MatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
+    out.ballRadius = relativeBall * out.sliceRadius;
+    out.barRadius = kBarPerBall * out.ballRadius;
     const int decimals = labelDecimals(planes);
     placeSlices(planes, focus, content.originW, decimals, arrangement, look, out.placements);
     aim(look.orbit, arrangement, out.camera);
@@ -219,6 +238,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
         projection = projectionInside(arrangement, out.placements, top);
     }
+    if (projected) setRadii(look.projection, relativeBall, projection);
     fit(bounds, inside, aspect, look.orbit.zoom, out.camera);
     labels.place(out.camera);
     if (look.parts.labels) {

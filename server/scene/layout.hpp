@@ -72,11 +72,13 @@ struct AxesLayout {
     bool operator==(const AxesLayout&) const = default;
 };
 
-/// The placement of the projection of the whole object.
+/// The placement of the projection of the whole object. Radii are in world units.
 struct ProjectionPlacement {
     bool shown = false;
-    glm::dvec3 position{0};  ///< the center of the projection, in world space
-    double radius = 1;       ///< the radius of a sphere that contains the projection, in world units
+    glm::dvec3 position{0};   ///< the center of the projection, in world space
+    double radius = 1;        ///< of a sphere that contains the projection with its balls
+    double objectRadius = 1;  ///< of the object's circumscribed sphere, before the perspective magnifies it
+    double ballRadius = 0, barRadius = 0;  ///< of the balls and bars of the whole object
     bool operator==(const ProjectionPlacement&) const = default;
 };
 
@@ -113,7 +115,8 @@ struct MatrixLayout {
 /// The layout of a whole picture.
 struct Layout {
     Camera camera;
-    double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere, in world units
+    double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere in slices, in world units
+    double ballRadius = 0, barRadius = 0;  ///< of the balls and bars of slices, in world units
     std::vector<SlicePlacement> placements;
     ProjectionPlacement projectionPlacement;
     CoordinatesLayout coordinates;
@@ -121,18 +124,20 @@ struct Layout {
     MatrixLayout matrix;
 };
 
-/// The properties of an object that determine the layout of its parallel coordinates and the labels of its slices.
+/// The properties of an object that determine the layout.
 struct LayoutContent {
     std::size_t vertices = 0;
     bool isField = false;
-    double originW = 0;  ///< the w of geometry::ObjectInfo::originInFile
+    double originW = 0;             ///< the w of geometry::ObjectInfo::originInFile
+    double relativeBallRadius = 0;  ///< slicing::relativeBallRadius(): the radius of balls as a fraction of the radius
+                                    ///< of the object's circumscribed sphere
     bool operator==(const LayoutContent&) const = default;
 };
 
 /// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice;
-/// `ballRadius` is the radius of balls as a fraction of the slice radius; `focusName` is the text that follows w in the
-/// focus slice's label, if there is room for it. Overwrites `out` and reuses its memory.
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, double ballRadius,
-            const Look& look, Viewport viewport, std::string_view focusName, Layout& out);
+/// `focusName` is the text that follows w in the focus slice's label, if there is room for it. Overwrites `out` and
+/// reuses its memory.
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, const Look& look,
+            Viewport viewport, std::string_view focusName, Layout& out);
 
 }  // namespace oval4d::scene

@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "geometry/range.hpp"
 #include "scene/background.hpp"
 #include "scene/parts.hpp"
 #include "slicing/element.hpp"
@@ -88,8 +89,10 @@ constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKin
 
 /// How the whole object is projected.
 struct ProjectionSettings {
+    static constexpr geometry::Range kEyeRange{1.05, 1000};  ///< greater than 1
+
     ProjectionKind kind = ProjectionKind::off;
-    double eye = 3;  ///< perspective: the w coordinate of the 4-D eye, in circumradii; greater than 1
+    double eye = 3;  ///< perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange
     bool operator==(const ProjectionSettings&) const = default;
 };
 
@@ -103,6 +106,9 @@ struct CellTypeFilter {
 /// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; positive
 /// values move it to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
+    static constexpr geometry::Range kAngleRange{-1000, 1000};  ///< of `azimuth` and `elevation`
+    static constexpr geometry::Range kZoomRange{0.05, 20};
+
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const CameraOrbit&) const = default;
 };

@@ -77,9 +77,8 @@ struct Scene : Layout {
     double circumradius = 1;                                ///< the object's circumradius, in the object's units
     Look look;
     Viewport viewport;
-    double scale = 1;                      ///< world units per unit of the object
-    double ballRadius = 0, barRadius = 0;  ///< in world units
-    std::vector<Color> cellColors;         ///< one per cell
+    double scale = 1;               ///< world units per unit of the object
+    std::vector<Color> cellColors;  ///< one per cell
     /// For each face of `slices`, the cell that determines the face's color. Empty if the list would be equal to
     /// SliceSet::faceSource.
     std::vector<std::uint32_t> faceCells;

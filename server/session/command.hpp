@@ -3,9 +3,10 @@
 // typed after ':'. Each command is a struct; its constant kMessageType is the type of the messages that contain it. If
 // the members of the struct are described with Boost.Describe, the message has members with the same names.
 
-#include <array>
+#include <any>
 #include <boost/describe/class.hpp>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,12 +16,14 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "fields/readers/file_contents.hpp"
+#include "fields/scalar_function.hpp"
 #include "geometry/centering.hpp"
 #include "geometry/rotation.hpp"
-#include "scene/scene.hpp"
 #include "slicing/element.hpp"
+#include "slicing/field_settings.hpp"
 
 namespace oval4d::session {
 
@@ -79,6 +82,26 @@ struct LoadObject {
     /// Returns whether the object is an array in files or in a folder, not in `data`; the format may then be empty.
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
 };
+/// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
+class PlainSettings {
+  public:
+    /// Returns the value of a setting; an empty optional if there is none. `Value` must be the type that the value has
+    /// in a State, and `name` a constant of the program.
+    template <typename Value>
+    std::optional<Value>& of(std::string_view name) {
+        std::any& value = values_.try_emplace(name, std::optional<Value>()).first->second;
+        return std::any_cast<std::optional<Value>&>(value);
+    }
+    template <typename Value>
+    const std::optional<Value>& of(std::string_view name) const {
+        static const std::optional<Value> none;
+        const auto found = values_.find(name);
+        return found == values_.end() ? none : std::any_cast<const std::optional<Value>&>(found->second);
+    }
+
+  private:
+    std::map<std::string_view, std::any> values_;
+};
 /// Changes the settings that are present; the others keep their values.
 struct Set {
     static constexpr std::string_view kMessageType = "set";
@@ -89,25 +112,15 @@ struct Set {
     std::optional<double> pace;               ///< ReferenceFrame::pace
     std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
     std::optional<glm::dmat4> orientation;
-    std::optional<double> alpha, beta;  ///< the angles of the rotation keys, in radians
-    std::optional<double> step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
-    std::optional<int> count;           ///< SliceSettings::count, which is odd
-    std::optional<double> spacing;      ///< SliceSettings::spacing
-    std::optional<int> focus;           ///< SliceSettings::focus
-    std::optional<double> offset;       ///< SliceSettings::offset
-    std::optional<double> focusW;       ///< w of the focus slice, in the coordinates of the object's file: sets focus
-                                        ///< and offset (see moveFocusTo())
-    std::optional<scene::View> view;
+    std::optional<int> count;       ///< SliceSettings::count, which is odd
+    std::optional<double> spacing;  ///< SliceSettings::spacing
+    std::optional<int> focus;       ///< SliceSettings::focus
+    std::optional<double> offset;   ///< SliceSettings::offset
+    std::optional<double> focusW;   ///< w of the focus slice, in the coordinates of the object's file: sets focus and
+                                    ///< offset (see moveFocusTo())
     std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
                                            ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
-    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< whether each part in scene::kParts is shown
-    std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit
-    std::optional<scene::Coloring> coloring;
-    std::optional<scene::CapStyle> caps;
-    std::optional<scene::Background> background;
-    std::optional<scene::ProjectionKind> projection;
-    std::optional<double> eye;                                ///< ProjectionSettings::eye
     std::optional<std::vector<double>> levels;                ///< FieldSettings::levels; for fields only
     std::optional<fields::Inside> inside;                     ///< FieldSettings::inside; for fields only
     std::optional<std::vector<slicing::FogPoint>> fog;        ///< FieldSettings::fog; for fields only
@@ -116,6 +129,7 @@ struct Set {
     /// inner one is empty if there is to be no highlight.
     std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
+    PlainSettings plain;                     ///< all other settings
 };
 struct Undo {
     static constexpr std::string_view kMessageType = "undo";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -22,10 +21,6 @@ namespace {
 using Done = Result<std::monostate>;
 
 constexpr double kSpacingFactor = 1.1;
-
-void stepAngle(double& angle, double step) {
-    angle = std::clamp(angle + step, -2 * std::numbers::pi, 2 * std::numbers::pi);
-}
 
 void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
 
@@ -94,10 +89,6 @@ std::vector<Action> ownActions() {
              c.state.ongoingTurnToward.reset();
              return std::monostate{};
          }},
-        {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},
-        {"alpha_down", always<[](ActionContext& c) { stepAngle(c.state.alpha, -c.state.step); }>},
-        {"beta_up", always<[](ActionContext& c) { stepAngle(c.state.beta, c.state.step); }>},
-        {"beta_down", always<[](ActionContext& c) { stepAngle(c.state.beta, -c.state.step); }>},
         {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
         {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
         {"focus_zero", always<[](ActionContext& c) {
@@ -122,6 +113,27 @@ std::vector<Action> ownActions() {
     };
 }
 
+// Adds the actions of keys that step through the numbers of a setting; see KeySteps.
+template <typename Row>
+void addSteps(const Row& setting, std::vector<Action>& actions) {
+    const auto add = [&](const std::string& ending, auto next) {
+        actions.push_back({std::string(setting.name.text) + ending, [setting, next](ActionContext& c) -> Done {
+                               double& value = setting.ofState(c.state);
+                               const auto& [least, most] = setting.rule.range;
+                               value = std::clamp(next(value, c.state), least, most);
+                               return std::monostate{};
+                           }});
+    };
+    if (const double factor = setting.rule.keys.factor; factor > 1) {
+        add("_larger", [factor](double value, const State&) { return value * factor; });
+        add("_smaller", [factor](double value, const State&) { return value / factor; });
+    }
+    if (const auto amount = setting.rule.keys.amount; amount != nullptr) {
+        add("_up", [amount](double value, const State& state) { return value + state.*amount; });
+        add("_down", [amount](double value, const State& state) { return value - state.*amount; });
+    }
+}
+
 std::vector<Action> allActions() {
     std::vector<Action> actions = ownActions();
     for (const scene::NamedPart& part : scene::kParts) {
@@ -144,6 +156,7 @@ std::vector<Action> allActions() {
                            }});
     }
     forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kHasRange) addSteps(setting, actions);
         if constexpr (Row::kIsInState) {
             using Value = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
             if constexpr (text::HasChoices<Value> && !std::is_same_v<Value, scene::View>) {

@@ -7,11 +7,13 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "errors/error.hpp"
+#include "geometry/range.hpp"
 #include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
@@ -22,6 +24,11 @@ namespace oval4d::session {
 
 /// The objects loaded into a session, by name.
 using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
+
+/// Bounds of SliceSettings.
+inline constexpr double kMinSpacing = 1e-6, kMaxSpacing = 10;  ///< as multiples of the object's circumradius
+inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
+inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
 
 /// The hyperplanes that cut the object into slices: w = offset + n · spacing, for `count` consecutive integers n.
 struct SliceSettings {
@@ -35,13 +42,18 @@ struct SliceSettings {
 /// A motion in progress that the command TurnToward has started: the object turns to the orientation `goal` along the
 /// shortest way, at constant speed.
 struct OngoingTurnToward {
+    static constexpr double kMaxSeconds = 10;
+
     geometry::Rotation goal;
-    double seconds = 0;  ///< the time that is left; greater than 0
+    double seconds = 0;  ///< the time that is left; greater than 0, at most kMaxSeconds
     bool operator==(const OngoingTurnToward&) const = default;
 };
 
 /// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
 struct State {
+    static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};  ///< of alpha and beta
+    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};
+
     slicing::Object source;  ///< the object as it was built or loaded; never null
     geometry::ReferenceFrame referenceFrame;
     slicing::Object object;  ///< what is shown: `source` in `referenceFrame` (see slicing::transformedTo())

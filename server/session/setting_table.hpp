@@ -1,34 +1,43 @@
 #pragma once
 // The table of settings. From it, the page's command line, the queries of addresses, and the messages `set` and `state`
-// are read and written.
+// are read and written, and the actions of keys that step through the values of a setting are made.
 
-#include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
+#include "geometry/range.hpp"
 #include "session/command.hpp"
 #include "session/session.hpp"
-#include "session/settings.hpp"
 #include "slicing/object.hpp"
 
 namespace oval4d::session {
 
 /// The names of a setting.
 struct SettingName {
-    std::string_view text;    ///< on the page's command line and in queries
-    std::string_view object;  ///< in messages: the name of the JSON object that contains the setting, such as "camera";
-                              ///< empty if the message itself contains it
-    std::string_view member;  ///< in messages: the name of the setting in this JSON object
+    std::string_view text;           ///< on the page's command line and in queries
+    std::string_view object = "";    ///< in messages: the name of the JSON object that contains the setting, such as
+                                     ///< "camera"; empty if the message itself contains it
+    std::string_view member = text;  ///< in messages: the name of the setting in this JSON object
 };
+
+/// The unit of angles in error messages.
+inline constexpr std::string_view kRadians = " radians";
 
 /// The rule of a setting for which applySet() accepts every value.
 struct AcceptsAnyValue {};
-/// The rule of a number that applySet() accepts within fixed bounds.
-struct NumberWithBounds {
+/// The steps by which keys change a number, within its range. By default, there are no such keys. For the setting NAME:
+struct KeySteps {
+    double factor = 1;                 ///< the action NAME_larger multiplies by it, and NAME_smaller divides by it
+    double State::* amount = nullptr;  ///< the action NAME_up adds this member of the state, NAME_down subtracts it
+};
+/// The rule of a number that applySet() accepts within a fixed range.
+struct NumberInRange {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
-    Bounds bounds;
+    geometry::Range range;
+    std::string_view unit = "";  ///< what the error message states after the range, such as " circumradii"
+    KeySteps keys = {};
 };
 /// The rule of a setting that applySet() checks and changes with code of its own.
 struct CheckedByApplySet {};
@@ -44,13 +53,13 @@ enum class ResetOccasion : std::uint8_t {
     by_reset_or_another_object,  ///< the replacement of the object, and the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to the setting's member of a Set, which is a std::optional. `ofState` returns
+/// A setting. `ofSet` returns a reference to the setting's value in a Set, which is a std::optional. `ofState` returns
 /// the setting's value in a State: by reference if the value is one member of the State; otherwise by value, and then
 /// the rule must be CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
-    static constexpr bool kHasBounds = std::is_same_v<Rule, NumberWithBounds>;
+    static constexpr bool kHasRange = std::is_same_v<Rule, NumberInRange>;
     static constexpr bool kIsCheckedByApplySet = std::is_same_v<Rule, CheckedByApplySet>;
 
     SettingName name;
@@ -62,7 +71,7 @@ struct Setting {
 
     /// Returns whether it is an angle in radians, which may be written with a unit.
     bool isAngle() const {
-        if constexpr (kHasBounds) return rule.bounds.unit == kRadians;
+        if constexpr (kHasRange) return rule.unit == kRadians;
         return false;
     }
 };
@@ -74,81 +83,72 @@ Setting(SettingName, OfSet, OfState, Rule, ResetOccasion, bool) -> Setting<OfSet
 template <typename Visitor>
 void forEachSetting(const Visitor& visit) {
     using scene::Look;
-    constexpr double kTwoPi = 2 * std::numbers::pi;
-    constexpr Bounds kAngle{-kTwoPi, kTwoPi, kRadians}, kOrbitAngle{-kMaxOrbitAngle, kMaxOrbitAngle, kRadians};
     // Returns a function that returns a reference to state.*m1.*m2…, for pointers to members m1, m2, …
     const auto at = [](auto... members) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
-    const auto setting = [&](const SettingName& name, auto Set::* given, auto ofState, auto rule, ResetOccasion setBack,
+    using enum ResetOccasion;
+    // A setting that applySet() checks and changes with code of its own; Set has a member for it.
+    const auto checked = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
                              bool forFields = false) {
-        visit(Setting{name, [given](auto& set) -> auto& { return set.*given; }, ofState, rule, setBack, forFields});
+        const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
+        visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
+    };
+    // A setting that applySet() only stores, if it is in its range; Set::plain has its value.
+    const auto plain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack = never,
+                           bool forFields = false) {
+        using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;
+        const auto ofSet = [text = name.text](auto& set) -> auto& { return set.plain.template of<Value>(text); };
+        visit(Setting{name, ofSet, ofState, rule, setBack, forFields});
     };
 
-    using enum ResetOccasion;
     const auto frame = &State::referenceFrame;
-    setting({"pace", "", "pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), CheckedByApplySet{}, never);
-    setting({"follow", "", "follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), CheckedByApplySet{},
-            never);
-    setting({"boost", "", "boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), CheckedByApplySet{},
-            never);
-    setting({"alpha", "", "alpha"}, &Set::alpha, at(&State::alpha), NumberWithBounds{"alpha", kAngle}, never);
-    setting({"beta", "", "beta"}, &Set::beta, at(&State::beta), NumberWithBounds{"beta", kAngle}, never);
-    setting({"step", "", "step"}, &Set::step, at(&State::step),
-            NumberWithBounds{"the step", {kMinStep, kTwoPi, kRadians}}, never);
+    checked({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
+    checked({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
+    checked({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
+    plain({"alpha"}, at(&State::alpha), NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}});
+    plain({"beta"}, at(&State::beta), NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}});
+    plain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
 
     const auto slices = &State::slices;
-    setting({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), CheckedByApplySet{}, never);
-    setting({"spacing", "slices", "spacing"}, &Set::spacing, at(slices, &SliceSettings::spacing), CheckedByApplySet{},
-            never);
-    setting({"focus", "slices", "focus"}, &Set::focus, at(slices, &SliceSettings::focus), CheckedByApplySet{},
-            by_reset_or_another_object);
-    setting({"offset", "slices", "offset"}, &Set::offset, at(slices, &SliceSettings::offset), CheckedByApplySet{},
-            by_reset_or_another_object);
-    setting({"w", "slices", "w"}, &Set::focusW, NotInState{}, CheckedByApplySet{}, never);
-    setting(
-        {"point", "", "point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); },
-        CheckedByApplySet{}, by_another_object);
+    checked({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), never);
+    checked({"spacing", "slices"}, &Set::spacing, at(slices, &SliceSettings::spacing), never);
+    checked({"focus", "slices"}, &Set::focus, at(slices, &SliceSettings::focus), by_reset_or_another_object);
+    checked({"offset", "slices"}, &Set::offset, at(slices, &SliceSettings::offset), by_reset_or_another_object);
+    checked({"w", "slices"}, &Set::focusW, NotInState{}, never);
+    checked(
+        {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
 
     const auto look = &State::look;
-    setting({"view", "", "view"}, &Set::view, at(look, &Look::view), AcceptsAnyValue{}, never);
-    setting({"turning", "", "turning"}, &Set::turning, NotInState{}, CheckedByApplySet{}, never);
+    plain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
+    checked({"turning"}, &Set::turning, NotInState{}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
-    setting({"azimuth", "camera", "azimuth"}, &Set::azimuth, at(look, orbit, &Orbit::azimuth),
-            NumberWithBounds{"the camera's azimuth", kOrbitAngle}, never);
-    setting({"elevation", "camera", "elevation"}, &Set::elevation, at(look, orbit, &Orbit::elevation),
-            NumberWithBounds{"the camera's elevation", kOrbitAngle}, never);
-    setting({"zoom", "camera", "zoom"}, &Set::zoom, at(look, orbit, &Orbit::zoom),
-            NumberWithBounds{"the camera's zoom", {kMinZoom, kMaxZoom, ""}}, never);
-    setting({"color", "", "color"}, &Set::coloring, at(look, &Look::coloring), AcceptsAnyValue{}, never);
-    setting({"background", "", "background"}, &Set::background, at(look, &Look::background), AcceptsAnyValue{}, never);
+    plain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
+          NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians});
+    plain({"elevation", "camera"}, at(look, orbit, &Orbit::elevation),
+          NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians});
+    plain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom), NumberInRange{"the camera's zoom", Orbit::kZoomRange});
+    plain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{});
+    plain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
     const auto projection = &Look::projection;
-    setting({"projection", "", "projection"}, &Set::projection, at(look, projection, &scene::ProjectionSettings::kind),
-            AcceptsAnyValue{}, never);
-    setting({"eye", "", "eye"}, &Set::eye, at(look, projection, &scene::ProjectionSettings::eye),
-            NumberWithBounds{"the eye", {kMinEye, kMaxEye, " circumradii"}}, never);
+    using Projection = scene::ProjectionSettings;
+    plain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});
+    plain({"eye"}, at(look, projection, &Projection::eye),
+          NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
     const auto field = &Look::field;
-    setting({"levels", "", "levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels),
-            CheckedByApplySet{}, by_another_object, true);
-    setting({"inside", "", "inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside),
-            CheckedByApplySet{}, by_another_object, true);
-    setting({"caps", "", "caps"}, &Set::caps, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
-    setting({"fog", "", "fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), CheckedByApplySet{},
-            by_another_object, true);
+    using Field = slicing::FieldSettings;
+    checked({"levels"}, &Set::levels, at(look, field, &Field::levels), by_another_object, true);
+    checked({"inside"}, &Set::inside, at(look, field, &Field::inside), by_another_object, true);
+    plain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
+    checked({"fog"}, &Set::fog, at(look, field, &Field::fog), by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
-    setting({"hidden", "", "hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden),
-            CheckedByApplySet{}, by_another_object);
-    setting({"faded", "", "faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded),
-            CheckedByApplySet{}, by_another_object);
-    setting({"highlight", "", "highlight"}, &Set::highlight, at(look, &Look::highlight), CheckedByApplySet{},
-            by_another_object);
+    checked({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
+    checked({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
+    checked({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
 
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
-        const auto& [name, flag] = scene::kParts[i];
-        visit(Setting{SettingName{name, "shown", name}, [i](auto& set) -> auto& { return set.parts[i]; },
-                      at(look, &Look::parts, flag), AcceptsAnyValue{}, never, false});
-    }
+    for (const scene::NamedPart& part : scene::kParts)
+        plain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{});
 }
 
 }  // namespace oval4d::session

@@ -22,42 +22,44 @@ namespace oval4d::session {
 
 namespace {
 
-// The error for a value that is not within its bounds. Its message states angles in radians and in degrees.
-Error outOfRange(std::string_view name, const Bounds& bounds, double value) {
-    std::string range = text::outsideBoundsText(bounds.least, bounds.most, bounds.unit, value);
-    if (bounds.unit == kRadians) {
+// The error for a value that is not within its range. Its message states angles in radians and in degrees.
+Error outOfRange(std::string_view name, const geometry::Range& range, std::string_view unit, double value) {
+    std::string allowed = text::outsideBoundsText(range.least, range.most, unit, value);
+    if (unit == kRadians) {
         const auto degrees = [](double radians) {
             return text::roundedDecimal(radians * 180 / std::numbers::pi) + "°";
         };
-        range.insert(range.find(kRadians) + kRadians.size(),
-                     " (" + degrees(bounds.least) + " to " + degrees(bounds.most) + ")");
-        range += std::string(kRadians) + " (" + degrees(value) + ")";
+        allowed.insert(allowed.find(kRadians) + kRadians.size(),
+                       " (" + degrees(range.least) + " to " + degrees(range.most) + ")");
+        allowed += std::string(kRadians) + " (" + degrees(value) + ")";
     }
-    return {ErrorCode::out_of_range, std::string(name) + " must be " + range};
+    return {ErrorCode::out_of_range, std::string(name) + " must be " + allowed};
 }
 
 // Stores `value`, if there is one, in `into`. Error: `out_of_range`.
-Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds bounds, double& into) {
+Result<std::monostate> put(std::string_view name, std::optional<double> value, const geometry::Range& range,
+                           double& into, std::string_view unit = "") {
     if (!value) return std::monostate{};
-    if (!(*value >= bounds.least && *value <= bounds.most)) return outOfRange(name, bounds, *value);
+    if (!range.contains(*value)) return outOfRange(name, range, unit, *value);
     into = *value;
     return std::monostate{};
 }
 
 // Changes the frame of reference. Errors: `out_of_range`; that of changeReferenceFrame().
 Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
-    geometry::ReferenceFrame frame = state.referenceFrame;
-    if (auto done = put("the pace", set.pace, {kMinPace, kMaxPace, ""}, frame.pace); !done) return done;
+    using geometry::ReferenceFrame;
+    ReferenceFrame frame = state.referenceFrame;
+    if (auto done = put("the pace", set.pace, ReferenceFrame::kPaceRange, frame.pace); !done) return done;
     for (int axis = 0; axis < 3 && set.follow; ++axis) {
         const std::string name = std::string("the velocity to follow along ") + "xyz"[axis];
-        if (auto done = put(name, (*set.follow)[axis], {-kMaxFollow, kMaxFollow, ""}, frame.follow[axis]); !done)
+        if (auto done = put(name, (*set.follow)[axis], ReferenceFrame::kFollowRange, frame.follow[axis]); !done)
             return done;
     }
     if (set.boost) {
         const double speed = glm::length(*set.boost);
-        if (!(speed <= kMaxBoost)) {
+        if (!(speed <= ReferenceFrame::kMaxBoost)) {
             return Error{ErrorCode::out_of_range,
-                         "the speed of a boost must be from 0 to " + text::roundedDecimal(kMaxBoost) +
+                         "the speed of a boost must be from 0 to " + text::roundedDecimal(ReferenceFrame::kMaxBoost) +
                              ", where 1 is the speed of light, not " + text::roundedDecimal(speed)};
         }
         frame.boost = *set.boost;
@@ -75,20 +77,19 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         setCount(state, *set.count);
     }
     const double radius = slicing::infoOf(state.object).circumradius;
-    if (auto done =
-            put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius, ""}, state.slices.spacing);
+    if (auto done = put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius}, state.slices.spacing);
         !done) {
         return done;
     }
     if (set.focus) {
         if (*set.focus < -kMaxFocus || *set.focus > kMaxFocus) {
-            return outOfRange("the focus", {-double{kMaxFocus}, double{kMaxFocus}, ""}, *set.focus);
+            return outOfRange("the focus", {-double{kMaxFocus}, double{kMaxFocus}}, "", *set.focus);
         }
         state.slices.focus = *set.focus;
     }
     const double reach = kMaxOffset * radius;
     const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
-    const auto around = [&](double middle) { return Bounds{middle - reach, middle + reach, ""}; };
+    const auto around = [&](double middle) { return geometry::Range{middle - reach, middle + reach}; };
     if (set.focusPoint) {
         // If `focus`, `offset` or `focusW` is set, w of the point is ignored and may be any number.
         const bool placed = set.focus || set.offset || set.focusW;
@@ -123,7 +124,8 @@ Result<std::monostate> setField(State& state, const Set& set) {
                          "the fog must be off, or " + std::to_string(slicing::kMinFogPoints) + " to " +
                              std::to_string(slicing::kMaxFogControlPoints) +
                              " points in the order of their values, which are different numbers from " +
-                             text::roundedDecimal(-kMaxLevel) + " to " + text::roundedDecimal(kMaxLevel) +
+                             text::roundedDecimal(-slicing::kMaxLevel) + " to " +
+                             text::roundedDecimal(slicing::kMaxLevel) +
                              ", with opacities from 0 to 1 and, if any, colors from 0 to 16777215"};
         }
         state.look.field.fog = *set.fog;
@@ -132,11 +134,11 @@ Result<std::monostate> setField(State& state, const Set& set) {
     std::vector<double> sorted = *set.levels;
     std::ranges::sort(sorted);
     if (sorted.empty() || sorted.size() > slicing::kMaxLevels ||
-        !std::ranges::all_of(sorted, [](double level) { return std::abs(level) <= kMaxLevel; }) ||
+        !std::ranges::all_of(sorted, [](double level) { return std::abs(level) <= slicing::kMaxLevel; }) ||
         std::ranges::adjacent_find(sorted) != sorted.end()) {
-        return Error{ErrorCode::out_of_range, "the levels must be 1 to " + std::to_string(slicing::kMaxLevels) +
-                                                  " different numbers from " + text::roundedDecimal(-kMaxLevel) +
-                                                  " to " + text::roundedDecimal(kMaxLevel)};
+        return Error{ErrorCode::out_of_range,
+                     "the levels must be 1 to " + std::to_string(slicing::kMaxLevels) + " different numbers from " +
+                         text::roundedDecimal(-slicing::kMaxLevel) + " to " + text::roundedDecimal(slicing::kMaxLevel)};
     }
     state.look.field.levels = *set.levels;
     return std::monostate{};
@@ -174,7 +176,7 @@ bool isTransferFunction(std::span<const slicing::FogPoint> points) {
     return points.size() >= slicing::kMinFogPoints && points.size() <= slicing::kMaxFogControlPoints &&
            std::ranges::all_of(points,
                                [](const slicing::FogPoint& point) {
-                                   return std::abs(point.value) <= kMaxLevel && point.opacity >= 0 &&
+                                   return std::abs(point.value) <= slicing::kMaxLevel && point.opacity >= 0 &&
                                           point.opacity <= 1 && point.color.value_or(0) <= kWhite;
                                }) &&
            std::ranges::adjacent_find(points, std::greater_equal<>(), &slicing::FogPoint::value) == points.end();
@@ -273,8 +275,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     if (auto done = setSlices(state, set, limits); !done) return done;
     Result<std::monostate> plain = std::monostate{};
     forEachSetting([&]<typename Row>(const Row& setting) {
-        if constexpr (Row::kHasBounds) {
-            if (plain) plain = put(setting.rule.what, setting.ofSet(set), setting.rule.bounds, setting.ofState(state));
+        if constexpr (Row::kHasRange) {
+            const NumberInRange& rule = setting.rule;
+            if (plain) plain = put(rule.what, setting.ofSet(set), rule.range, setting.ofState(state), rule.unit);
         } else if constexpr (!Row::kIsCheckedByApplySet) {
             setting.ofState(state) = setting.ofSet(set).value_or(setting.ofState(state));
         }
@@ -311,7 +314,7 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
     for (const geometry::Plane plane : turn.planes()) {
         const double angle = *turn[plane];
         if (!(std::abs(angle) <= kMaxAngle)) {
-            return outOfRange("an angle", {-kMaxAngle, kMaxAngle, kRadians}, angle);
+            return outOfRange("an angle", {-kMaxAngle, kMaxAngle}, kRadians, angle);
         }
     }
     return std::monostate{};

@@ -2,38 +2,18 @@
 // Changes the settings of a state, and checks their bounds.
 
 #include <span>
-#include <string_view>
 
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::session {
 
-/// The range of a number, and the unit that error messages state after it, such as " circumradii".
-struct Bounds {
-    double least, most;
-    std::string_view unit;
-};
-inline constexpr std::string_view kRadians = " radians";
+/// The maximum absolute value of an angle of a rotation in radians; larger doubles are imprecise.
+inline constexpr double kMaxAngle = 1e6;
 
-/// Bounds that do not depend on the server's options.
-inline constexpr double kMaxAngle = 1e6;     ///< absolute value of an angle in radians; larger doubles are imprecise
-inline constexpr double kMinStep = 1e-9;     ///< State::step in radians
-inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
-inline constexpr double kMinSpacing = 1e-6;  ///< as a multiple of the object's circumradius
-inline constexpr double kMaxSpacing = 10;    ///< as a multiple of the object's circumradius
-inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
-inline constexpr double kMaxTurnTowardSeconds = 10;  ///< OngoingTurnToward::seconds
-inline constexpr double kMaxOrbitAngle = 1000;       ///< absolute value of azimuth and elevation in radians
-inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
-inline constexpr double kMaxLevel = 1e30;                ///< absolute value of a level of a field
-inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
-inline constexpr double kMinPace = 1e-3, kMaxPace = 1e3;
-inline constexpr double kMaxFollow = 1000;  ///< absolute value of each component of ReferenceFrame::follow
-inline constexpr double kMaxBoost = 0.999;  ///< length of ReferenceFrame::boost
-
-/// Returns whether these control points are valid as FieldSettings::fog: either none, or kMinFogPoints …
-/// kMaxFogControlPoints points with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
+/// Returns whether these control points are valid as FieldSettings::fog: either none, or slicing::kMinFogPoints …
+/// slicing::kMaxFogControlPoints points with increasing values within ±slicing::kMaxLevel, opacities of 0 … 1, and
+/// colors of 24 bits.
 bool isTransferFunction(std::span<const slicing::FogPoint> points);
 
 /// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the

@@ -12,6 +12,8 @@ namespace oval4d::slicing {
 
 /// The maximum number of levels of a field that are shown at the same time.
 inline constexpr std::size_t kMaxLevels = 4;
+/// The maximum absolute value of a level, and of the value of a control point of fog.
+inline constexpr double kMaxLevel = 1e30;
 
 /// A control point of the transfer function of fog, which maps the values of a field to opacities and colors. The
 /// transfer function is linear between two successive control points, and constant below the first and above the last.

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -18,6 +17,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "geometry/range.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
 #include "text/choice.hpp"
@@ -29,10 +29,7 @@ using session::State;
 
 namespace {
 
-/// The values that a member may have: from `least` to `most`.
-struct Range {
-    double least, most;
-};
+using geometry::Range;
 constexpr Range upTo(double most) { return {-most, most}; }
 constexpr Range kAnyNumber = upTo(std::numeric_limits<double>::max());
 constexpr double kLeastPositive = std::numeric_limits<double>::min();
@@ -47,14 +44,14 @@ concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
 // and write the same records, hence these rules: a member keeps its number forever; no number is used again; a new
 // member gets the next number and is visited with addedMember(), because records of earlier versions lack it. The same
 // rules hold for the numbers of enumerators and for the rows of scene::kParts. The structured bindings name every
-// member of a struct, so that the code does not compile until a new member is added here. The bounds are those of
-// settings.hpp.
+// member of a struct, so that the code does not compile until a new member is added here. The ranges are those that
+// stand beside the members.
 
 void visitMembers(Is<scene::CameraOrbit> auto& orbit, auto& visit) {
     auto& [azimuth, elevation, zoom] = orbit;
-    visit.member(0, azimuth, upTo(session::kMaxOrbitAngle));
-    visit.member(1, elevation, upTo(session::kMaxOrbitAngle));
-    visit.member(2, zoom, Range{session::kMinZoom, session::kMaxZoom});
+    visit.member(0, azimuth, scene::CameraOrbit::kAngleRange);
+    visit.member(1, elevation, scene::CameraOrbit::kAngleRange);
+    visit.member(2, zoom, scene::CameraOrbit::kZoomRange);
 }
 
 void visitMembers(Is<slicing::Element> auto& element, auto& visit) {
@@ -65,14 +62,14 @@ void visitMembers(Is<slicing::Element> auto& element, auto& visit) {
 
 void visitMembers(Is<slicing::FogPoint> auto& point, auto& visit) {
     auto& [value, opacity, color] = point;
-    visit.member(0, value, upTo(session::kMaxLevel));
+    visit.member(0, value, upTo(slicing::kMaxLevel));
     visit.member(1, opacity, Range{0, 1});
     visit.member(2, color);
 }
 
 void visitMembers(Is<slicing::FieldSettings> auto& field, auto& visit) {
     auto& [levels, inside, fog] = field;
-    visit.member(0, levels, upTo(session::kMaxLevel));
+    visit.member(0, levels, upTo(slicing::kMaxLevel));
     visit.member(1, inside);
     visit.addedMember(2, fog);
 }
@@ -88,7 +85,7 @@ void visitMembers(Is<scene::Look> auto& look, auto& visit) {
     visit.member(4, hidden);
     visit.member(5, faded);
     visit.addedMember(6, kind);
-    visit.addedMember(7, eye, Range{session::kMinEye, session::kMaxEye});
+    visit.addedMember(7, eye, scene::ProjectionSettings::kEyeRange);
     visit.addedMember(8, highlight);
     visit.addedMember(9, focusPoint, kAnyNumber);
     visit.addedMember(10, field);
@@ -106,15 +103,15 @@ void visitMembers(Is<session::SliceSettings> auto& slices, auto& visit) {
 
 void visitMembers(Is<geometry::ReferenceFrame> auto& frame, auto& visit) {
     auto& [pace, follow, boost] = frame;
-    visit.member(0, pace, Range{session::kMinPace, session::kMaxPace});
-    visit.member(1, follow, upTo(session::kMaxFollow));
-    visit.member(2, boost, upTo(session::kMaxBoost));
+    visit.member(0, pace, geometry::ReferenceFrame::kPaceRange);
+    visit.member(1, follow, geometry::ReferenceFrame::kFollowRange);
+    visit.member(2, boost, upTo(geometry::ReferenceFrame::kMaxBoost));
 }
 
 void visitMembers(Is<session::OngoingTurnToward> auto& turn, auto& visit) {
     auto& [goal, seconds] = turn;
     visit.rotation(0, goal);  // two quaternions: the members 0 and 1
-    visit.member(2, seconds, Range{kLeastPositive, session::kMaxTurnTowardSeconds});
+    visit.member(2, seconds, Range{kLeastPositive, session::OngoingTurnToward::kMaxSeconds});
 }
 
 /// The angles of the rotation keys. They are members of a State, but form an array of their own in its record.
@@ -127,10 +124,9 @@ KeyAngles(Number&, Number&, Number&) -> KeyAngles<Number>;
 
 template <typename Number>
 void visitMembers(const KeyAngles<Number>& angles, auto& visit) {
-    constexpr double kTwoPi = 2 * std::numbers::pi;
-    visit.member(0, angles.alpha, upTo(kTwoPi));
-    visit.member(1, angles.beta, upTo(kTwoPi));
-    visit.member(2, angles.step, Range{kLeastPositive, kTwoPi});
+    visit.member(0, angles.alpha, State::kAngleRange);
+    visit.member(1, angles.beta, State::kAngleRange);
+    visit.member(2, angles.step, Range{kLeastPositive, State::kStepRange.most});
 }
 
 /// The number of the member State::source, which is written as an index into the list of objects.
@@ -391,7 +387,8 @@ State decodeState(const json& array, ObjectListReader& objects) {
     State state{source, {}, source, {}, 0, 0, 0, {}, {}, false, {}, {}};
     const MemberReader reader(array);
     visitMembers(state, reader);
-    if (!(glm::length(state.referenceFrame.boost) <= session::kMaxBoost)) throwUnreadable("a boost is too fast");
+    if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
+        throwUnreadable("a boost is too fast");
     state.object = objects.transformedTo(source, state.referenceFrame);
     check(state);
     return state;

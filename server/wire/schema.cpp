@@ -133,8 +133,15 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
     return deepest;
 }
 
-// Returns what a value must be, as a noun phrase: "a finite number of radians".
-std::string expected(const json& schema) { return schema.value("title", "different"); }
+// Returns what a value must be, as a noun phrase: "a finite number of radians". This is the schema's title or, for a
+// number without one, "a number from 0.25 to 4".
+std::string expected(const json& schema) {
+    if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
+        return schema.value("title", "different");
+    const std::string kind = schema.at("type") == "integer" ? "an integer" : "a number";
+    return kind + " from " + text::roundedDecimal(schema.at("minimum").get<double>()) + " to " +
+           text::roundedDecimal(schema.at("maximum").get<double>());
+}
 
 // Returns the description of a missing or unknown member of an object; empty if there is none.
 std::string membersFault(const json& schema, const json& value, const std::string& path) {

@@ -18,19 +18,14 @@ const kPythonClient = new URL("../../protocol/python", import.meta.url).pathname
 
 const comparable = ({ id, revision, ...state }) => state;
 
-const kShown = {
-    ...{ faces: true, bars: true, balls: true, coordinates: true, labels: true },
-    ...{ cells: true, back: true, sections: false },
-};
-
-/** The state after `act`, starting from the same state for each comparison. */
-async function outcome(script, { action }, act) {
+/** The state after `act`, starting from the same state for each comparison: the initial one, changed and rotated. */
+async function outcome(script, initial, { action, needs }, act) {
     // What changes the projection can be pressed only while there is one.
-    const projection = ["cells", "back", "sections"].includes(action) ? "perspective" : "off";
+    const projection = needs === "projection" ? "perspective" : "off";
     await script.request({ type: "reset" });
     await script.request({
-        ...{ type: "set", polytope: "16-cell", view: "oval", projection, turning: false, alpha: 0.3, beta: 0.2 },
-        ...{ shown: kShown, slices: { count: 21, spacing: 0.14, focus: 2 } },
+        ...{ ...initial, type: "set", polytope: "16-cell", projection, alpha: 0.3, beta: 0.2 },
+        ...{ shown: { ...initial.shown, cells: true }, slices: { count: 21, spacing: 0.14, focus: 2 } },
     });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
@@ -41,16 +36,17 @@ async function outcome(script, { action }, act) {
 
 test("buttons: each button does what its key does", async () => {
     const { page, script, errors, close } = await openWithScript();
+    const initial = await script.state();
     for (const binding of table.filter(({ client, action }) => !client && action !== "turn")) {
         const { key, ctrl = false, action, name, shift } = binding;
         for (const inverse of shift === "inverse" ? [false, true] : [false]) {
-            const byKey = await outcome(script, binding, async () => {
+            const byKey = await outcome(script, initial, binding, async () => {
                 const strokes = key.length > 1 ? [...key] : [key];
                 for (const one of strokes) await script.request({ type: "key", key: one, shift: inverse, ctrl });
             });
             const button = page.locator(`[data-action="${action}"][data-key="${inverse ? "Shift+" : ""}${name}"]`);
             assert.equal(await button.count(), 1, `a button for ${name}`);
-            const byButton = await outcome(script, binding, () => button.click());
+            const byButton = await outcome(script, initial, binding, () => button.click());
             assert.deepEqual(byButton, byKey, name);
         }
     }
@@ -81,7 +77,7 @@ test("buttons: Project names the projection, and what changes it is disabled whi
     const project = page.locator("[data-action=projection]");
     for (const [pressed, label] of [["false", "Project"], ["true", "Perspective"], ["true", "Orthogonal"]]) {
         await page.waitForSelector(`[data-action=projection][aria-pressed=${pressed}]:has-text("${label}")`);
-        for (const action of ["cells", "back", "sections"]) {
+        for (const { action } of table.filter(({ needs }) => needs === "projection")) {
             assert.equal(await page.locator(`[data-action=${action}]`).isDisabled(), label === "Project", action);
         }
         await project.click();
@@ -95,6 +91,20 @@ test("buttons: Project names the projection, and what changes it is disabled whi
     await page.click("[data-action=view]");
     await page.waitForSelector("[data-action=view][aria-pressed=false]");
     await page.waitForSelector("[data-action=matrix][aria-pressed=false]");
+    await close();
+});
+
+test("buttons: two keys that decrease and increase a quantity are one control with its name", async () => {
+    const { page, errors, close } = await openWithScript();
+    const increasing = table.filter(({ increases }) => increases !== undefined);
+    assert.ok(increasing.length > 0);
+    for (const { action, increases } of increasing) {
+        const less = table.find(({ decreases }) => decreases === increases);
+        const control = page.locator(".stepper").filter({ has: page.locator(`[data-action=${action}]`) });
+        assert.equal(await control.locator(`[data-action=${less.action}]`).count(), 1, action);
+        assert.ok((await control.textContent()).includes(increases), action);
+    }
+    assert.deepEqual(errors, []);
     await close();
 });
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
 
-import { effects, prepare, strokes, table } from "./support/keys.mjs";
+import { effectOf, prepare, strokes, table } from "./support/keys.mjs";
 import { common, shownValues } from "./support/browser.mjs";
 import { eventually } from "./support/hang_limit.mjs";
 import { openInFirefox, presented, type } from "./support/firefox.mjs";
@@ -63,7 +63,7 @@ test("firefox: every key has its effect", async () => {
     for (const binding of table.filter(({ client }) => !client)) {
         const before = await prepare(script, binding);
         const after = await press(...strokes(binding));
-        effects[binding.action](before, after, binding);
+        effectOf(binding)(before, after, binding);
         assert.equal((await shownValues(page)).polytope, after.polytope.name, binding.name);
         if (binding.shift === "inverse") {
             const back = await press(...strokes(binding, true));

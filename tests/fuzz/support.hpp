@@ -19,6 +19,7 @@
 #include "session/history.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
+#include "session/setting_table.hpp"
 #include "session/settings.hpp"
 #include "slicing/slicer.hpp"
 #include "wire/messages.hpp"
@@ -102,11 +103,13 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     const auto within = [](double value, double most) { return std::abs(value) <= most; };
     require(slicing::identityOf(state.object) != nullptr, "a state has an object");
     const geometry::ObjectInfo& info = slicing::infoOf(state.object);
+    using geometry::ReferenceFrame;
     const auto& [pace, follow, boost] = state.referenceFrame;
-    require(pace >= session::kMinPace && pace <= session::kMaxPace, "the pace is within its bounds");
-    for (int axis = 0; axis < 3; ++axis) require(within(follow[axis], session::kMaxFollow), "the velocity is bounded");
-    require(glm::length(boost) <= session::kMaxBoost, "an observer is slower than light");
-    require((state.object == state.source) == (state.referenceFrame == geometry::ReferenceFrame{}),
+    require(ReferenceFrame::kPaceRange.contains(pace), "the pace is within its bounds");
+    for (int axis = 0; axis < 3; ++axis)
+        require(ReferenceFrame::kFollowRange.contains(follow[axis]), "the velocity is bounded");
+    require(glm::length(boost) <= ReferenceFrame::kMaxBoost, "an observer is slower than light");
+    require((state.object == state.source) == (state.referenceFrame == ReferenceFrame{}),
             "the default frame shows the object itself");
     require(slicing::elementCounts(state.object) == slicing::elementCounts(state.source), "an image has all elements");
     require(std::isfinite(info.circumradius) && info.circumradius > 0, "an image has an extent");
@@ -116,9 +119,14 @@ inline void requireSound(const session::State& state, const session::Limits& lim
             require(within(glm::dot(matrix[i], matrix[j]) - (i == j ? 1 : 0), 1e-9), "the orientation is orthogonal");
     }
     require(glm::determinant(matrix) > 0, "the orientation does not reflect");
-    constexpr double kTwoPi = 6.283185307179587;
-    require(within(state.alpha, kTwoPi) && within(state.beta, kTwoPi), "alpha and beta are within their bounds");
-    require(state.step > 0 && within(state.step, kTwoPi), "the step is within its bounds");
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kHasRange) {
+            const double value = setting.ofState(state);
+            const bool isStoredStep =
+                setting.name.text == "step" && value > 0 && value < session::State::kStepRange.least;
+            require(setting.rule.range.contains(value) || isStoredStep, "a number is in its range:", setting.name.text);
+        }
+    });
     const auto& [count, spacing, focus, offset] = state.slices;
     require(count >= 1 && count <= limits.maxSlices && count % 2 == 1, "the number of slices is odd and allowed");
     require(within(focus, session::kMaxFocus), "the focus is within its bounds");
@@ -129,7 +137,7 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     if (state.ongoingTurnToward) {
         require(!state.turning, "an object does not turn continuously and toward an element");
         const double seconds = state.ongoingTurnToward->seconds;
-        require(seconds > 0 && seconds <= session::kMaxTurnTowardSeconds,
+        require(seconds > 0 && seconds <= session::OngoingTurnToward::kMaxSeconds,
                 "a turn toward an element ends within its bound");
     }
     require(session::isTransferFunction(state.look.field.fog), "the fog is a transfer function");
@@ -139,10 +147,6 @@ inline void requireSound(const session::State& state, const session::Limits& lim
                 "the focus point is within its bounds");
     if (const auto& element = state.look.highlight)
         require(element->index < slicing::elementCount(state.object, element->kind), "what is highlighted exists");
-    const auto& [azimuth, elevation, zoom] = state.look.orbit;
-    require(within(azimuth, session::kMaxOrbitAngle) && within(elevation, session::kMaxOrbitAngle),
-            "the orbit is within bounds");
-    require(zoom >= session::kMinZoom && zoom <= session::kMaxZoom, "the zoom is within its bounds");
     const auto& [hidden, faded] = state.look.cellTypes;
     std::vector<std::uint32_t> both = hidden;
     both.insert(both.end(), faded.begin(), faded.end());

@@ -10,41 +10,56 @@ SCHEMA = Path(__file__).parents[2] / "protocol/schema"
 FOLLOWING = {"field", "turning", "last"}
 
 
+def properties(schema):
+    """Returns the properties that a schema describes."""
+    return json.loads((SCHEMA / f"{schema}.schema.json").read_text(encoding="utf-8"))["properties"]
+
+
+def descriptions():
+    """Returns the schema of each setting by its name, as in (name,) or (object, name)."""
+    found = {}
+    for name, schema in {**properties("settings"), "shown": {"properties": properties("parts")}}.items():
+        if name in ("slices", "camera", "shown"):
+            found |= {(name, member): each for member, each in schema["properties"].items()}
+        elif name not in FOLLOWING:
+            found[(name,)] = schema
+    del found["slices", "w"]  # which moves the focus
+    return found
+
+
 def setting_names():
     """Returns the names of all settings, as in (name,) or (object, name)."""
-    properties = {**json.loads((SCHEMA / "settings.schema.json").read_text(encoding="utf-8"))["properties"]}
-    parts = json.loads((SCHEMA / "parts.schema.json").read_text(encoding="utf-8"))["properties"]
-    names = set()
-    for name, description in properties.items():
-        if name in ("slices", "camera"):
-            names |= {(name, member) for member in description["properties"]}
-        elif name == "shown":
-            names |= {(name, part) for part in parts}
-        elif name not in FOLLOWING:
-            names.add((name,))
-    return names - {("slices", "w")}  # which moves the focus
+    return set(descriptions())
+
+
+def examples(of_fields):
+    """Returns values of the settings that only fields have, or of all others but the polytope and the orientation, by
+    their names: the first examples of the schemas and, of what is shown or hidden, the opposite of the default."""
+    return {name: schema["examples"][0] if "examples" in schema else not schema["default"]
+            for name, schema in descriptions().items()
+            if schema.get("x-fields-only", False) == of_fields and name not in (("polytope",), ("orientation",))}
+
+
+def members(values):
+    """Returns the members of a `set` message with these values."""
+    message = {}
+    for (*objects, member), each in values.items():
+        (message.setdefault(objects[0], {}) if objects else message)[member] = each
+    return message
 
 
 async def polytope_with_settings(client):
     """Changes all settings that polytopes have."""
-    await client.request("set", polytope="truncated tesseract", pace=2, follow=[0.1, 0, 0.2], boost=[0.3, 0.1, 0])
+    await client.request("set", polytope="truncated tesseract")
     await client.request("rotate", planes=["xw", "yz"], angles=[0.4, 1.1])
-    state = await client.request("get", what="state")
-    await client.request("set", slices={"count": 31, "spacing": 0.06, "focus": 4, "offset": 0.015}, alpha=0.3, beta=1.25,
-                         step=0.01, view="matrix", color="kind", background="white", projection="orthogonal", eye=4,
-                         camera={"azimuth": 0.4, "elevation": -0.2, "zoom": 1.5}, hidden=[0], faded=[1],
-                         highlight={"element": "cell", "number": 9},
-                         shown={part: not shown for part, shown in state["shown"].items()})
-    here = await client.request("get", what="state")
-    await client.request("set", point=[0.1, 0.2, -0.1, here["point"][3]])
+    await client.request("set", **members(examples(of_fields=False)))
 
 
 async def field_with_settings(client):
     """Changes all settings that only fields have. The name is the one that addresses give to a formula."""
     await client.request("load", name="formula", format="formula", data="x^2 + y^2 + a*z^2 - w^2 < 0.2; a=0.4", values="x*w",
                          box=[[-1, 1], [-1, 1], [-1, 1], [-2, 1]])
-    fog = [{"value": 0, "opacity": 0.5, "color": 16744448}, {"value": 1, "opacity": 0}]
-    await client.request("set", levels=[0.1, 0.3], inside="above", caps="open", color="growth", fog=fog)
+    await client.request("set", color="growth", **members(examples(of_fields=True)))
 
 
 SESSIONS = [polytope_with_settings, field_with_settings]

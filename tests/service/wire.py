@@ -72,8 +72,8 @@ class Client:
     async def __aexit__(self, exception, *_):
         await self.leave()
         if exception is None:
-            for message in self._one_of_each_shape.values():
-                compare_with_schema(message)
+            for text in self._one_of_each_shape.values():
+                compare_with_schema(json.loads(text))
 
     async def leave(self):
         await self.socket.close()
@@ -85,7 +85,7 @@ class Client:
                 message = self.decode(data)
                 self.messages.append(message)
                 if isinstance(data, str):
-                    self._one_of_each_shape.setdefault((message["type"], shape(message)), message)
+                    self._one_of_each_shape.setdefault((message["type"], shape(message)), data)
                 if self.acknowledges and self.is_picture(message):
                     await self.send("shown", revision=self.states()[-1]["revision"])
                 async with self._changed:

@@ -4,13 +4,14 @@
 
 import type { Client, State } from "@oval4d/protocol";
 
+import { layoutKey } from "./layout_key";
 import { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 
 export class FrameHitTesterCache {
     private state: State | undefined;
     private known: HitTester | undefined;
-    private knownFor = ""; // what the known or requested hit tester depends on, as JSON
+    private knownFor = ""; // the layoutKey() of the known or requested hit tester
 
     /** `onKnown` is called when a hit tester that currentOrRequest() requested has arrived. */
     constructor(
@@ -26,8 +27,7 @@ export class FrameHitTesterCache {
     /** The hit tester. If it is not known, requests it, and returns undefined. */
     currentOrRequest(): HitTester | undefined {
         if (!this.state) return undefined;
-        const { slices, view, shown, projection, polytope } = this.state;
-        const key = JSON.stringify([slices, view, shown, projection, polytope.name, this.stage.size]);
+        const key = layoutKey(this.state, this.stage.size);
         if (key !== this.knownFor) {
             this.knownFor = key;
             this.known = undefined;

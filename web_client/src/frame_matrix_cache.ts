@@ -3,11 +3,12 @@
 
 import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 
+import { layoutKey } from "./layout_key";
 import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    private knownFor = ""; // what the place of the known or requested matrix depends on, as JSON; "" if there is none
+    private knownFor = ""; // the layoutKey() of the known or requested matrix, whatever its slices; "" if there is none
 
     constructor(
         private readonly client: Client,
@@ -20,9 +21,9 @@ export class FrameMatrixCache {
     }
 
     /** Requests the matrix if its place has changed. To be called when the state, size or mode may have changed. */
-    update({ view, shown, polytope }: State): void {
-        const isShown = view === "matrix" && this.stage.mode === "frames";
-        const key = isShown ? JSON.stringify([shown.coordinates, polytope, this.stage.size]) : "";
+    update({ slices, ...state }: State): void {
+        const isShown = state.view === "matrix" && this.stage.mode === "frames";
+        const key = isShown ? layoutKey(state, this.stage.size) : "";
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.known = undefined;

@@ -28,8 +28,6 @@ const kTabs = [
 ];
 const kOtherTab = "More";
 
-const kRepeatingActions =
-    /^(rotate|repeat|undo|redo|(alpha|beta|focus|vertex|spacing|slices|polytope|orbit|zoom)_(up|down|left|right|smaller|larger|fewer|more|next|previous|in|out))$/;
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
@@ -52,8 +50,6 @@ const kProjectionLabels: Record<Projection, string> = {
     perspective: "Perspective",
     orthogonal: "Orthogonal",
 };
-/** The actions that change only the projection. */
-const kActionsOnProjection = ["cells", "back", "sections"];
 /** Labels of buttons whose label in the key table is not clear enough on a button. */
 const kLabels: Record<string, string> = {
     view: "One slice",
@@ -65,22 +61,12 @@ const kLabels: Record<string, string> = {
 const kFocusOrder =
     "focus_first vertex_previous focus_left focus_zero focus_right vertex_next focus_last".split(" ");
 
-/** Pairs of actions that are combined in one stepper: decrease, increase, and the name of the quantity. */
-const kStepperPairs = [
-    ["alpha_down", "alpha_up", "α"],
-    ["beta_down", "beta_up", "β"],
-    ["spacing_smaller", "spacing_larger", "δ"],
-    ["slices_fewer", "slices_more", "Slices"],
-    ["orbit_left", "orbit_right", "Orbit"],
-    ["orbit_down", "orbit_up", "Height"],
-    ["zoom_out", "zoom_in", "Zoom"],
-] as const;
-
 const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below them: the perpendicular planes zw, yw, yz
 
 export class Tools {
     private readonly root = byId("tools");
     private readonly toggleButtons = new Map<string, HTMLButtonElement>();
+    private projectionButtons: HTMLButtonElement[] = []; // those that need a projection
 
     constructor(private readonly events: ToolEvents) {
         // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.
@@ -89,6 +75,7 @@ export class Tools {
 
     show(keymap: Keymap, pageSections: ToolSection[]): void {
         this.toggleButtons.clear();
+        this.projectionButtons = [];
         const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareGridPlaces);
         const sections = keymap.groups
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
@@ -119,9 +106,9 @@ export class Tools {
     update(state: State): void {
         for (const [action, button] of this.toggleButtons) {
             button.setAttribute("aria-pressed", String(kToggles[action]!(state)));
-            if (kActionsOnProjection.includes(action)) button.disabled = state.projection === "off";
             if (action === "projection") button.firstChild!.textContent = kProjectionLabels[state.projection];
         }
+        for (const button of this.projectionButtons) button.disabled = state.projection === "off";
     }
 
     private groupToolbar(titles: string[]): HTMLElement {
@@ -151,21 +138,23 @@ export class Tools {
             this.toggleButtons.set(binding.action, button);
             button.setAttribute("aria-pressed", "false");
         }
+        if (binding.needs === "projection") this.projectionButtons.push(button);
         this.bindPresses(button, binding, false);
         return button;
     }
 
-    /** The controls for a group of keys: steppers for the pairs, buttons for the rest. */
+    /** The controls for a group of keys: steppers for what two keys decrease and increase, buttons for the rest. */
     private controls(keys: KeyBinding[]): HTMLElement[] {
-        const find = (action: string): KeyBinding | undefined => keys.find((key) => key.action === action);
-        const steppers = kStepperPairs.flatMap(([lessName, moreName, of]) => {
-            const [less, more] = [find(lessName), find(moreName)];
-            if (!less || !more) return [];
+        const paired = new Set<KeyBinding>();
+        const steppers = keys.flatMap((less) => {
+            const of = less.decreases;
+            const more = keys.find((key) => key.increases === of);
+            if (of === undefined || !more) return [];
+            paired.add(less).add(more);
             const name = element("span", { class: of.length === 1 ? "symbol" : "" }, of);
             return [this.stepper(less, false, [name], `${less.name} ${more.name}`, more)];
         });
-        const paired: string[] = kStepperPairs.flatMap(([less, more]) => [less, more]);
-        const rest = keys.filter((key) => !paired.includes(key.action)).sort(compareFocusOrder);
+        const rest = keys.filter((key) => !paired.has(key)).sort(compareFocusOrder);
         return [...steppers, ...rest.map((key) => this.actionButton(key))];
     }
 
@@ -210,7 +199,7 @@ export class Tools {
             timer = setTimeout(repeat, kHoldInterval);
         };
         const stop = (): void => clearTimeout(timer);
-        if (kRepeatingActions.test(binding.action)) {
+        if (binding.repeats) {
             button.addEventListener("pointerdown", (event) => {
                 repeated = false;
                 if (event.button === 0) timer = setTimeout(repeat, kHoldDelay);

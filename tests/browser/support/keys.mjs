@@ -9,10 +9,10 @@ const read = (file) => JSON.parse(readFileSync(new URL(`../../../protocol/${file
 /** The key table, which the server has, too. */
 export const { keys: table } = read("keymap.json");
 
+const parts = Object.keys(read("schema/parts.schema.json").properties);
+const views = read("schema/settings.schema.json").properties.view.enum;
 /** The views that have an action of their name: all but the oval and the single view, whose action is "view". */
-export const toggledViews = read("schema/settings.schema.json").properties.view.enum.filter(
-    (view) => view !== "oval" && view !== "single",
-);
+export const toggledViews = views.filter((view) => view !== "oval" && view !== "single");
 
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 
@@ -21,8 +21,8 @@ const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], b
 
 const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
 
-/** Checks of the state after each action. */
-export const effects = {
+/** Checks of the state after each action that effectOf() does not know from the tables. */
+const effects = {
     rotate: (before, after, { planes }) => {
         assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
     },
@@ -54,17 +54,28 @@ export const effects = {
     polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
-    ...Object.fromEntries(toggledViews.map((view) => [view, (_, after) => assert.equal(after.view, view)])),
     projection: (_, after) => assert.equal(after.projection, "perspective"),
-    cells: toggles("cells"),
-    back: toggles("back"),
-    sections: toggles("sections"),
-    coordinates: toggles("coordinates"),
-    labels: toggles("labels"),
-    faces: toggles("faces"),
-    bars: toggles("bars"),
-    balls: toggles("balls"),
 };
+
+/** The setting with this name: a member of the state, or of an object in it. */
+function settingIn(state, name) {
+    return [state, ...Object.values(state)].find((object) => object?.[name] !== undefined)?.[name];
+}
+
+/**
+ * Returns a check of the state before and after an action. Parts and views are switched by the actions of their names;
+ * an action such as alpha_up, of a key that increases or decreases something, changes the setting before its last "_".
+ */
+export function effectOf({ action, name, increases, decreases }) {
+    if (effects[action]) return effects[action];
+    if (parts.includes(action)) return toggles(action);
+    if (views.includes(action)) return (_, after) => assert.equal(after.view, action);
+    assert.ok(increases ?? decreases, `this file must say what the action ${action} of the key ${name} does`);
+    return (before, after) => {
+        const [from, to] = [before, after].map((state) => settingIn(state, action.slice(0, action.lastIndexOf("_"))));
+        assert.ok(increases ? to > from : to < from, `${action}: from ${from} to ${to}`);
+    };
+}
 
 /** The key presses of a binding in Playwright's notation, on a US keyboard. */
 export function strokes({ key, code, ctrl }, inverse = false) {

@@ -141,7 +141,8 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
                     look.projection.kind = scene::ProjectionKind::perspective;
                     const Scene s = composed(name, count, viewport, look);
                     ASSERT_TRUE(s.projectionPlacement.shown);
-                    const auto& [shown, position, sphere] = s.projectionPlacement;
+                    const glm::dvec3 position = s.projectionPlacement.position;
+                    const double sphere = s.projectionPlacement.radius;
                     const glm::dvec2 at = project(s, position);
                     const double radius = radiusOnScreen(s, position, sphere);
                     EXPECT_GT(radius, 0.06 * std::min(viewport.width, viewport.height)) << count;
@@ -163,6 +164,22 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
                 }
             }
         }
+    }
+}
+
+TEST(Layout, hasTheRadiiOfBallsAndBars) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::orthogonal;
+    for (const char* name : {"5-cell", "120-cell"}) {
+        SCOPED_TRACE(name);
+        const Scene s = composed(name, 21, {}, look);
+        const double relative = slicing::relativeBallRadius(support::objectOf(support::named(name)));
+        EXPECT_DOUBLE_EQ(s.ballRadius, relative * s.sliceRadius);
+        const scene::ProjectionPlacement& placement = s.projectionPlacement;
+        EXPECT_DOUBLE_EQ(placement.objectRadius, s.projection.scale * s.circumradius);
+        EXPECT_DOUBLE_EQ(placement.objectRadius + placement.ballRadius, placement.radius);
+        EXPECT_LT(placement.ballRadius / placement.objectRadius, relative) << "there is less room than in a slice";
+        EXPECT_DOUBLE_EQ(placement.barRadius / placement.ballRadius, s.barRadius / s.ballRadius);
     }
 }
 
@@ -204,8 +221,9 @@ TEST(Matrix, standsBesideTheFocusSlice) {
                 const double radius = s.scale * s.circumradius;
                 EXPECT_TRUE(isOutside(project(s, {0, 0, 0}), radiusOnScreen(s, {0, 0, 0}, radius)));
                 if (whole) {
-                    const auto& [shown, position, sphere] = s.projectionPlacement;
-                    EXPECT_TRUE(shown && isOutside(project(s, position), radiusOnScreen(s, position, sphere)));
+                    const scene::ProjectionPlacement& placement = s.projectionPlacement;
+                    EXPECT_TRUE(placement.shown && isOutside(project(s, placement.position),
+                                                             radiusOnScreen(s, placement.position, placement.radius)));
                 }
                 for (const LabelBox& box : expectLabelsApart(s)) {
                     EXPECT_TRUE(box.isInside(viewport));

@@ -201,7 +201,7 @@ TEST(Formulas, OfASettingThatIsRefusedAreNotLoaded) {
     expectRefused(session, formulaNamed("mine", "x +"), ErrorCode::bad_expression, "position 4");
     expectRefused(session, formulaNamed("tesseract", "x"), ErrorCode::bad_polytope, "tesseract");
     Set set = formulaNamed("mine", "x");
-    set.zoom = 1e9;
+    set.plain.of<double>("zoom") = 1e9;
     expectRefused(session, set, ErrorCode::out_of_range, "zoom");
     EXPECT_TRUE(session.loaded.empty());
     Limits one;

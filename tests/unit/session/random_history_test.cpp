@@ -127,8 +127,8 @@ Set randomSet(Random& random) {
     }
     if (happens(0.3, random)) set.turning = happens(0.5, random);
     if (happens(0.2, random)) set.focus = oneOf(std::array{-1, 0, 1, 2'000'000}, random);
-    if (happens(0.2, random)) set.azimuth = oneOf(std::array{0.0, 0.5}, random);
-    if (happens(0.2, random)) set.zoom = oneOf(std::array{1.0, 2.0}, random);
+    if (happens(0.2, random)) set.plain.of<double>("azimuth") = oneOf(std::array{0.0, 0.5}, random);
+    if (happens(0.2, random)) set.plain.of<double>("zoom") = oneOf(std::array{1.0, 2.0}, random);
     if (happens(0.1, random)) set.pace = oneOf(std::array{1.0, 2.0}, random);
     if (happens(0.1, random)) set.hidden = std::vector<std::uint32_t>(happens(0.5, random) ? 1 : 0);
     if (happens(0.1, random)) set.highlight = slicing::Element{slicing::ElementKind::vertex, 1};

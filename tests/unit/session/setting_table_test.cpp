@@ -1,6 +1,9 @@
 #include "session/setting_table.hpp"
 
 #include <map>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "unit/session/setting_values.hpp"
 
@@ -27,6 +30,32 @@ TEST(SettingTable, SaysWhatAnotherObjectAndResetSetBack) {
         EXPECT_EQ(setting.isIn(session.current), found->second == ResetOccasion::never) << setting.name;
     }
     EXPECT_EQ(tried, setBack.size()) << "each setting has a value to try";
+}
+
+TEST(SettingTable, ASettingChangesNoOther) {
+    // What else a setting may change. w of the focus point is that of the focus slice, and the slices span the object.
+    const std::map<std::string, std::set<std::string>, std::less<>> others{{"pace", {"spacing"}},
+                                                                           {"follow", {"spacing"}},
+                                                                           {"boost", {"spacing"}},
+                                                                           {"slices", {"spacing"}},
+                                                                           {"focus", {"point"}},
+                                                                           {"offset", {"point"}},
+                                                                           {"w", {"focus", "offset", "point"}}};
+    for (const SettingValue& setting : settingValues()) {
+        if (setting.name == "polytope") continue;
+        SCOPED_TRACE(setting.name);
+        const QueryParameters before = settingTexts(settingsOf(sessionBefore(setting).current));
+        const QueryParameters after = settingTexts(settingsOf(sessionWith(setting).current));
+        ASSERT_EQ(before.size(), after.size());
+        std::set<std::string> changed;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (before[i] != after[i]) changed.insert(before[i].first);
+        }
+        changed.erase(setting.name);
+        const auto allowed = others.find(setting.name);
+        for (const std::string& name : changed)
+            EXPECT_TRUE(allowed != others.end() && allowed->second.contains(name)) << "also changes " << name;
+    }
 }
 
 }  // namespace

@@ -1,79 +1,125 @@
 #pragma once
 // A value of each setting, for tests that no setting is lost on a way.
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
-#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "protocol_data/embedded_files.hpp"
+#include "session/setting_table.hpp"
+#include "session/setting_text.hpp"
+#include "session/settings.hpp"
 #include "unit/session/support.hpp"
 
 namespace oval4d::session {
 
-/// A setting: its name, a value, the object that has it, and whether a state holds the value.
+/// A setting: its name, a value, the command that shows an object that has it, and whether a state holds the value.
 struct SettingValue {
     std::string name, value, object;
     std::function<bool(const State&)> isIn;
+    std::string place;       ///< in a message, as a JSON pointer (RFC 6901)
+    nlohmann::json message;  ///< the value in a message
 };
+
+/// Returns the properties in a schema.
+inline nlohmann::json propertiesIn(const std::string& schema) {
+    return nlohmann::json::parse(protocol_data::embeddedFile("schema/" + schema + ".schema.json")).at("properties");
+}
+
+/// Returns the schema of a setting, which is in settings.schema.json or, for what is shown, in parts.schema.json.
+inline nlohmann::json schemaOf(const SettingName& name) {
+    const std::string object(name.object), member(name.member);
+    if (object == "shown") return propertiesIn("parts").at(member);
+    const nlohmann::json settings = propertiesIn("settings");
+    return object.empty() ? settings.at(member) : settings.at(object).at("properties").at(member);
+}
+
+/// Returns a value of a message as it is written on the command line.
+inline std::string lineText(const nlohmann::json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_array()) {
+        std::string list;
+        for (const nlohmann::json& each : value) list += (list.empty() ? "" : ",") + lineText(each);
+        return list;
+    }
+    if (value.is_number()) return value.dump();
+    if (value.contains("element")) return lineText(value.at("element")) + ":" + lineText(value.at("number"));
+    std::string point = lineText(value.at("value")) + ":" + lineText(value.at("opacity"));  // of fog
+    if (value.contains("color")) {
+        char digits[16];
+        std::snprintf(digits, sizeof digits, "%06x", value.at("color").get<unsigned>());
+        point += std::string(":") + digits;
+    }
+    return point;
+}
+
+/// Returns the first example of the schema, which is not the initial value, or the opposite of a default.
+inline nlohmann::json exampleOf(const SettingName& name) {
+    const nlohmann::json schema = schemaOf(name);
+    if (schema.contains("examples")) return schema.at("examples").at(0);
+    EXPECT_TRUE(schema.contains("default") && schema.at("default").is_boolean())
+        << "the schema of " << name.text << " needs \"examples\", with a value that is not the initial one";
+    return !schema.value("default", false);
+}
+
+/// Returns whether a setting has this value in a state, both as texts.
+inline std::function<bool(const State&)> isTextIn(const std::string& name, const std::string& value) {
+    Set set;
+    const auto done = parseSetting(name, value, set);
+    EXPECT_TRUE(done) << name << ": " << done.error().message;
+    return [wanted = settingTexts(set)](const State& state) {
+        const QueryParameters texts = settingTexts(settingsOf(state));
+        return std::ranges::find(texts, wanted.at(0)) != texts.end();
+    };
+}
 
 /// Returns a value of each setting that is not its initial one.
 inline std::vector<SettingValue> settingValues() {
-    constexpr double pi = std::numbers::pi;
-    const std::string polytope = "polytope 8-cell", field = "formula x^2+y^2 < w";
-    std::vector<SettingValue> values{
-        {"polytope", "16-cell", polytope, [](const State& now) { return infoOf(now).name == "16-cell"; }},
-        {"pace", "2", polytope, [](const State& now) { return now.referenceFrame.pace == 2; }},
-        {"follow", "0.1,0,1/4", polytope,
-         [](const State& now) { return now.referenceFrame.follow == glm::dvec3(0.1, 0, 0.25); }},
-        {"boost", "0.5,0,0", polytope,
-         [](const State& now) { return now.referenceFrame.boost == glm::dvec3(0.5, 0, 0); }},
-        {"alpha", "0.1", polytope, [](const State& now) { return now.alpha == 0.1; }},
-        {"beta", "-0.2", polytope, [](const State& now) { return now.beta == -0.2; }},
-        {"step", "0.01", polytope, [](const State& now) { return now.step == 0.01; }},
-        {"slices", "11", polytope, [](const State& now) { return now.slices.count == 11; }},
-        {"spacing", "0.2", polytope, [](const State& now) { return now.slices.spacing == 0.2; }},
-        {"focus", "-2", polytope, [](const State& now) { return now.slices.focus == -2; }},
-        {"offset", "0.05", polytope, [](const State& now) { return now.slices.offset == 0.05; }},
-        {"w", "0.3", polytope, [](const State& now) { return std::abs(now.focusW() - 0.3) < 1e-12; }},
-        {"point", "0.1,1/4,-pi/10,0", polytope,
-         [](const State& now) { return now.look.focusPoint == glm::dvec3(0.1, 0.25, -pi / 10); }},
-        {"view", "single", polytope, [](const State& now) { return now.look.view == scene::View::single; }},
-        {"azimuth", "0.3", polytope, [](const State& now) { return now.look.orbit.azimuth == 0.3; }},
-        {"elevation", "-0.1", polytope, [](const State& now) { return now.look.orbit.elevation == -0.1; }},
-        {"zoom", "2", polytope, [](const State& now) { return now.look.orbit.zoom == 2; }},
-        {"color", "w", polytope, [](const State& now) { return now.look.coloring == scene::Coloring::w; }},
-        {"background", "white", polytope,
-         [](const State& now) { return now.look.background == scene::Background::white; }},
-        {"projection", "orthogonal", polytope,
-         [](const State& now) { return now.look.projection.kind == scene::ProjectionKind::orthogonal; }},
-        {"eye", "5", polytope, [](const State& now) { return now.look.projection.eye == 5; }},
-        {"levels", "1,1/2", field,
-         [](const State& now) { return now.look.field.levels == std::vector<double>{1, 0.5}; }},
-        {"inside", "above", field, [](const State& now) { return now.look.field.inside == fields::Inside::above; }},
-        {"caps", "open", field, [](const State& now) { return now.look.caps == scene::CapStyle::open; }},
-        {"fog", "0:0,8:1", field,
-         [](const State& now) { return now.look.field.fog == std::vector<slicing::FogPoint>{{0, 0}, {8, 1}}; }},
-        {"hidden", "0", polytope,
-         [](const State& now) { return now.look.cellTypes.hidden == std::vector<std::uint32_t>{0}; }},
-        {"faded", "0", polytope,
-         [](const State& now) { return now.look.cellTypes.faded == std::vector<std::uint32_t>{0}; }},
-        {"highlight", "vertex:3", polytope,
-         [](const State& now) { return now.look.highlight == slicing::Element{slicing::ElementKind::vertex, 3}; }},
-        {"turning", "on", polytope, [](const State& now) { return now.turning; }}};
-    for (const scene::NamedPart& part : scene::kParts) {
-        const bool shown = !(scene::Parts().*part.flag);
-        values.push_back({std::string(part.name), shown ? "on" : "off", polytope,
-                          [flag = part.flag, shown](const State& now) { return now.look.parts.*flag == shown; }});
-    }
+    std::vector<SettingValue> values{{"polytope", "16-cell", "polytope 8-cell",
+                                      [](const State& state) { return infoOf(state).name == "16-cell"; }, "/polytope",
+                                      "16-cell"}};
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        const auto& [text, object, member] = setting.name;
+        const nlohmann::json example = exampleOf(setting.name);
+        SettingValue value{std::string(text),
+                           lineText(example),
+                           setting.forFields ? "formula x^2+y^2 < w" : "polytope truncated tesseract",
+                           {},
+                           (object.empty() ? "" : "/" + std::string(object)) + "/" + std::string(member),
+                           example};
+        if constexpr (Row::kIsInState) {
+            value.isIn = isTextIn(value.name, value.value);
+        } else if (text == "w") {
+            value.isIn = [w = example.get<double>()](const State& state) {
+                return std::abs(state.focusW() - w) < 1e-12;
+            };
+        } else {
+            EXPECT_EQ(text, "turning") << "this function must know how to find the setting in a state";
+            value.isIn = [](const State& state) { return state.turning; };
+        }
+        values.push_back(std::move(value));
+    });
     return values;
+}
+
+/// Returns a session with an object that has the setting.
+inline Session sessionBefore(const SettingValue& setting) {
+    Session session;
+    line(session, setting.object);
+    press(session, "2");  // a rotation, which turning repeats
+    return session;
 }
 
 /// Returns a session that has the value.
 inline Session sessionWith(const SettingValue& setting) {
-    Session session;
-    line(session, setting.object);
-    press(session, "2");  // a rotation, which turning repeats
+    Session session = sessionBefore(setting);
     EXPECT_FALSE(setting.isIn(session.current)) << setting.name << " has this value initially";
     line(session, "set " + setting.name + "=" + setting.value);
     return session;

@@ -11,6 +11,7 @@
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
 #include "session/session.hpp"
+#include "session/setting_table.hpp"
 #include "unit/polytopes/support.hpp"
 
 namespace oval4d::session {
@@ -35,12 +36,17 @@ inline void expectNear(const State& a, const State& b, double tolerance) {
     for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 4; ++r) EXPECT_NEAR(m[c][r], n[c][r], tolerance);
     }
-    EXPECT_NEAR(a.alpha, b.alpha, tolerance);
-    EXPECT_NEAR(a.beta, b.beta, tolerance);
+    State rest = b;
+    forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kHasRange) {
+            EXPECT_NEAR(setting.ofState(a), setting.ofState(b), tolerance) << setting.name.text;
+            setting.ofState(rest) = setting.ofState(a);
+        }
+    });
     EXPECT_NEAR(a.slices.spacing, b.slices.spacing, tolerance);
     EXPECT_EQ(a.slices.count, b.slices.count);
     EXPECT_EQ(a.slices.focus, b.slices.focus);
-    EXPECT_EQ(a.look, b.look);
+    EXPECT_EQ(a.look, rest.look);
     EXPECT_EQ(a.turning, b.turning);
 }
 

@@ -65,11 +65,12 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 command = session::Rotate{{static_cast<geometry::Plane>(random() % 6), angle(random), {}}};
                 break;
             case 1:
-                set.azimuth = angle(random);
-                set.zoom = 1.5;
-                set.coloring = static_cast<scene::Coloring>(random() % 7);
-                set.caps = static_cast<scene::CapStyle>(random() % 3);
-                set.background = static_cast<scene::Background>(random() % scene::kBackgrounds.size());
+                set.plain.of<double>("azimuth") = angle(random);
+                set.plain.of<double>("zoom") = 1.5;
+                set.plain.of<scene::Coloring>("color") = static_cast<scene::Coloring>(random() % 7);
+                set.plain.of<scene::CapStyle>("caps") = static_cast<scene::CapStyle>(random() % 3);
+                set.plain.of<scene::Background>("background") =
+                    static_cast<scene::Background>(random() % scene::kBackgrounds.size());
                 set.hidden = {{0}};
                 command = set;
                 break;

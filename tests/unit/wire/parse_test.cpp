@@ -1,5 +1,4 @@
 #include <cmath>
-#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -9,7 +8,9 @@
 
 #include "scene/look.hpp"
 #include "session/session.hpp"
+#include "session/setting_text.hpp"
 #include "text/message_text.hpp"
+#include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
 
@@ -96,82 +97,36 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(std::get<PictureShown>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
-/// A member of a set message: its place as a JSON pointer (RFC 6901), a value, and whether a Set holds this value.
-struct SetMember {
-    std::string place, value;
-    std::function<bool(const session::Set&)> isIn;
-};
-
-std::vector<SetMember> setMembers() {
-    using session::Set;
-    std::vector<SetMember> members{
-        {"/continues", "true", [](const Set& set) { return set.continues; }},
-        {"/polytope", R"({"name":"24-cell","cells":24})", [](const Set& set) { return set.object == "24-cell"; }},
-        {"/field", R"({"formula":"x*y","box":[[-1,1],[-1,1],[-1,1],[0,2]],
-                       "values":{"formula":"w","range":[0,2],"colors":[0,0,0,0,0,0,0,0,0]}})",
-         [](const Set& set) {
-             return set.formula && set.formula->name == "24-cell" && set.formula->data == "x*y" &&
-                    set.formula->box->max == glm::dvec4(1, 1, 1, 2) && set.formula->secondFormula == "w";
-         }},
-        {"/pace", "2", [](const Set& set) { return set.pace == 2; }},
-        {"/follow", "[0.1,0.2,0.3]", [](const Set& set) { return set.follow == glm::dvec3(0.1, 0.2, 0.3); }},
-        {"/boost", "[0,0.5,0]", [](const Set& set) { return set.boost == glm::dvec3(0, 0.5, 0); }},
-        {"/orientation", "[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]]",  // rows, not columns
-         [](const Set& set) {
-             return set.orientation && *set.orientation * glm::dvec4(0, 0, 1, 0) == glm::dvec4(0, -1, 0, 0);
-         }},
-        {"/alpha", "0.1", [](const Set& set) { return set.alpha == 0.1; }},
-        {"/beta", "-0.2", [](const Set& set) { return set.beta == -0.2; }},
-        {"/step", "0.01", [](const Set& set) { return set.step == 0.01; }},
-        {"/slices/count", "21.0", [](const Set& set) { return set.count == 21; }},  // an integer, however it is written
-        {"/slices/spacing", "0.5", [](const Set& set) { return set.spacing == 0.5; }},
-        {"/slices/focus", "-3", [](const Set& set) { return set.focus == -3; }},
-        {"/slices/offset", "0.25", [](const Set& set) { return set.offset == 0.25; }},
-        {"/slices/w", "-1.25", [](const Set& set) { return set.focusW == -1.25; }},
-        {"/point", "[1,2,3,4]", [](const Set& set) { return set.focusPoint == glm::dvec4(1, 2, 3, 4); }},
-        {"/view", R"("single")", [](const Set& set) { return set.view == scene::View::single; }},
-        {"/turning", "true", [](const Set& set) { return set.turning == true; }},
-        {"/camera/azimuth", "1", [](const Set& set) { return set.azimuth == 1; }},
-        {"/camera/elevation", "2", [](const Set& set) { return set.elevation == 2; }},
-        {"/camera/zoom", "3", [](const Set& set) { return set.zoom == 3; }},
-        {"/color", R"("w")", [](const Set& set) { return set.coloring == scene::Coloring::w; }},
-        {"/caps", R"("open")", [](const Set& set) { return set.caps == scene::CapStyle::open; }},
-        {"/background", R"("transparent")",
-         [](const Set& set) { return set.background == scene::Background::transparent; }},
-        {"/projection", R"("orthogonal")",
-         [](const Set& set) { return set.projection == scene::ProjectionKind::orthogonal; }},
-        {"/eye", "5", [](const Set& set) { return set.eye == 5; }},
-        {"/levels", "[1,2]", [](const Set& set) { return set.levels == std::vector<double>{1, 2}; }},
-        {"/inside", R"("above")", [](const Set& set) { return set.inside == fields::Inside::above; }},
-        {"/fog", R"([{"value":0,"opacity":0.5},{"value":1,"opacity":1,"color":255}])",
-         [](const Set& set) { return set.fog == std::vector<slicing::FogPoint>{{0, 0.5}, {1, 1, 255}}; }},
-        {"/hidden", "[3,1]", [](const Set& set) { return set.hidden == std::vector<std::uint32_t>{3, 1}; }},
-        {"/faded", "[]", [](const Set& set) { return set.faded == std::vector<std::uint32_t>{}; }},
-        {"/highlight", R"({"element":"edge","number":7})",
-         [](const Set& set) {
-             return set.highlight && *set.highlight == slicing::Element{slicing::ElementKind::edge, 7};
-         }},
-        {"/last", R"({"planes":["xw"],"angles":[0.3]})",
-         [](const Set& set) { return set.lastTurn == geometry::Turn{geometry::Plane::xw, 0.3, {}}; }},
-    };
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
-        const bool shown = i % 2 == 0;
-        members.push_back({"/shown/" + std::string(scene::kParts[i].name), shown ? "true" : "false",
-                           [i, shown](const Set& set) { return set.parts[i] == shown; }});
-    }
-    return members;
-}
-
 TEST(Parse, SetsEverySetting) {
     nlohmann::json message{{"type", "set"}};
+    session::Set expected;
     std::set<std::string> tested;
-    for (const SetMember& member : setMembers()) {
-        message[nlohmann::json::json_pointer(member.place)] = nlohmann::json::parse(member.value);
-        tested.insert(member.place);
-        EXPECT_FALSE(member.isIn({})) << member.place;
+    const auto add = [&](const std::string& place, const nlohmann::json& value) {
+        message[nlohmann::json::json_pointer(place)] = value;
+        tested.insert(place);
+    };
+    for (const session::SettingValue& setting : session::settingValues()) {
+        add(setting.place, setting.message);
+        EXPECT_TRUE(parseSetting(setting.name, setting.value, expected)) << setting.name;
     }
+    add("/continues", true);
+    add("/polytope", {{"name", "16-cell"}, {"cells", 16}});
+    add("/field", nlohmann::json::parse(R"({"formula":"x*y","box":[[-1,1],[-1,1],[-1,1],[0,2]],
+                                            "values":{"formula":"w","range":[0,2],"colors":[0,0,0,0,0,0,0,0,0]}})"));
+    add("/orientation", nlohmann::json::parse("[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]]"));
+    add("/last", nlohmann::json::parse(R"({"planes":["xw"],"angles":[0.3]})"));
+
     const auto set = parsedCommand<session::Set>(message.dump());
-    for (const SetMember& member : setMembers()) EXPECT_TRUE(member.isIn(set)) << member.place;
+    EXPECT_EQ(settingTexts(set), settingTexts(expected)) << "the values that the command line sets";
+    EXPECT_TRUE(set.continues);
+    ASSERT_TRUE(set.formula);
+    EXPECT_EQ(set.formula->name, "16-cell");
+    EXPECT_EQ(set.formula->data, "x*y");
+    EXPECT_EQ(set.formula->box->max, glm::dvec4(1, 1, 1, 2));
+    EXPECT_EQ(set.formula->secondFormula, "w");
+    ASSERT_TRUE(set.orientation);
+    EXPECT_EQ(*set.orientation * glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0));
+    EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
 
     // Each setting of the schema is among them.
     std::set<std::string> settings;
@@ -187,6 +142,8 @@ TEST(Parse, SetsEverySetting) {
     }
     EXPECT_EQ(tested, settings);
     EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
+    EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","slices":{"count":21.0}})").count, 21)
+        << "an integer, however it is written";
 }
 
 struct Bad {

@@ -4,9 +4,11 @@
 #include <boost/describe/members.hpp>
 #include <boost/describe/modifiers.hpp>
 #include <boost/mp11/algorithm.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <type_traits>
@@ -15,7 +17,10 @@
 #include <gtest/gtest.h>
 
 #include "session/setting_table.hpp"
+#include "text/message_text.hpp"
+#include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
+#include "wire/state_message.hpp"
 
 namespace oval4d::wire {
 namespace {
@@ -116,7 +121,8 @@ void expectKnownKeywords(const json& schema, const std::string& where) {
         expectKnownKeywords(readSchema(reference), where + "/" + reference);
     }
     for (const auto& [keyword, content] : schema.items()) {
-        if (keyword == "$ref" || keyword == "default" || keyword.starts_with("x-")) continue;  // these check nothing
+        if (keyword == "$ref" || keyword == "default" || keyword == "examples" || keyword.starts_with("x-"))
+            continue;  // these check nothing
         if (keyword == "$defs") {
             for (const auto& [name, member] : content.items()) expectKnownKeywords(member, where + "/" + name);
             continue;
@@ -146,6 +152,65 @@ TEST(Tables, SetAndStateHaveTheSettings) {
             EXPECT_EQ(required.contains(name), !setting.forFields) << name;
         }
     });
+}
+
+/// Expects that the schema of a number allows this range, and that its title, if it states bounds, states these.
+void expectRange(const json& schema, const geometry::Range& range) {
+    const bool isOpen = schema.contains("exclusiveMinimum");
+    const double minimum = schema.at(isOpen ? "exclusiveMinimum" : "minimum"), maximum = schema.at("maximum");
+    EXPECT_TRUE(isOpen ? minimum < range.least : minimum == range.least) << minimum << ", not " << range.least;
+    EXPECT_EQ(maximum, range.most);
+    const auto stated = [](double number) {
+        if (std::abs(number) == 2 * std::numbers::pi) return std::string(number < 0 ? "−2π" : "2π");
+        return text::roundedDecimal(number);
+    };
+    const std::string title = schema.value("title", "");
+    if (title.find("from ") == std::string::npos) return;
+    EXPECT_NE(title.find("from " + stated(minimum) + " to " + stated(maximum)), std::string::npos) << title;
+}
+
+TEST(Tables, TheRangesOfSettingsAreThoseOfTheSchema) {
+    session::forEachSetting([]<typename Row>(const Row& setting) {
+        if constexpr (Row::kHasRange) {
+            SCOPED_TRACE(std::string(setting.name.text) + ": the schema and the range in C++ must agree");
+            expectRange(session::schemaOf(setting.name), setting.rule.range);
+        }
+    });
+    using geometry::ReferenceFrame;
+    const auto symmetric = [](double most) { return geometry::Range{-most, most}; };
+    const json settings = readSchema("settings.schema.json").at("properties");
+    expectRange(settings.at("pace"), ReferenceFrame::kPaceRange);
+    expectRange(settings.at("follow").at("items"), ReferenceFrame::kFollowRange);
+    expectRange(settings.at("boost").at("items"), symmetric(ReferenceFrame::kMaxBoost));
+    expectRange(settings.at("levels").at("items"), symmetric(slicing::kMaxLevel));
+    expectRange(settings.at("fog").at("items").at("properties").at("value"), symmetric(slicing::kMaxLevel));
+    expectRange(settings.at("slices").at("properties").at("focus"), symmetric(session::kMaxFocus));
+}
+
+TEST(Tables, TheDefaultsOfSettingsAreTheInitialValues) {
+    const json state = fitting(stateMessage(session::initialState(), {}, 0));
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            if (setting.forFields) return;  // a new session does not show a field
+            const std::string object(setting.name.object), member(setting.name.member);
+            const json& value = object.empty() ? state.at(member) : state.at(object).at(member);
+            EXPECT_EQ(session::schemaOf(setting.name).value("default", json("none")), value)
+                << setting.name.text << ": the schema needs \"default\", the value in a new session";
+        }
+    });
+}
+
+TEST(Tables, TheSpecificationListsTheNamesForSet) {
+    const std::string text = textOf("protocol/README.md");
+    const std::size_t begin = text.find("<!-- names for set:"), end = text.find("<!-- end of names for set -->");
+    ASSERT_LT(begin, end);
+    std::set<std::string> listed, names;
+    std::istringstream words(text.substr(begin, end - begin));
+    for (std::string word; std::getline(words, word, '`') && std::getline(words, word, '`');) listed.insert(word);
+    std::istringstream all(session::settingNames());
+    for (std::string name; std::getline(all >> std::ws, name, ',');) names.insert(name);
+    EXPECT_EQ(listed, names) << "tests/lint makes this list from settings.schema.json: run tests/lint --fix; a setting "
+                                "of the command line has the name of its member there, except the number of slices";
 }
 
 TEST(Tables, KeywordsBesideAReferenceAreAdded) {
