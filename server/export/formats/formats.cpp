@@ -30,6 +30,7 @@ constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = thr
                                                  {.name = "off", .ofScene = off},
                                                  {.name = "pdf", .ofDrawing = pdf},
                                                  {.name = "ply", .ofBodies = ply},
+                                                 {.name = "scad", .ofBodies = scad},
                                                  {.name = "stl", .ofBodies = stl},
                                                  {.name = "svg", .ofDrawing = svg},
                                                  {.name = "vti", .ofScene = vti},

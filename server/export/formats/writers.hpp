@@ -23,6 +23,11 @@ std::string obj(const MeshesToWrite& meshes);
 /// property `value`; the value is NaN at the points of labels.
 std::string ply(const MeshesToWrite& meshes);
 
+/// Returns an OpenSCAD program in millimeters. It has a module for each body, body_1 and so on, which makes a
+/// polyhedron in the color of the body, PlacedMesh::color; at the end, it calls each module at the position of its
+/// body. Comments contain the names of the object and of the bodies.
+std::string scad(const MeshesToWrite& meshes);
+
 /// Returns a binary STL file in millimeters, with all bodies in one mesh.
 std::string stl(const MeshesToWrite& meshes);
 

@@ -1,0 +1,65 @@
+#include "export/formats/writers.hpp"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+// Returns the name of the module of the body with this index.
+std::string moduleName(std::size_t body) { return "body_" + std::to_string(body + 1); }
+
+// Appends a vector of OpenSCAD, such as "[1, 0.5, 0]".
+void appendBracketed(std::string& out, const glm::dvec3& vector) {
+    for (int axis = 0; axis < 3; ++axis) {
+        out += axis == 0 ? "[" : ", ";
+        append(out, vector[axis]);
+    }
+    out += ']';
+}
+
+void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
+    std::array<char, 8> color{};
+    std::snprintf(color.data(), color.size(), "#%06x", solid.color & 0xffffffU);
+    // Previews of cuts lack parts of a body that a ray enters more than `convexity` times.
+    out += "\n// " + xmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" + color.data() +
+           "\") polyhedron(convexity = 10, points = [";
+    std::string_view separator = "\n";
+    for (const glm::dvec3& point : solid.mesh.points) {
+        out += std::exchange(separator, ",\n");
+        appendBracketed(out, point);
+    }
+    out += "\n], faces = [";
+    separator = "\n[";
+    for (const auto& [a, b, c] : solid.mesh.triangles) {
+        out += std::exchange(separator, ",\n[");
+        // Faces of OpenSCAD are clockwise seen from outside, and triangles of a Mesh are counterclockwise.
+        out += std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + ']';
+    }
+    out += "\n]);\n}\n";
+}
+
+}  // namespace
+
+std::string scad(const MeshesToWrite& meshes) {
+    // A line end in a name would end its comment; xmlCharacters() removes line ends.
+    std::string out = "// " + xmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
+    for (std::size_t i = 0; i < meshes.solids.size(); ++i) {
+        meshes.budget.checkTime();
+        appendModule(out, moduleName(i), meshes.solids[i]);
+    }
+    out += '\n';
+    for (std::size_t i = 0; i < meshes.solids.size(); ++i) {
+        out += "translate(";
+        appendBracketed(out, meshes.solids[i].at);
+        out += ") " + moduleName(i) + "();\n";
+    }
+    return out;
+}
+
+}  // namespace oval4d::exports
