@@ -65,6 +65,7 @@ test("export: every format makes its file, with a descriptive name", async () =>
         svg: /^<(\?xml|svg)/,
         pdf: /^%PDF-1/,
         x3d: /^<\?xml[^]*<X3D/,
+        scad: /^\/\/ 24-cell, in millimeters, from oval4d\n/,
         vtp: /^<\?xml[^]*<PolyData/,
     };
     const ofPolytopes = table.formats.filter(({ objects }) => objects !== "fields").map(({ name }) => name);

@@ -1,4 +1,4 @@
-"""Reads exported files with other programs: admesh, assimp, and independent readers of 3MF and VTK's XML files."""
+"""Reads exported files with other programs: admesh, assimp, and independent readers of 3MF, OpenSCAD and VTK files."""
 
 import base64
 import io
@@ -70,6 +70,23 @@ def read_three_mf(data):
         objects[object_.get("id")] = (object_.get("name"), points, triangles)
     assert [item.get("objectid") for item in model.iter(CORE + "item")] == list(objects)
     return list(objects.values())
+
+
+SCAD_MODULE = re.compile(r"\n// (.*)\nmodule (body_\d+)\(\) {\n"
+                         r'    color\("#[0-9a-f]{6}"\) polyhedron\(convexity = 10, points = ([^=]*?), faces = ([^=]*?)\);\n'
+                         r"}\n")
+SCAD_CALL = re.compile(r"translate\(\[.*\]\) (body_\d+)\(\);\n")
+
+
+def read_scad(data):
+    """Returns (name, points, faces) of each module of an OpenSCAD program; asserts that the program calls each once
+    and has nothing else."""
+    text = data.decode()
+    modules = SCAD_MODULE.findall(text)
+    rest = SCAD_MODULE.sub("", text)
+    assert re.fullmatch(r"// .*, in millimeters, from oval4d\n\n", SCAD_CALL.sub("", rest)), rest[:500]
+    assert SCAD_CALL.findall(rest) == [module for _, module, _, _ in modules]
+    return [(name, json.loads(points), json.loads(faces)) for name, _, points, faces in modules]
 
 
 def assert_manifold(triangles):

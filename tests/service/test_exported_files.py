@@ -131,6 +131,16 @@ def test_ply_faces_have_the_colors_of_their_cells(server):
     assert len(colors) == 14  # each of the 14 faces of the slice comes from another cell
 
 
+def test_openscad_modules_are_the_bodies_of_3mf_with_clockwise_faces(server):
+    query = f"polytope=24-cell&{ROTATION}&of=oval&slices=5&label=separate"
+    modules = meshes.read_scad(fetch_file(server, "scad", query))
+    objects = meshes.read_three_mf(fetch_file(server, "3mf", query))
+    assert [name for name, _, _ in modules] == [name for name, _, _ in objects]
+    for (_, points, faces), (_, printed_points, triangles) in zip(modules, objects):
+        meshes.assert_manifold(faces)
+        assert meshes.volume(points, faces) == pytest.approx(-meshes.volume(printed_points, triangles), rel=1e-3)
+
+
 def test_labels_are_engraved_or_separate_bodies(server, tmp_path):
     query = f"polytope=24-cell&{ROTATION}"
     plain = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "plain.stl", query), 1)
@@ -211,6 +221,8 @@ async def test_files_of_objects_with_any_name_can_be_parsed(server, tmp_path, na
     assert ElementTree.fromstring(files["svg"]).find(SVG + "title").text.endswith(shown)
     ((object_name, _, _),) = meshes.read_three_mf(files["3mf"])
     assert object_name.startswith(shown)
+    ((module_name, _, _),) = meshes.read_scad(files["scad"])
+    assert module_name == object_name
     path = tmp_path / "body.glb"
     path.write_bytes(files["glb"])
     assert meshes.validate_glb(path)["issues"]["numErrors"] == 0

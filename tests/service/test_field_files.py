@@ -173,6 +173,8 @@ def test_viewers_read_the_bodies(server, tmp_path):
         path = fetch_to(tmp_path / f"body.{format_}", server, TIGER, CUT_BOX, rotate=TURN)
         corners = meshes.stl_triangles(meshes.convert_with_assimp(path, tmp_path / "again.stl").read_bytes())
         volumes.append(meshes.volume_of(corners) * unit**3)
+    ((_, points, faces),) = meshes.read_scad(fetch(server, "scad", TIGER, CUT_BOX, rotate=TURN))
+    volumes.append(-meshes.volume(points, faces))
     assert volumes == pytest.approx([volumes[0]] * len(volumes), rel=1e-3) and volumes[0] > 0
     report = meshes.validate_glb(tmp_path / "body.glb")
     assert report["issues"]["numErrors"] == report["issues"]["numWarnings"] == 0, report["issues"]

@@ -7,6 +7,7 @@
 
 #include "polytopes/import/import.hpp"
 #include "protocol_data/embedded_files.hpp"
+#include "scene/style.hpp"
 #include "text/message_text.hpp"
 #include "unit/export/support.hpp"
 
@@ -123,6 +124,125 @@ TEST(Formats, ofBodiesAreNotBrokenByNames) {
 TEST(Obj, namesAreWords) {
     EXPECT_NE(fileOfBodies(*formatNamed("obj"), kHostileName).find("\no a_\"b\"_'c'__v_1_2_3_<d/>_&_é\n"),
               std::string::npos);
+}
+
+TEST(Scad, isAProgramWithAModuleForEachBody) {
+    const std::vector<PlacedMesh> solids{tetrahedron("a\nb")};
+    const std::string title = "c\rd";
+    EXPECT_EQ(formatNamed("scad")->writeBodies({solids, {}, title, unhurried()}),
+              "// cd, in millimeters, from oval4d\n"
+              "\n"
+              "// ab\n"
+              "module body_1() {\n"
+              "    color(\"#ff8800\") polyhedron(convexity = 10, points = [\n"
+              "[0, 0, 0],\n"
+              "[1, 0, 0],\n"
+              "[0, 1, 0],\n"
+              "[0, 0, 1]\n"
+              "], faces = [\n"
+              "[0, 1, 2],\n"
+              "[0, 3, 1],\n"
+              "[0, 2, 3],\n"
+              "[1, 3, 2]\n"
+              "]);\n"
+              "}\n"
+              "\n"
+              "translate([1, 2, 3]) body_1();\n");
+}
+
+/// Returns the first vector of three numbers in a line of an OpenSCAD program.
+glm::dvec3 vectorIn(const std::string& line) {
+    std::istringstream in(line.substr(line.find('[') + 1));
+    glm::dvec3 v(NAN);
+    char comma = 0;
+    in >> v.x >> comma >> v.y >> comma >> v.z;
+    return v;
+}
+
+/// Returns the bodies of an OpenSCAD program that was exported. Their triangles are oriented as in the program.
+std::vector<PlacedMesh> bodiesOfScad(const std::string& text) {
+    std::vector<PlacedMesh> bodies;
+    std::size_t placed = 0;
+    std::string name;
+    bool inFaces = false;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        if (line.starts_with("// ")) {
+            name = line.substr(3);
+        } else if (line.starts_with("module ")) {
+            EXPECT_EQ(line, "module body_" + std::to_string(bodies.size() + 1) + "() {");
+            bodies.push_back({name, {}, 0, glm::dvec3(0)});
+            inFaces = false;
+        } else if (line.starts_with("    color(\"#")) {
+            bodies.back().color =
+                static_cast<scene::Color>(std::stoul(line.substr(line.find('#') + 1, 6), nullptr, 16));
+        } else if (line == "], faces = [") {
+            inFaces = true;
+        } else if (line.starts_with("translate(")) {
+            bodies.at(placed++).at = vectorIn(line);
+            EXPECT_TRUE(line.ends_with(" body_" + std::to_string(placed) + "();")) << line;
+        } else if (line.starts_with('[')) {
+            const glm::dvec3 v = vectorIn(line);
+            Mesh& mesh = bodies.back().mesh;
+            if (inFaces) {
+                const glm::uvec3 corners(v);
+                mesh.add(corners.x, corners.y, corners.z, kNoCell);
+            } else {
+                mesh.points.push_back(v);
+            }
+        }
+    }
+    EXPECT_EQ(placed, bodies.size());
+    return bodies;
+}
+
+TEST(Scad, hasFacesThatAreClockwiseSeenFromOutside) {
+    // The slice of the tesseract with a circumscribed sphere of 60 mm is a cube of 30 mm.
+    auto bodies = bodiesOfScad(fileOf(named("8-cell"), {}, {0, 1, 1}, {.format = formatNamed("scad")}));
+    ASSERT_EQ(bodies.size(), 1U);
+    Mesh& mesh = bodies.front().mesh;
+    EXPECT_NEAR(volumeOf(mesh), -30.0 * 30 * 30, 1);
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    expectPrintable(mesh);
+}
+
+TEST(Scad, hasTheBodiesOfTheSlices) {
+    const ExportRequest request{.format = formatNamed("scad"), .contents = ExportContents::oval};
+    const auto bodies = bodiesOfScad(fileOf(named("16-cell"), {}, {-2, 5, 0.5}, request));
+    ASSERT_EQ(bodies.size(), 5U);
+    const double scale = 30 / std::sqrt(2);  // millimeters per unit: the circumradius is √2
+    for (int n = -2; n <= 2; ++n) {
+        const PlacedMesh& body = bodies[static_cast<std::size_t>(n + 2)];
+        SCOPED_TRACE(body.name);
+        EXPECT_TRUE(body.name.starts_with("16-cell, w = "));
+        EXPECT_EQ(body.color, scene::style().ball);
+        // At ±w the slice is the octahedron of radius √2 − |w|.
+        const double radius = scale * (std::sqrt(2) - std::abs(n * 0.5));
+        const double volume = 4.0 / 3 * radius * radius * radius;
+        EXPECT_NEAR(volumeOf(body.mesh), -volume, 1e-3 * volume);
+    }
+}
+
+TEST(Scad, hasTheSamePointsAsObj) {
+    const auto textOf = [](const char* format) {
+        const ExportRequest request{
+            .format = formatNamed(format), .contents = ExportContents::oval, .label = Label::separate};
+        return fileOf(named("24-cell"), {}, {-2, 5, 0.5}, request);
+    };
+    std::vector<glm::dvec3> points;
+    for (const PlacedMesh& body : bodiesOfScad(textOf("scad"))) {
+        for (const glm::dvec3& point : body.mesh.points) points.push_back(point + body.at);
+    }
+    std::vector<glm::dvec3> pointsInObj;
+    std::istringstream in(textOf("obj"));
+    for (std::string line; std::getline(in, line);) {
+        if (!line.starts_with("v ")) continue;
+        std::istringstream numbers(line.substr(2));
+        glm::dvec3& v = pointsInObj.emplace_back();
+        numbers >> v.x >> v.y >> v.z;
+    }
+    EXPECT_FALSE(points.empty());
+    EXPECT_EQ(points, pointsInObj);
 }
 
 std::vector<double> numbersIn(const std::string& row) {
