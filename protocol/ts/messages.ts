@@ -495,6 +495,10 @@ export interface SetRequest {
     };
     color?: Coloring;
     background?: Background;
+    /**
+     * The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings. Exported bodies and the matrix of planar sections stay as they are.
+     */
+    thickness?: number;
     caps?: Caps;
     /**
      * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
@@ -1113,6 +1117,10 @@ export interface State {
     turning: boolean;
     color: Coloring;
     background: Background;
+    /**
+     * The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings. Exported bodies and the matrix of planar sections stay as they are.
+     */
+    thickness: number;
     caps?: Caps;
     /**
      * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.

@@ -165,6 +165,7 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
 }
 
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
+// `relativeBall`: LayoutContent::relativeBallRadius. The matrix has no balls and bars, so it ignores Look::thickness.
 MatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
@@ -209,9 +210,11 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     out.axes = {0.06, 0.075, 0.045};
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
-    const double relativeBall = content.relativeBallRadius;  // all radii of balls and bars are proportional to it
+    // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are
+    // proportional to it.
+    const double relativeBall = look.thickness * content.relativeBallRadius;
     const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect);
-    out.matrix = arrangement.showsMatrix ? placeMatrix(room, relativeBall) : MatrixLayout{};
+    out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : MatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
     out.ballRadius = relativeBall * out.sliceRadius;
     out.barRadius = kBarPerBall * out.ballRadius;

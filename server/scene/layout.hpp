@@ -129,8 +129,8 @@ struct LayoutContent {
     std::size_t vertices = 0;
     bool isField = false;
     double originW = 0;             ///< the w of geometry::ObjectInfo::originInFile
-    double relativeBallRadius = 0;  ///< slicing::relativeBallRadius(): the radius of balls as a fraction of the radius
-                                    ///< of the object's circumscribed sphere
+    double relativeBallRadius = 0;  ///< slicing::relativeBallRadius(): the radius of balls at the thickness 1, as a
+                                    ///< fraction of the radius of the object's circumscribed sphere
     bool operator==(const LayoutContent&) const = default;
 };
 

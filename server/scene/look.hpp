@@ -115,6 +115,8 @@ struct CameraOrbit {
 
 /// All choices of the user about the display of an object.
 struct Look {
+    static constexpr geometry::Range kThicknessRange{0.25, 4};
+
     View view = View::oval;
     Parts parts;
     CameraOrbit orbit;
@@ -128,6 +130,7 @@ struct Look {
     slicing::FieldSettings field = {};  ///< for a field: the surfaces and the fog that are shown
     CapStyle caps = CapStyle::plain;
     Background background = Background::automatic;
+    double thickness = 1;  ///< multiplies the radii of all balls and bars; within kThicknessRange
     bool operator==(const Look&) const = default;
 };
 

@@ -124,9 +124,12 @@ void addSteps(const Row& setting, std::vector<Action>& actions) {
                                return std::monostate{};
                            }});
     };
-    if (const double factor = setting.rule.keys.factor; factor > 1) {
-        add("_larger", [factor](double value, const State&) { return value * factor; });
-        add("_smaller", [factor](double value, const State&) { return value / factor; });
+    if (const int perDoubling = setting.rule.keys.perDoubling; perDoubling > 0) {
+        const auto step = [perDoubling](double value, int by) {
+            return std::exp2((std::round(perDoubling * std::log2(value)) + by) / perDoubling);
+        };
+        add("_larger", [step](double value, const State&) { return step(value, 1); });
+        add("_smaller", [step](double value, const State&) { return step(value, -1); });
     }
     if (const auto amount = setting.rule.keys.amount; amount != nullptr) {
         add("_up", [amount](double value, const State& state) { return value + state.*amount; });

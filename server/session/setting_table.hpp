@@ -29,7 +29,10 @@ inline constexpr std::string_view kRadians = " radians";
 struct AcceptsAnyValue {};
 /// The steps by which keys change a number, within its range. By default, there are no such keys. For the setting NAME:
 struct KeySteps {
-    double factor = 1;                 ///< the action NAME_larger multiplies by it, and NAME_smaller divides by it
+    /// For positive numbers: if not 0, the action NAME_larger multiplies by 2^(1/perDoubling), and NAME_smaller divides
+    /// by it. Both round the result to a power of this factor, so that each undoes the other exactly, and `perDoubling`
+    /// steps lead from 1 to exactly 2. Any other number is first rounded to the nearest power.
+    int perDoubling = 0;
     double State::* amount = nullptr;  ///< the action NAME_up adds this member of the state, NAME_down subtracts it
 };
 /// The rule of a number that applySet() accepts within a fixed range.
@@ -131,6 +134,8 @@ void forEachSetting(const Visitor& visit) {
     plain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom), NumberInRange{"the camera's zoom", Orbit::kZoomRange});
     plain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{});
     plain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
+    plain({"thickness"}, at(look, &Look::thickness),
+          NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}});
     const auto projection = &Look::projection;
     using Projection = scene::ProjectionSettings;
     plain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});

@@ -75,7 +75,8 @@ void visitMembers(Is<slicing::FieldSettings> auto& field, auto& visit) {
 }
 
 void visitMembers(Is<scene::Look> auto& look, auto& visit) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background] = look;
+    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background,
+           thickness] = look;
     auto& [hidden, faded] = cellTypes;
     auto& [kind, eye] = projection;
     visit.member(0, view);
@@ -91,6 +92,7 @@ void visitMembers(Is<scene::Look> auto& look, auto& visit) {
     visit.addedMember(10, field);
     visit.addedMember(11, caps);
     visit.addedMember(12, background);
+    visit.addedMember(13, thickness, scene::Look::kThicknessRange);
 }
 
 void visitMembers(Is<session::SliceSettings> auto& slices, auto& visit) {

@@ -93,7 +93,7 @@ export class ColorControls {
 
     get sections(): ToolSection[] {
         return [
-            { title: "Colors", after: "look", content: [this.colorings, this.scale, this.list] },
+            { title: "Colors", after: "whole", content: [this.colorings, this.scale, this.list] },
             { title: "Background", content: [this.backgrounds] },
         ];
     }
