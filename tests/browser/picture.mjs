@@ -104,6 +104,7 @@ const views = [
         ...{ mean: 2.4, far: 0.02 },
     },
     { name: "a perspective projection", settings: { polytope: "24-cell", projection: "perspective" } },
+    { name: "thick balls and bars", settings: { polytope: "24-cell", projection: "perspective", thickness: 2 } },
     {
         name: "an orthogonal projection with many bars behind one another",
         settings: { polytope: "600-cell", projection: "orthogonal" },

@@ -171,15 +171,84 @@ TEST(Layout, hasTheRadiiOfBallsAndBars) {
     scene::Look look;
     look.projection.kind = scene::ProjectionKind::orthogonal;
     for (const char* name : {"5-cell", "120-cell"}) {
-        SCOPED_TRACE(name);
-        const Scene s = composed(name, 21, {}, look);
-        const double relative = slicing::relativeBallRadius(support::objectOf(support::named(name)));
-        EXPECT_DOUBLE_EQ(s.ballRadius, relative * s.sliceRadius);
-        const scene::ProjectionPlacement& placement = s.projectionPlacement;
-        EXPECT_DOUBLE_EQ(placement.objectRadius, s.projection.scale * s.circumradius);
-        EXPECT_DOUBLE_EQ(placement.objectRadius + placement.ballRadius, placement.radius);
-        EXPECT_LT(placement.ballRadius / placement.objectRadius, relative) << "there is less room than in a slice";
-        EXPECT_DOUBLE_EQ(placement.barRadius / placement.ballRadius, s.barRadius / s.ballRadius);
+        const Scene plain = composed(name, 21, {}, look);
+        for (const double thickness : {0.25, 1.0, 4.0}) {
+            SCOPED_TRACE(testing::Message() << name << ", thickness " << thickness);
+            scene::Look changed = look;
+            changed.thickness = thickness;
+            const Scene s = composed(name, 21, {}, changed);
+            const double relative = thickness * slicing::relativeBallRadius(support::objectOf(support::named(name)));
+            EXPECT_DOUBLE_EQ(s.ballRadius, relative * s.sliceRadius);
+            EXPECT_DOUBLE_EQ(s.barRadius / s.ballRadius, plain.barRadius / plain.ballRadius);
+            const scene::ProjectionPlacement& placement = s.projectionPlacement;
+            EXPECT_DOUBLE_EQ(placement.objectRadius, s.projection.scale * s.circumradius);
+            EXPECT_DOUBLE_EQ(placement.objectRadius + placement.ballRadius, placement.radius);
+            EXPECT_LT(placement.ballRadius / placement.objectRadius, relative) << "there is less room than in a slice";
+            EXPECT_DOUBLE_EQ(placement.ballRadius / placement.objectRadius,
+                             thickness * plain.projectionPlacement.ballRadius / plain.projectionPlacement.objectRadius);
+            EXPECT_DOUBLE_EQ(placement.barRadius / placement.ballRadius, s.barRadius / s.ballRadius);
+        }
+    }
+}
+
+TEST(Thickness, keepsSlicesAndProjectionWithTheirBallsInSight) {
+    for (const scene::ViewRow& view : scene::kViews) {
+        for (const double thickness : {0.25, 4.0}) {
+            SCOPED_TRACE(testing::Message() << view.name << ", thickness " << thickness);
+            scene::Look look;
+            look.view = view.value;
+            look.projection.kind = scene::ProjectionKind::perspective;
+            look.thickness = thickness;
+            const Scene s = composed("5-cell", 21, {}, look);
+            const double reach = s.sliceRadius + s.ballRadius;
+            EXPECT_GT(project(s, {0, reach, 0}).y, 0);
+            EXPECT_LT(project(s, {0, -reach, 0}).y, s.viewport.height);
+
+            const scene::ProjectionPlacement& placement = s.projectionPlacement;
+            const glm::dvec2 at = project(s, placement.position);
+            const double radius = radiusOnScreen(s, placement.position, placement.radius);
+            EXPECT_GT(radius, 0);
+            EXPECT_GT(at.x - radius, 0);
+            EXPECT_LT(at.x + radius, s.viewport.width);
+            EXPECT_GT(at.y - radius, 0);
+            for (const glm::dvec3& vertex : s.projection.elements.vertices)
+                EXPECT_LE(glm::length(vertex) * s.projection.scale + s.projection.parts[0].ballRadius,
+                          placement.radius * (1 + 1e-9));
+            for (int i = 0; i < 21; ++i) {
+                const scene::SlicePlacement& slice = s.placements[i];
+                if (!slice.drawn) continue;
+                const double u = (i - 10) / 10.0, own = reach * std::sqrt(1 - u * u);
+                EXPECT_GT(glm::distance(at, project(s, slice.position)),
+                          radius + radiusOnScreen(s, slice.position, own))
+                    << i;
+            }
+        }
+    }
+}
+
+TEST(Thickness, changesNothingInTheMatrix) {
+    scene::Look look;
+    look.view = scene::View::matrix;
+    const Scene plain = composed("24-cell", 21, {}, look);
+    look.thickness = 4;
+    EXPECT_TRUE(composed("24-cell", 21, {}, look).matrix == plain.matrix);
+}
+
+TEST(Thickness, ofAnEarlierPictureIsForgotten) {
+    const auto& p = named("24-cell");
+    slicing::SliceSet slices;
+    slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
+    scene::Composer composer;
+    Scene reused;
+    for (const double thickness : {1.0, 3.0, 0.5}) {
+        scene::Look look;
+        look.thickness = thickness;
+        Scene fresh;
+        composer.compose(support::objectOf(p), {}, slices, 0, look, {}, reused);
+        scene::Composer().compose(support::objectOf(p), {}, slices, 0, look, {}, fresh);
+        EXPECT_EQ(reused.ballRadius, fresh.ballRadius);
+        EXPECT_EQ(reused.barRadius, fresh.barRadius);
+        EXPECT_EQ(reused.camera.fieldOfView, fresh.camera.fieldOfView);
     }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <string>
@@ -262,6 +263,33 @@ TEST(Keys, SlicesKeepTheirSpan) {
     EXPECT_EQ(session.current.slices.count, Limits{}.maxSlices);
     for (int i = 0; i < 1000; ++i) press(session, "[");
     EXPECT_GT(session.current.slices.spacing, 0);
+}
+
+TEST(Keys, StepThroughTheSameThicknessesInBothDirections) {
+    Session session;
+    const double& thickness = session.current.look.thickness;
+    std::vector<double> steps;
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_NEAR(thickness, std::pow(2, i / 4.0), 1e-14);
+        steps.push_back(thickness);
+        press(session, ">");
+    }
+    EXPECT_EQ(steps[4], 2);
+    EXPECT_EQ(thickness, scene::Look::kThicknessRange.most);
+    const auto revision = session.revision;
+    press(session, ">");
+    EXPECT_EQ(session.revision, revision) << "a key that changes nothing is not a change";
+    for (int i = 7; i >= 0; --i) {
+        press(session, "<");
+        EXPECT_EQ(thickness, steps[i]);
+    }
+    press(session, "<<<<<<<<<<");
+    EXPECT_EQ(thickness, scene::Look::kThicknessRange.least);
+    line(session, "set thickness=1.1");
+    press(session, ">");
+    EXPECT_NEAR(thickness, std::sqrt(2), 1e-14);
+    press(session, "<");
+    EXPECT_EQ(thickness, steps[1]) << "the step that is nearest to 1.1";
 }
 
 TEST(Keys, WalkTheCatalogueRoundAndRound) {
