@@ -29,9 +29,9 @@ export type Encoding = "json" | "cbor";
 export type Scheme = "dark" | "light";
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 /**
- * What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar sections; or all slices at the same size in a straight row, in order of w from the left (strip).
+ * What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar sections; or all slices at the same size, in a straight row in order of w from the left (strip) or in a straight column with the largest w at the top (column).
  */
-export type View = "oval" | "single" | "matrix" | "strip";
+export type View = "oval" | "single" | "matrix" | "strip" | "column";
 /**
  * What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
  */

@@ -226,9 +226,12 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(Pipeline::kFillSteps);
-    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size.
+    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size; a
+    // drawing of a tall view has them in portrait format.
     const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;
-    const scene::Viewport viewport = isSquare ? scene::Viewport{720, 720} : scene::Viewport{};
+    scene::Viewport viewport;
+    if (isSquare) viewport.width = viewport.height;
+    if (isTall(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
     if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color

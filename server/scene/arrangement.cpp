@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace oval4d::scene {
 
@@ -14,9 +15,11 @@ constexpr int kReferenceCount = 21;
 constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
 constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
 
-constexpr double kRowStep = 2.12;      // between neighboring slices in a row, in radii of slices with balls
-constexpr double kRowDistance = 4;     // from the eye to a row, in half widths: nearly a parallel projection
+constexpr double kLineStep = 2.12;     // between neighboring slices in a row or column, in radii of slices with balls
+constexpr double kLineDistance = 4;    // from the eye to a row or column, in half lengths: nearly a parallel projection
 constexpr double kRowFocusDrop = 1.4;  // from the labels of a row down to that of the focus slice, in heights of text
+// From the labels of a column to the right to that of the focus slice, in heights of text: room for its wider plate.
+constexpr double kColumnFocusDrop = 0.8;
 constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
@@ -37,8 +40,8 @@ Arrangement ovalOf(int count, double aspect) {
 // Returns a straight row. `reach`: the radius of a slice with its balls.
 Arrangement rowOf(int count, double reach) {
     Arrangement made;
-    made.halfWidth = kRowStep * reach * (count - 1) / 2;
-    made.distance = kRowDistance * made.halfWidth + kSingleDistance;
+    made.halfWidth = kLineStep * reach * (count - 1) / 2;
+    made.distance = kLineDistance * made.halfWidth + kSingleDistance;
     made.isClearOfAxes = count == 1;
     made.focusLabelDrop = count == 1 ? 0 : kRowFocusDrop;
     made.labelColumns = count;
@@ -53,6 +56,20 @@ Arrangement focusSliceAlone() {
     return made;
 }
 
+// Returns a straight column, with the last slice at the top: a row that is turned by a quarter. `reach`: the radius of
+// a slice with its balls.
+Arrangement columnOf(int count, double reach) {
+    if (count == 1) return focusSliceAlone();
+    Arrangement made = rowOf(count, reach);
+    std::swap(made.halfWidth, made.halfHeight);
+    made.isClearOfAxes = true;  // in tall pictures, the uppermost slices would often cover the axes
+    made.labelDrop = 0;
+    made.focusLabelDrop = kColumnFocusDrop;
+    made.labelsAreBeside = true;
+    made.labelColumns = 2;  // the slices, and their labels
+    return made;
+}
+
 // Places the projection to the right of the focus slice or, in a tall room, above it.
 ProjectionPlacement besideFocusSlice(double reach, double aspect) {
     constexpr double kGap = 0.2;
@@ -60,13 +77,15 @@ ProjectionPlacement besideFocusSlice(double reach, double aspect) {
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
 }
 
-// Places the projection above a row. It fills most of the height that the row leaves in a room with this aspect ratio,
-// but it is at least as large as a slice and at most as wide as the row. `halfWidth`: half the width of the row.
-ProjectionPlacement aboveRow(double halfWidth, double reach, double aspect) {
+// Places the projection beside a row or column, in the direction of the unit vector `away`. It fills most of the
+// breadth that the slices leave in the room, but it is at least as large as a slice and at most as long as the row or
+// column. `halfLength`: half the length of the row or column. `aspect`: the length of the room in the direction of the
+// row or column, divided by its breadth.
+ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double reach, double aspect) {
     constexpr double kGap = 0.3, kShare = 0.9;
-    const double left = 2 * halfWidth / aspect - 2 * reach;  // the height that the row leaves, in world units
-    const double radius = std::clamp(kShare * left / 2, reach, halfWidth);
-    return {true, {0, reach + kGap + radius, 0}, radius};
+    const double left = 2 * halfLength / aspect - 2 * reach;  // the breadth that the slices leave, in world units
+    const double radius = std::clamp(kShare * left / 2, reach, halfLength);
+    return {true, (reach + kGap + radius) * away, radius};
 }
 
 }  // namespace
@@ -89,6 +108,9 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
         case View::strip:
             made = rowOf(count, 1 + relativeBall);
             break;
+        case View::column:
+            made = columnOf(count, 1 + relativeBall);
+            break;
     }
     made.reach = made.sliceRadius * (1 + relativeBall);
     return made;
@@ -104,7 +126,9 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
         case View::matrix:
             return besideFocusSlice(reach, aspect);
         case View::strip:
-            return aboveRow(arrangement.halfWidth + reach, reach, aspect);
+            return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
+        case View::column:
+            return besideLine({-1, 0, 0}, arrangement.halfHeight + reach, reach, 1 / aspect);
     }
     return {};
 }

@@ -13,12 +13,13 @@
 namespace oval4d::scene {
 
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
-/// slices stand on a parabola through the focus slice, which is at the origin; the parabola may be a straight row or a
-/// single place. The camera looks at the focus slice from the distance `distance`, downward by the angle `pitch`
-/// (radians).
+/// slices stand on a curve through the focus slice, which is at the origin: a parabola, a straight row, a straight
+/// column or a single place. The camera looks at the focus slice from the distance `distance`, downward by the angle
+/// `pitch` (radians).
 struct Arrangement {
-    double halfWidth = 0;  ///< the x of the last slice; the first slice has −halfWidth
-    double depth = 0;      ///< how far behind the focus slice the first and the last slice stand
+    double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth
+    double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight
+    double depth = 0;       ///< how far behind the focus slice the first and the last slice stand
     double pitch = 0, distance = 1;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
     double reach = 1;        ///< the radius of a slice with its balls
@@ -31,13 +32,18 @@ struct Arrangement {
     /// would leave less room for the slices.
     double labelDrop = 0.54;
     double focusLabelDrop = 0;  ///< how much farther away the label of the focus slice is, in heights of text
-    /// If not 0, the labels of all other slices shrink, so that this many fit side by side into the width of the room.
+    /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
+    bool labelsAreBeside = false;
+    /// If not 0, labels shrink, so that this many fit side by side into the width of the room. If they are beside the
+    /// slices, all of them shrink, and the gap between slice and label is a part of this width. Otherwise, the label of
+    /// the focus slice, which is below the others, keeps its size.
     int labelColumns = 0;
 
-    /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last.
-    glm::dvec3 positionAt(double u) const { return {halfWidth * u, 0, -depth * u * u}; }
+    /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
+    /// coordinate is −0, because messages would contain the sign.
+    glm::dvec3 positionAt(double u) const { return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0; }
     /// Returns an upper bound of the distance from the focus slice to the first and to the last slice.
-    double extent() const { return depth + halfWidth; }
+    double extent() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
     /// assumed to lie. Unless the slices stand one behind the other, it is 1. On a parabola, it is the radius of the
     /// slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice only
@@ -50,8 +56,8 @@ struct Arrangement {
 Arrangement arrangementOf(View view, int count, double relativeBall, double aspect);
 
 /// Places the projection of the whole object beside the slices of a view. `aspect`: that of the room for the slices and
-/// the projection. If the view has the projection between its slices, which projectionInside() places, the result is
-/// not shown.
+/// the projection, without the part of the width that labels beside the slices take. If the view has the projection
+/// between its slices, which projectionInside() places, the result is not shown.
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
 /// Places the projection in the middle of the oval, on the axis of the parabola: at the point where the largest circle

@@ -36,9 +36,12 @@ LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double or
 }
 
 void LabelLayout::shrink(double columnWidth) {
-    const double size = columnWidth / ((width_ + 2 * kPlateMarginX) * style().textHeight);
-    for (SlicePlacement& placement : placements_)
-        if (!placement.focus) placement.labelSize = std::clamp(size, kLeastLabelSize, 1.0);
+    for (SlicePlacement& placement : placements_) {
+        if (placement.focus && !arrangement_.labelsAreBeside) continue;
+        const double width = columnWidth - (arrangement_.labelsAreBeside ? gapOf(placement) : 0);
+        const double size = placement.labelSize * width / (2 * halfPlate(placement).x);
+        placement.labelSize = std::clamp(size, kLeastLabelSize, placement.labelSize);
+    }
 }
 
 Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
@@ -71,9 +74,17 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus);
     if (name.empty() || focus == placements_.end()) return;
     nameWidth_ = kLetterWidth * static_cast<double>(name.size() + 2);
-    const Box box = boxSeenBy(camera, camera.view(), aspect, *focus);
+    const glm::dmat4 view = camera.view();
+    const glm::dvec3 withoutName = focus->labelAt;
+    if (arrangement_.labelsAreBeside) {
+        const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
+        const double depth = -(view * glm::dvec4(focus->position, 1)).z;
+        focus->labelAt += right * (fontSize(*focus) * nameWidth_ / 2 * depth / camera.sizeAtUnitDepth());
+    }
+    const Box box = boxSeenBy(camera, view, aspect, *focus);
     if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
         nameWidth_ = 0;
+        focus->labelAt = withoutName;
     } else {
         focus->label.append(", ").append(name);
     }
@@ -113,6 +124,10 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
 
 double LabelLayout::fontSize(const SlicePlacement& placement) { return style().textHeight * placement.labelSize; }
 
+double LabelLayout::gapOf(const SlicePlacement& placement) const {
+    return kLabelGap + (placement.focus ? arrangement_.focusLabelDrop * style().textHeight : 0);
+}
+
 glm::dvec2 LabelLayout::halfText(const SlicePlacement& placement) const {
     return fontSize(placement) * glm::dvec2(width_ + (placement.focus ? kFocusPrefixWidth : 0), kDigitHeight) / 2.0;
 }
@@ -144,8 +159,8 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
         outward =
             glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -arrangement_.labelDrop));
     const double radius = extentOf(u, outward, scale);
-    const double drop = placements_[i].focus ? arrangement_.focusLabelDrop * style().textHeight : 0;
-    return outward * (radius + kLabelGap + drop + glm::dot(glm::abs(outward), halfText(placements_[i])));
+    const SlicePlacement& placement = placements_[i];
+    return outward * (radius + gapOf(placement) + glm::dot(glm::abs(outward), halfText(placement)));
 }
 
 Box LabelLayout::boxAt(std::size_t i, double scale) const {

@@ -23,8 +23,8 @@ class LabelLayout {
     /// must outlive this object, which changes the labels in `placements`.
     LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
-    /// Reduces the size of all labels except that of the focus slice, so that they fit side by side in columns of this
-    /// width, in viewport heights. They keep a minimum size.
+    /// Reduces the size of labels, so that they fit side by side in columns of this width, in viewport heights; see
+    /// Arrangement::labelColumns. They keep a minimum size.
     void shrink(double columnWidth);
 
     /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds`: the bounds of
@@ -33,10 +33,12 @@ class LabelLayout {
     Rect overhang(const Rect& bounds, double scale) const;
 
     /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice:
-    /// below the focus slice and the slices of a row, and beside and somewhat below the slices on the arms of the oval.
+    /// below the focus slice and the slices of a row, beside and somewhat below the slices on the arms of the oval, and
+    /// to the right of the slices of a column.
     void place(const Camera& camera);
 
-    /// Appends the name of the section to the focus slice's label, if there is room for it in the picture.
+    /// Appends the name of the section to the focus slice's label, if there is room for it in the picture. A label
+    /// beside its slice grows only to the right, away from the slice.
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
     /// Removes labels so that no two overlap: keeps the focus slice's label and, of the others, at most every k-th (see
@@ -49,6 +51,9 @@ class LabelLayout {
   private:
     // The font size of a label, in viewport heights.
     static double fontSize(const SlicePlacement& placement);
+
+    // The gap between a slice and the text of its label, in viewport heights.
+    double gapOf(const SlicePlacement& placement) const;
 
     // Half the size of a label's text, in viewport heights, without the name of a section.
     glm::dvec2 halfText(const SlicePlacement& placement) const;

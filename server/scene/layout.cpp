@@ -70,6 +70,9 @@ void setRadii(const ProjectionSettings& projection, double relativeBall, Project
     placement.barRadius = kBarPerBall * placement.ballRadius;
 }
 
+// Returns the width of a rectangle, divided by its height.
+double aspectOf(const Rect& rect) { return (rect.right - rect.left) / (rect.top - rect.bottom); }
+
 // Returns the greatest magnification at which `bounds` fits into `room`.
 double scaleFor(const Rect& bounds, const Rect& room) {
     return std::min((room.right - room.left) / (bounds.right - bounds.left),
@@ -137,7 +140,9 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
     // few steps of this iteration suffice.
     for (int step = 0; step < 4; ++step) {
         const Rect overhang = labels.overhang(bounds, scaleFor(bounds, inside));
-        inside = {room.left + std::min(overhang.left, maxX), room.right - std::min(overhang.right, maxX),
+        // Labels that are only to the right of the slices may take half of the width.
+        const double left = std::min(overhang.left, maxX);
+        inside = {room.left + left, room.right - std::min(overhang.right, 2 * maxX - left),
                   room.bottom + std::min(overhang.bottom, maxY), room.top - std::min(overhang.top, maxY)};
     }
     return inside;
@@ -145,7 +150,8 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
 
 // Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
 // slices and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
-// the symbol or the part below it, whichever lets the slices be larger.
+// the symbol or the part below it, whichever lets the slices be larger. Uses the part to the right only if labels
+// beside the slices take at most half of its width.
 Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, const std::vector<Circle>& circles,
                  const Box& axes) {
     const Rect inside = roomInside(room, bounds, labels);
@@ -159,9 +165,10 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
     Rect right = room, below = room;
     right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
     below.top = std::max(axes.center.y - axes.half.y, (room.bottom + room.top) / 2);
+    const bool labelsFit = 2 * labels.overhang(bounds, scale).right <= right.right - right.left;
     right = roomInside(right, bounds, labels);
     below = roomInside(below, bounds, labels);
-    return scaleFor(bounds, right) > scaleFor(bounds, below) ? right : below;
+    return labelsFit && scaleFor(bounds, right) > scaleFor(bounds, below) ? right : below;
 }
 
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
@@ -221,19 +228,19 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     const int decimals = labelDecimals(planes);
     placeSlices(planes, focus, content.originW, decimals, arrangement, look, out.placements);
     aim(look.orbit, arrangement, out.camera);
+    LabelLayout labels(arrangement, decimals, content.originW, out.placements);
+    if (arrangement.labelColumns > 0) labels.shrink((room.right - room.left) / arrangement.labelColumns);
     std::vector<Circle> circles = circlesOf(out.placements, arrangement);
     const bool projected = look.projection.kind != ProjectionKind::off;
     ProjectionPlacement& projection = out.projectionPlacement;
     projection = {};
     if (projected) {
-        const double aspectOfRoom = (room.right - room.left) / (room.top - room.bottom);
-        projection = projectionBeside(look.view, arrangement, planes.count, aspectOfRoom);
+        const Rect beside = arrangement.labelsAreBeside ? roomInside(room, boundsOf(circles), labels) : room;
+        projection = projectionBeside(look.view, arrangement, planes.count, aspectOf(beside));
     }
     if (projection.shown)
         circles.push_back(circleOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
     const Rect bounds = boundsOf(circles);
-    LabelLayout labels(arrangement, decimals, content.originW, out.placements);
-    if (arrangement.labelColumns > 0) labels.shrink((room.right - room.left) / arrangement.labelColumns);
     const Rect inside = arrangement.isClearOfAxes ? clearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
                                                   : roomInside(room, bounds, labels);
     if (projected && !projection.shown) {

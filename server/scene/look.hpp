@@ -25,22 +25,29 @@ enum class View : std::uint8_t {
     single = 1,  ///< only the focus slice
     matrix = 2,  ///< the focus slice, beside the matrix of planar sections
     strip = 3,   ///< all slices, at the same size in a straight row
+    column = 4,  ///< all slices, at the same size in a straight column
 };
 /// A row of the table of views. arrangement.cpp says where each view has the slices, the labels and the projection.
 struct ViewRow {
     std::string_view name;  ///< in messages, queries and on the command line
     View value;
     bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
+    bool isTall = false;  ///< whether exported drawings of the view are in portrait format
 };
 inline constexpr auto kViews =
     std::to_array<ViewRow>({{.name = "oval", .value = View::oval, .showsAllSlices = true},
                             {.name = "single", .value = View::single, .showsAllSlices = false},
                             {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
-                            {.name = "strip", .value = View::strip, .showsAllSlices = true}});
+                            {.name = "strip", .value = View::strip, .showsAllSlices = true},
+                            {.name = "column", .value = View::column, .showsAllSlices = true, .isTall = true}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 /// Returns ViewRow::showsAllSlices of a view.
 constexpr bool showsAllSlices(View view) {
     return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.showsAllSlices; });
+}
+/// Returns ViewRow::isTall of a view.
+constexpr bool isTall(View view) {
+    return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.isTall; });
 }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
