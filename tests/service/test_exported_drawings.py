@@ -82,7 +82,7 @@ def test_drawings_show_the_coordinates_unless_another_is_asked_for(server):
 
 @pytest.mark.parametrize("query", [
     "polytope=24-cell", "polytope=600-cell", "polytope=120-cell", "polytope=24-cell&of=projection",
-    "polytope=24-cell&of=matrix", "formula=x^2%2By^2%2Bz^2-w^2"])
+    "polytope=24-cell&of=matrix", "polytope=5-cell&slices=5&of=oval&view=column", "formula=x^2%2By^2%2Bz^2-w^2"])
 @pytest.mark.parametrize("size", [None, 100, 10, 5000])
 def test_svg_and_pdf_have_the_same_size_in_millimeters(server, query, size):
     query += "" if size is None else f"&size={size}"
@@ -150,6 +150,19 @@ def test_a_drawing_of_slices_has_their_elements_and_holds_on_white(server, tmp_p
     assert not list(only.iter(SVG + "polygon")) and not list(only.iter(SVG + "circle"))[3:], "only the tips of the axes"
     assert [len(group) for group in only.iter(SVG + "g") if group.get("id") == "labels"] == [0]
     assert any(line.get("stroke-linecap") == "round" for line in only.iter(SVG + "line")), "bars meet without balls"
+
+
+def test_a_drawing_of_a_column_is_in_portrait_format(server, tmp_path):
+    query = "polytope=24-cell&slices=7&of=oval"
+    wide, tall = (size_of_svg(fetch_file(server, "svg", f"{query}&view={view}")) for view in ("strip", "column"))
+    assert wide[0] > wide[1] and tall == pytest.approx(wide[::-1])
+    heights = {}
+    for group in svg_of(server, tmp_path, f"{query}&view=column").iter(SVG + "g"):
+        balls = [float(ball.get("cy")) for ball in group.iter(SVG + "circle")]
+        if group.get("id").startswith("slice_") and balls:
+            heights[int(group.get("id").removeprefix("slice_"))] = sum(balls) / len(balls)
+    assert len(heights) > 3
+    assert [heights[n] for n in sorted(heights)] == sorted(heights.values(), reverse=True), "w rises upward"
 
 
 def test_a_drawing_of_the_focus_slice_marks_the_focus_point(server, tmp_path):

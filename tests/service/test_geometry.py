@@ -120,3 +120,17 @@ async def test_the_slices_message_contains_the_layout(server):
         done = await client.request("key", key="o")
         single = await client.wait_for_slices(done["revision"])
         assert [p["index"] for p in single["slices"] if p["drawn"]] == [0]
+
+
+async def test_in_a_column_w_rises_upward_in_equal_steps(server):
+    async with Client(server, stream="geometry", width=375, height=667) as client:
+        done = await client.request("key", key="I")
+        slices = await client.wait_for_slices(done["revision"])
+        assert slices["scene"]["view"] == "column" and all(piece["drawn"] for piece in slices["slices"])
+        assert [piece["w"] for piece in slices["slices"]] == sorted(piece["w"] for piece in slices["slices"])
+        places = [piece["position"] for piece in slices["slices"]]
+        assert places[10] == [0, 0, 0] and all(place[0] == place[2] == 0 for place in places)
+        steps = [b[1] - a[1] for a, b in zip(places, places[1:])]
+        assert min(steps) > 0 and max(steps) == pytest.approx(min(steps), rel=1e-4)
+        await client.request("key", key="I")
+        assert (await client.request("get", what="state"))["view"] == "oval"

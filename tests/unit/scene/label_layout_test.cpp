@@ -80,6 +80,42 @@ TEST(Labels, standBesideTheSlices) {
     }
 }
 
+TEST(Labels, standToTheRightOfAColumn) {
+    scene::Look look;
+    look.view = scene::View::column;
+    for (const scene::Viewport viewport : {scene::Viewport{375, 667}, {200, 800}, {1280, 720}}) {
+        for (const int count : {3, 21, 61}) {
+            const Scene s = composed("24-cell", count, viewport, look);
+            SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count);
+            int labeled = 0;
+            for (const auto& placement : s.placements) {
+                if (placement.label.empty()) continue;
+                ++labeled;
+                const LabelBox box(s, placement);
+                const glm::dvec2 at = project(s, placement.position);
+                EXPECT_GT(box.left, at.x + radiusOnScreen(s, placement.position, s.sliceRadius)) << placement.label;
+                EXPECT_NEAR((box.top + box.bottom) / 2, at.y, 0.1) << placement.label;
+                EXPECT_TRUE(box.isInside(viewport)) << placement.label;
+            }
+            expectLabelsApart(s);
+            expectLabelsBesideSlices(s);
+            if (count <= 21) {
+                EXPECT_EQ(labeled, count);
+            }
+        }
+    }
+}
+
+TEST(Labels, besideAColumnNameTheSectionOnlyWhereThereIsRoom) {
+    scene::Look look;
+    look.view = scene::View::column;
+    const auto focusLabelIn = [&](scene::Viewport viewport) {
+        return composed("5-cell", 21, viewport, look, 4).placements[10].label;
+    };
+    EXPECT_EQ(focusLabelIn({200, 800}), "w = 0.51");
+    EXPECT_EQ(focusLabelIn({1280, 720}), "w = 0.51, tetrahedron");
+}
+
 TEST(Labels, areApartFromEverySide) {
     for (const scene::CameraOrbit& orbit : std::vector<scene::CameraOrbit>{
              {0, 0, 3}, {0, 0, 0.3}, {0.8, 0.2, 1}, {1.57, -0.46, 1}, {3.1, 0.5, 2}, {-0.4, 1, 0.5}, {0, -0.46, 1}}) {

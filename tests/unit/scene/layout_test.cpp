@@ -129,6 +129,56 @@ TEST(Strip, showsAllSlicesAtTheSameSizeInARow) {
     }
 }
 
+TEST(Column, showsAllSlicesAtTheSameSizeWithTheLargestWAtTheTop) {
+    for (const scene::Viewport viewport : {scene::Viewport{375, 667}, {200, 800}, {640, 640}, {1280, 720}}) {
+        for (const int count : {1, 3, 21, 201}) {
+            for (const bool whole : {false, true}) {
+                scene::Look look;
+                look.view = scene::View::column;
+                if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
+                const Scene s = composed("24-cell", count, viewport, look);
+                SCOPED_TRACE(testing::Message()
+                             << viewport.width << " x " << viewport.height << ", " << count << whole);
+                const double radius = radiusOnScreen(s, s.placements[0].position, s.sliceRadius);
+                const double coordinates = s.coordinates.zero + s.coordinates.amplitude;
+                const glm::dvec2 lowest = project(s, s.placements[0].position);
+                glm::dvec2 before(lowest.x, lowest.y + 3 * radius);
+                for (const auto& slice : s.placements) {
+                    EXPECT_TRUE(slice.drawn);
+                    EXPECT_NEAR(radiusOnScreen(s, slice.position, s.sliceRadius), radius, 1e-9);
+                    const glm::dvec2 at = project(s, slice.position);
+                    EXPECT_LT(at.y + radius, before.y - radius) << "above the slice before, which has a lower w";
+                    EXPECT_NEAR(at.x, lowest.x, 1e-6);
+                    before = at;
+                }
+                EXPECT_GT(before.y - radius, 0);
+                EXPECT_LT(lowest.y + radius, (1 - coordinates) * viewport.height);
+                EXPECT_GT(lowest.x - radius, 0);
+                if (!whole || count == 1) continue;
+                const scene::ProjectionPlacement& projection = s.projectionPlacement;
+                EXPECT_TRUE(projection.shown);
+                EXPECT_LT(project(s, projection.position).x + radiusOnScreen(s, projection.position, projection.radius),
+                          lowest.x - radius);
+            }
+        }
+    }
+}
+
+TEST(Column, hasLargerSlicesThanARowInATallPicture) {
+    for (const scene::Viewport viewport : {scene::Viewport{375, 667}, {200, 800}, {320, 568}}) {
+        for (const int count : {11, 21, 201}) {
+            const auto radiusIn = [&](scene::View view) {
+                scene::Look look;
+                look.view = view;
+                const Scene s = composed("24-cell", count, viewport, look);
+                return radiusOnScreen(s, {0, 0, 0}, s.sliceRadius);
+            };
+            EXPECT_GT(radiusIn(scene::View::column), radiusIn(scene::View::strip))
+                << viewport.width << " x " << viewport.height << ", " << count;
+        }
+    }
+}
+
 TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
     for (const scene::Viewport viewport :
          {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
@@ -321,6 +371,29 @@ TEST(Axes, areBesideTheSliceAndTheProjection) {
                            radiusOnScreen(s, position, radius) + s.axes.length * height;
                 };
                 EXPECT_TRUE(isBeside({0, 0, 0}, s.sliceRadius));
+                EXPECT_TRUE(!whole || isBeside(s.projectionPlacement.position, s.projectionPlacement.radius));
+            }
+        }
+    }
+}
+
+TEST(Axes, areBesideTheColumnAndTheProjection) {
+    for (const scene::Viewport viewport : {scene::Viewport{375, 667}, {200, 800}, {768, 1024}, {320, 568}}) {
+        for (const int count : {1, 3, 5, 21, 201}) {
+            for (const bool whole : {false, true}) {
+                scene::Look look;
+                look.view = scene::View::column;
+                if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
+                const Scene s = composed("24-cell", count, viewport, look);
+                SCOPED_TRACE(testing::Message()
+                             << viewport.width << " x " << viewport.height << ", " << count << whole);
+                const double height = viewport.height;
+                const glm::dvec2 center(s.axes.x * height, s.axes.y * height);
+                const auto isBeside = [&](const glm::dvec3& position, double radius) {
+                    return glm::distance(project(s, position), center) >
+                           radiusOnScreen(s, position, radius) + s.axes.length * height;
+                };
+                for (const auto& slice : s.placements) EXPECT_TRUE(isBeside(slice.position, s.sliceRadius));
                 EXPECT_TRUE(!whole || isBeside(s.projectionPlacement.position, s.projectionPlacement.radius));
             }
         }

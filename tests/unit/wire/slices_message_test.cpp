@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "scene/composer.hpp"
+#include "scene/look.hpp"
 #include "slicing/slicer.hpp"
 #include "unit/wire/decoded.hpp"
 #include "unit/wire/support.hpp"
@@ -144,6 +147,24 @@ TEST(SlicesMessage, SaysWhichCellColorsAFaceInTheHyperplane) {
         }
     }
     EXPECT_EQ(tinted, 2);
+}
+
+TEST(SlicesMessage, HasNoNegativeZeroInPositions) {
+    for (const scene::ViewRow& view : scene::kViews) {
+        SCOPED_TRACE(view.name);
+        const Picture picture = pictureOf({"view " + std::string(view.name), "project perspective"});
+        const std::string text = messageOf(picture, Encoding::json);
+        std::size_t found = 0;
+        for (const std::string_view member : {R"("position":[)", R"("label_at":[)"}) {
+            for (std::size_t at = text.find(member); at != std::string::npos; at = text.find(member, at)) {
+                at += member.size();
+                ++found;
+                const std::string numbers = ',' + text.substr(at, text.find(']', at) - at) + ',';
+                EXPECT_EQ(numbers.find(",-0,"), std::string::npos) << member << numbers;
+            }
+        }
+        EXPECT_EQ(found, 2 * picture.scene.placements.size() + 1) << "of the slices, their labels and the projection";
+    }
 }
 
 TEST(SlicesMessage, LeavesOutCoordinatesThatAreNotShown) {
