@@ -7,6 +7,7 @@ export type Request =
     | HelloRequest
     | KeyRequest
     | LoadRequest
+    | MeasureRequest
     | PingRequest
     | RedoRequest
     | ResetRequest
@@ -73,7 +74,18 @@ export type Turn = {
      */
     angles: number[];
 } | null;
-export type Answer = Address | At | Catalogue | Critical | Done | ErrorMessage | Keymap | Pong | State | Welcome;
+export type Answer =
+    | Address
+    | At
+    | Catalogue
+    | Critical
+    | Done
+    | ErrorMessage
+    | Keymap
+    | Measured
+    | Pong
+    | State
+    | Welcome;
 /**
  * A request that may change the session. The server answers it with `done`.
  */
@@ -281,6 +293,24 @@ export interface LoadRequest {
      * Whether the moments in the file are added to the array that is loaded under this name, at the end of w, instead of replacing it. False if it is absent.
      */
     append?: boolean;
+}
+/**
+ * Asks for a measured, which has the center and the length, area or volume of an element. Changes nothing.
+ */
+export interface MeasureRequest {
+    type: "measure";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * The kind of element. The points of a point cloud are vertices.
+     */
+    element: ElementKind;
+    /**
+     * The element, counted from 0 among those of its kind.
+     */
+    number: number;
 }
 /**
  * Asks for a pong, which tells how busy the server is. Changes nothing.
@@ -933,6 +963,36 @@ export interface KeyBinding {
     client?: boolean;
 }
 /**
+ * Answers a measure. Sizes and coordinates are those of the object's file, before the rotation and outside any frame of reference; of a field, those of the box.
+ */
+export interface Measured {
+    type: "measured";
+    /**
+     * The id of the request that this message answers; absent if it had none.
+     */
+    id?: number;
+    /**
+     * The number of changes of the session's state so far.
+     */
+    revision: number;
+    /**
+     * Of an edge.
+     */
+    length?: number;
+    /**
+     * Of a 2-face. A region that a star encloses n times counts n times.
+     */
+    area?: number;
+    /**
+     * Of a cell. A region that a star encloses n times counts n times.
+     */
+    volume?: number;
+    /**
+     * The mean of the element's vertices; the place of a vertex.
+     */
+    center: [number, number, number, number];
+}
+/**
  * Answers a ping. Between two pongs, the workers were busy for the fraction Δbusy / (workers · Δtime) of the time.
  */
 export interface Pong {
@@ -1194,6 +1254,7 @@ export interface RequestAnswers {
     hello: Welcome;
     key: Done;
     load: Done;
+    measure: Measured;
     ping: Pong;
     redo: Done;
     reset: Done;

@@ -144,18 +144,6 @@ Result<std::monostate> setField(State& state, const Set& set) {
     return std::monostate{};
 }
 
-// Error: `out_of_range` if the object has no such element.
-Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element) {
-    const std::size_t count = slicing::elementCount(object, element.kind);
-    if (element.index < count) return std::monostate{};
-    const std::string kind(text::nameOf(slicing::kElementKinds, element.kind));
-    const std::string& name = slicing::infoOf(object).name;
-    if (count == 0) return Error{ErrorCode::out_of_range, "the " + name + " has no " + kind};
-    return Error{ErrorCode::out_of_range, "the number of the " + kind + " must be from 0 to " +
-                                              std::to_string(count - 1) + " for the " + name + ", not " +
-                                              std::to_string(element.index)};
-}
-
 // For each setting that `occasion` sets back, copies its value from `initial`. Omits settings whose value is not one
 // member of State, such as `point`.
 void setBack(State& state, ResetOccasion occasion, const State& initial) {
@@ -318,6 +306,17 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
         }
     }
     return std::monostate{};
+}
+
+Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element) {
+    const std::size_t count = slicing::elementCount(object, element.kind);
+    if (element.index < count) return std::monostate{};
+    const std::string kind(text::nameOf(slicing::kElementKinds, element.kind));
+    const std::string& name = slicing::infoOf(object).name;
+    if (count == 0) return Error{ErrorCode::out_of_range, "the " + name + " has no " + kind};
+    return Error{ErrorCode::out_of_range, "the number of the " + kind + " must be from 0 to " +
+                                              std::to_string(count - 1) + " for the " + name + ", not " +
+                                              std::to_string(element.index)};
 }
 
 void rotate(State& state, const geometry::Turn& turn) {

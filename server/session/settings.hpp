@@ -54,6 +54,9 @@ Set settingsOf(const State& state);
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
+/// Returns the error `out_of_range` if the object has no such element.
+Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element);
+
 /// Rotates the object, stores the rotation as State::lastTurn, and ends a turn toward an element.
 void rotate(State& state, const geometry::Turn& turn);
 

@@ -8,7 +8,9 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
+#include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/slice_set.hpp"
@@ -108,6 +110,12 @@ class Span {
         }
     }
 
+    /// Returns the coordinates, in this basis, of the component of v within the span. If the basis has fewer than three
+    /// vectors, the other coordinates are 0.
+    glm::dvec3 coordinates(const glm::dvec4& v) const {
+        return {glm::dot(v, basis_[0]), glm::dot(v, basis_[1]), glm::dot(v, basis_[2])};
+    }
+
     /// Returns the component of v that is perpendicular to the span.
     glm::dvec4 perpendicular(glm::dvec4 v) const {
         for (std::size_t i = 0; i < size_; ++i) v -= glm::dot(v, basis_.at(i)) * basis_.at(i);
@@ -182,6 +190,44 @@ void findSourcesIn(const geometry::PointCloud& /*cloud*/, const Element& element
     out.ownVertices = out.vertices;
 }
 
+// Sets the length, area or volume in `out`. `toFile` is the linear part of the map from the polytope's coordinates to
+// those of its file.
+void measureSize(const Polytope& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
+    std::vector<glm::dvec4> points;
+    visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
+    const glm::dvec4 base = points.front();  // coordinates relative to a vertex of the element minimize cancellation
+    for (glm::dvec4& point : points) point = toFile * (point - base);
+    const Span span(points, static_cast<std::size_t>(element.kind), 0);
+    const auto at = [&](std::uint32_t v) { return span.coordinates(toFile * (p.vertices[v] - base)); };
+    const std::size_t index = element.index;
+    switch (element.kind) {
+        case ElementKind::vertex:
+            break;
+        case ElementKind::edge:
+            out.length = glm::distance(at(p.edges[index][0]), at(p.edges[index][1]));
+            break;
+        case ElementKind::face: {
+            const auto loop = p.faces[index];
+            glm::dvec3 area(0);
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+                area += glm::cross(at(loop[i]) - at(loop[0]), at(loop[i + 1]) - at(loop[0])) / 2.0;
+            out.area = glm::length(area);
+            break;
+        }
+        case ElementKind::cell: {
+            // The sum of the tetrahedra from `base` to the triangles into which the 2-faces are divided.
+            double volume = 0;
+            for (std::uint32_t item = p.cells.begin[index]; item < p.cells.begin[index + 1]; ++item) {
+                const auto loop = p.faces[p.cells.items[item]];
+                for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+                    volume += p.cellSigns[item] * glm::dot(at(loop[0]), glm::cross(at(loop[i]), at(loop[i + 1]))) / 6;
+            }
+            out.volume = std::abs(volume);  // the basis may be left-handed
+            break;
+        }
+    }
+}
+
 // Returns the direction of +w in the object's own coordinates.
 glm::dvec4 ownDirectionOfW(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
 
@@ -244,6 +290,26 @@ void findSourcesShowing(const Object& object, const Element& element, ElementSou
         std::ranges::sort(*list);
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
+}
+
+ElementMeasurements measureElement(const Object& object, const Element& element) {
+    std::vector<std::uint32_t> vertices;
+    visitPolytopeOrCloud(
+        [&](const auto& shared) {
+            visitVertexNumbers(*shared, element, [&](std::uint32_t v) { vertices.push_back(v); });
+        },
+        object);
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    ElementMeasurements out;
+    for (const std::uint32_t v : vertices) out.center += vertexInFile(object, v);
+    out.center /= static_cast<double>(vertices.size());
+    const fields::Field* const field = fieldIn(object);
+    const glm::dmat4 toFile = field == nullptr ? glm::dmat4(1) : field->toFunction;
+    visitPolytopeOrCloud(
+        Visitor{[&](const PolytopePtr& p) { measureSize(*p, element, toFile, out); }, [](const CloudPtr& /*cloud*/) {}},
+        object);
+    return out;
 }
 
 std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same) {

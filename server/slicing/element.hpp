@@ -81,6 +81,19 @@ struct ElementSources {
 /// element.kind).
 void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
 
+/// The center and the size of an element.
+struct ElementMeasurements {
+    std::optional<double> length;  ///< of an edge; empty for other elements
+    /// Of a 2-face, and of a cell; empty for other elements. A region that a star encloses n times counts n times.
+    std::optional<double> area, volume;
+    glm::dvec4 center{0};  ///< the mean of the element's vertices
+};
+
+/// Measures an element in the coordinates of vertexInFile(): those of the object's file, before any rotation, or for a
+/// field those of its function. Takes time linear in the size of the element, apart from sorting its vertices. Requires
+/// element.index < elementCount(object, element.kind).
+ElementMeasurements measureElement(const Object& object, const Element& element);
+
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
 /// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance

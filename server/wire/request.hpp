@@ -5,6 +5,7 @@
 
 #include <array>
 #include <boost/describe/class.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,10 +14,12 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "export/export_request.hpp"
 #include "scene/scene.hpp"
 #include "session/command.hpp"
+#include "slicing/element.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::wire {
@@ -66,6 +69,23 @@ struct Get {
     glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };
+/// Asks for the center and the size of an element.
+struct Measure {
+    static constexpr std::string_view kMessageType = "measure";
+    slicing::ElementKind element = slicing::ElementKind::vertex;  ///< its kind
+    std::size_t number = 0;                                       ///< slicing::Element::index
+};
+BOOST_DESCRIBE_STRUCT(Measure, (), (element, number))
+
+/// Answers a Measure: the slicing::ElementMeasurements of the element.
+struct Measured {
+    static constexpr std::string_view kMessageType = "measured";
+    std::uint64_t revision = 0;
+    std::optional<double> length, area, volume;
+    glm::dvec4 center{0};
+};
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center))
+
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {
     static constexpr std::string_view kMessageType = "shown";
@@ -100,11 +120,11 @@ BOOST_DESCRIBE_STRUCT(Done, (), (revision, warnings))
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
-    std::variant<Hello, session::Command, Get, Ping, PictureShown> body;
+    std::variant<Hello, session::Command, Get, Measure, Ping, PictureShown> body;
 };
 
 /// An answer whose members are described. An OpenAddress is also the answer to GetTarget::address: its query is then
 /// that of the session's view.
-using Answer = std::variant<Done, Pong, session::OpenAddress>;
+using Answer = std::variant<Done, Measured, Pong, session::OpenAddress>;
 
 }  // namespace oval4d::wire

@@ -19,6 +19,8 @@
 #include "net/live/errors.hpp"
 #include "pipeline/cost.hpp"
 #include "session/query.hpp"
+#include "session/settings.hpp"
+#include "slicing/element.hpp"
 #include "wire/messages.hpp"
 #include "wire/state_message.hpp"
 
@@ -150,6 +152,19 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Picture
     if (id) peer->send(textAnswer(wire::Done{revision()}, id));
     streams_->pictureShown(*peer, shown.revision);
     co_return;
+}
+
+template <>
+asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure measure, RequestId id) {
+    // State::object is an image in the frame of reference; State::source has the coordinates of its file.
+    const slicing::Object& object = session_.current.source;
+    const slicing::Element element{measure.element, measure.number};
+    if (const auto exists = session::checkElement(object, element); !exists) {
+        sendError(*peer, services_.metrics, exists.error(), id);
+        co_return;
+    }
+    const slicing::ElementMeasurements found = slicing::measureElement(object, element);
+    peer->send(textAnswer(wire::Measured{revision(), found.length, found.area, found.volume, found.center}, id));
 }
 
 template <>
