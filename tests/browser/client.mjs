@@ -178,11 +178,12 @@ test("client: the npm package works in a script, and has types", async () => {
     assert.equal(stdout, "7\n");
 
     const typed = `
-        import { Client, type Command, type Done, type Pong, type State } from "oval4d-client";
+        import { Client, type Command, type Done, type Measured, type Pong, type State } from "oval4d-client";
         const client = new Client({ url: "http://localhost:8080/" });
         const { shown }: State = await client.request({ type: "get", what: "state" });
         export const part: keyof typeof shown = "balls";
         export const pong: Pong = await client.request({ type: "ping" });
+        export const measured: Measured = await client.request({ type: "measure", element: "cell", number: 3 });
         export const send = (command: Command): Promise<Done> => client.request(command);
         // @ts-expect-error because no part has this name
         export const none: keyof typeof shown = "corners";

@@ -55,6 +55,7 @@ def test_request_sends_any_message(server):
         assert oval.request("hello")["type"] == "welcome"
         assert oval.request("ping")["type"] == "pong"
         assert oval.request("rotate", planes=["xw"], angles=[0.1])["revision"] == 1
+        assert oval.request("measure", element="edge", number=7)["length"] == pytest.approx(2)
         assert oval.request("get", what="state")["revision"] == 1
 
 

@@ -1,8 +1,9 @@
-// Elements turned toward +w, and the heights of vertices.
+// Elements turned toward +w, the sizes of elements, and the heights of vertices.
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "geometry/point_cloud.hpp"
 #include "slicing/element.hpp"
+#include "unit/slicing/field_support.hpp"
 #include "unit/slicing/support.hpp"
 
 namespace oval4d::slicing {
@@ -158,6 +160,129 @@ TEST(Elements, AreChosenAmongThoseAtAnother) {
         EXPECT_EQ(visited.size(), count);
         if (kind == litKind) {
             EXPECT_EQ(*visited.begin(), lit.index);
+        }
+    }
+}
+
+// Returns the length, the area or the volume, whichever belongs to this kind of element; expects that the others are
+// absent. Returns 1 for a vertex.
+double sizeIn(const ElementMeasurements& measured, ElementKind kind) {
+    EXPECT_EQ(measured.length.has_value(), kind == ElementKind::edge);
+    EXPECT_EQ(measured.area.has_value(), kind == ElementKind::face);
+    EXPECT_EQ(measured.volume.has_value(), kind == ElementKind::cell);
+    return measured.length.value_or(1) * measured.area.value_or(1) * measured.volume.value_or(1);
+}
+
+TEST(ElementMeasurements, AreThoseOfRegularPolygonsAndPolyhedra) {
+    const double root2 = std::sqrt(2), root3 = std::sqrt(3), root5 = std::sqrt(5);
+    struct {
+        const char* name;
+        double area, volume;  // of a polygon and a polyhedron with the edge length 2
+    } const rows[] = {{"5-cell", root3, 2 * root2 / 3},
+                      {"tesseract", 4, 8},
+                      {"24-cell", root3, 8 * root2 / 3},
+                      {"120-cell", std::sqrt(25 + 10 * root5), 2 * (15 + 7 * root5)},
+                      {"600-cell", root3, 2 * root2 / 3}};
+    std::mt19937 random(15);
+    for (const auto& [name, area, volume] : rows) {
+        const Object object = shared(name);
+        const double sizes[] = {1, 2, area, volume};
+        for (const auto& [kindName, kind] : kElementKinds) {
+            for (int round = 0; round < 10; ++round) {
+                const Element element{kind, random() % elementCount(object, kind)};
+                const ElementMeasurements measured = measureElement(object, element);
+                const double size = sizes[static_cast<std::size_t>(kind)];
+                EXPECT_NEAR(sizeIn(measured, kind), size, 1e-9 * size) << name << ", " << kindName;
+                // The center of a regular polytope's element is the point of its span that is closest to the origin.
+                EXPECT_LT(glm::distance(measured.center, directionOf(object, element, kW)), 1e-9) << name;
+            }
+        }
+    }
+}
+
+// A pentagram with sides of the length s encloses its middle twice: its area is that of five triangles with the base s,
+// whose apex is the center.
+TEST(ElementMeasurements, CountWhatAStarEnclosesSeveralTimes) {
+    const auto polytope = shared("small stellated 120-cell");
+    const Object object = polytope;
+    std::vector<glm::dvec4> normals;
+    std::vector<double> offsets;
+    findCellHyperplanes(object, normals, offsets);  // a normal is six times as long as the volume
+    std::mt19937 random(16);
+    for (int round = 0; round < 10; ++round) {
+        const auto [a, b] = polytope->edges[0];
+        const double side = glm::distance(polytope->vertices[a], polytope->vertices[b]);
+        const double area = 5 * side * side / (4 * std::tan(2 * std::numbers::pi / 5));
+        const Element face{ElementKind::face, random() % polytope->faces.size()};
+        const Element cell{ElementKind::cell, random() % polytope->cells.size()};
+        EXPECT_NEAR(sizeIn(measureElement(object, face), ElementKind::face), area, 1e-9 * area);
+        const double volume = glm::length(normals[cell.index]) / 6;
+        EXPECT_GT(volume, 0);
+        EXPECT_NEAR(sizeIn(measureElement(object, cell), ElementKind::cell), volume, 1e-9 * volume);
+    }
+}
+
+// Heron's formula, for triangles that are not regular.
+TEST(ElementMeasurements, OfTrianglesFollowFromTheirSides) {
+    const Object object = transformedTo(shared("5-cell"), {2, glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(0, 0.5, 0.3)});
+    const Polytope& image = *std::get<PolytopePtr>(object);
+    std::vector<glm::dvec4> normals;
+    std::vector<double> offsets;
+    findCellHyperplanes(object, normals, offsets);
+    for (std::size_t i = 0; i < image.faces.size(); ++i) {
+        double sides[3], half = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Element edge{ElementKind::edge, image.faceEdges[i][k]};
+            sides[k] = sizeIn(measureElement(object, edge), ElementKind::edge);
+            half += sides[k] / 2;
+        }
+        const double area = std::sqrt(half * (half - sides[0]) * (half - sides[1]) * (half - sides[2]));
+        EXPECT_NEAR(sizeIn(measureElement(object, {ElementKind::face, i}), ElementKind::face), area, 1e-9);
+    }
+    for (std::size_t i = 0; i < image.cells.size(); ++i) {
+        EXPECT_NEAR(sizeIn(measureElement(object, {ElementKind::cell, i}), ElementKind::cell),
+                    glm::length(normals[i]) / 6, 1e-9);
+    }
+}
+
+TEST(ElementMeasurements, AreInTheCoordinatesOfTheFile) {
+    const auto polytope = shared("tesseract");
+    Polytope moved = *polytope;
+    moved.originInFile = {5e6, -1, 0.25, 7};
+    const Object object = polytope, far = std::make_shared<const Polytope>(moved);
+    for (const auto& [kindName, kind] : kElementKinds) {
+        const Element element{kind, 5};
+        const ElementMeasurements measured = measureElement(object, element), there = measureElement(far, element);
+        EXPECT_EQ(sizeIn(there, kind), sizeIn(measured, kind)) << kindName << ": no digits are lost";
+        EXPECT_LT(glm::distance(there.center, measured.center + moved.originInFile), 1e-8) << kindName;
+    }
+    const Object cloud = std::make_shared<const geometry::PointCloud>(
+        geometry::makePointCloud("points", {{1, 2, 3, 4}, {5, 6, 7, 8}}, {0, 1}));
+    const ElementMeasurements point = measureElement(cloud, {ElementKind::vertex, 1});
+    EXPECT_EQ(point.center, glm::dvec4(5, 6, 7, 8));
+    EXPECT_EQ(sizeIn(point, ElementKind::vertex), 1);
+}
+
+// An element of a box extends along those axes along which its center is in the middle.
+TEST(ElementMeasurements, OfAFieldAreThoseOfItsBox) {
+    const fields::Box box{{0, -1, 2, 10}, {1, 1, 5, 14}};
+    const auto function = std::make_shared<TestFunction>([](const glm::dvec4& p) { return p.x; }, 1);
+    const Object field =
+        std::make_shared<const fields::Field>(fields::makeField("box", function, box, glm::dvec4(1, 1, 1, 0.25)));
+    for (const Object& object : {field, transformedTo(field, {2, glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.5, 0)})}) {
+        for (const auto& [kindName, kind] : kElementKinds) {
+            for (std::size_t i = 0; i < elementCount(object, kind); ++i) {
+                const ElementMeasurements measured = measureElement(object, {kind, i});
+                double size = 1;
+                int extended = 0;
+                for (int axis = 0; axis < 4; ++axis) {
+                    if (std::abs(measured.center[axis] - box.center()[axis]) > 1e-9) continue;
+                    size *= box.max[axis] - box.min[axis];
+                    ++extended;
+                }
+                EXPECT_EQ(extended, static_cast<int>(kind));
+                EXPECT_NEAR(sizeIn(measured, kind), size, 1e-9 * size) << kindName << ' ' << i;
+            }
         }
     }
 }

@@ -93,6 +93,9 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(file(R"("fit":5)").contents, exports::ExportContents::oval);
     EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContents::focus);
     EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContents::focus);
+    const auto measure = std::get<Measure>(parsed(R"({"type":"measure","element":"edge","number":17})").body);
+    EXPECT_EQ(measure.element, slicing::ElementKind::edge);
+    EXPECT_EQ(measure.number, 17U);
     EXPECT_TRUE(std::holds_alternative<Ping>(parsed(R"({"type":"ping"})").body));
     EXPECT_EQ(std::get<PictureShown>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
