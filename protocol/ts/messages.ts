@@ -75,17 +75,7 @@ export type Turn = {
     angles: number[];
 } | null;
 export type Answer =
-    | Address
-    | At
-    | Catalogue
-    | Critical
-    | Done
-    | ErrorMessage
-    | Keymap
-    | Measured
-    | Pong
-    | State
-    | Welcome;
+    Address | At | Catalogue | Critical | Done | ErrorMessage | Keymap | Measured | Pong | State | Welcome;
 /**
  * A request that may change the session. The server answers it with `done`.
  */
