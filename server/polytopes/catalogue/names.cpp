@@ -8,6 +8,7 @@
 #include "polytopes/construction/combination.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/dual.hpp"
+#include "polytopes/construction/duoantiprism.hpp"
 #include "polytopes/construction/over_polyhedra.hpp"
 #include "polytopes/construction/prism_names.hpp"
 #include "polytopes/construction/solids.hpp"
@@ -164,6 +165,16 @@ constexpr auto kNotations = std::to_array<NotationRow>({
             "`5,7-duoprism`, `5-7 duoprism`, `triangular-square duoprism`, `pentagonal duoprism`, `5/2,5-duoprism`",
         .edges = "2",
         .parse = duoprismNamed,
+    },
+    {
+        .polytopes =
+            "a duoantiprism: the convex hull of every other vertex of the duoprism of two polygons with twice as "
+            "many sides. The polygons have at least two sides and are no stars; a single polygon stands for two",
+        .examples = "`3,4-duoantiprism`, `3-4 duoantiprism`, `triangular-square duoantiprism`, `pentagonal "
+                    "duoantiprism`, `2,5-duoantiprism`",
+        .edges = "2 for the sides of the polygons; the other edges are equally long, and shorter unless the polytope "
+                 "is the 16-cell",
+        .parse = duoantiprismNamed,
     },
     {
         .polytopes = "a prism over a Platonic, Archimedean or Kepler–Poinsot solid, a prism or an antiprism",

@@ -1,0 +1,142 @@
+#include "polytopes/construction/duoantiprism.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/jagged_array.hpp"
+#include "polytopes/construction/design.hpp"
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/polyhedra.hpp"
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+// Returns one of 2n points at equal distances on a circle around the origin. Every other point is a vertex of a regular
+// n-gon of edge length 2.
+//
+// These radii make the edges of a duoantiprism as equal as possible. With any radii, let a and b be the edge lengths of
+// the p-gons and the q-gons, and c the length of the other edges, each of which joins two neighboring points on both
+// circles. Then c² = (a / 2cos(π/2p))² + (b / 2cos(π/2q))². The coefficients of a² and b² are at most 1/2, and both are
+// 1/2 only for p = q = 2. Hence all lengths can be equal only for p = q = 2; otherwise c is less than the larger one of
+// a and b, and max(a, b) / min(a, b, c) is least for a = b.
+glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
+    const double angle = std::numbers::pi / n;
+    return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
+}
+
+/// A duoantiprism other than the 16-cell. The vertices of the duoprism are the pairs (i, j) of one of 2p points on a
+/// circle in the xy plane and one of 2q points on a circle in the zw plane; those with an even sum i + j remain.
+class Duoantiprism : public Recipe {
+  public:
+    /// p must be at least 2, and q at least 3 and not less than p.
+    Duoantiprism(int p, int q) : p_(static_cast<std::uint32_t>(p)), q_(static_cast<std::uint32_t>(q)) {}
+
+    ElementCounts counts() const override {
+        const std::uint64_t p = p_, q = q_, pairs = p * q;
+        const bool digons = p == 2;  // a digon is no 2-face, and its two sides are one edge
+        return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
+    }
+    // The dihedral groups of order 4p and 4q act on the two circles; half of their 16pq pairs map the vertices that
+    // remain to each other. If p = q, as many symmetries also exchange the two planes.
+    std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
+    std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
+    std::string schlaefli() const override {
+        return "ht0,1,2,3{" + std::to_string(p_) + ",2," + std::to_string(q_) + "}";
+    }
+
+    Polytope build(const std::string& name) const override {
+        const std::uint32_t m = 2 * p_, n = 2 * q_;  // the numbers of points on the circles
+        std::vector<glm::dvec4> vertices;
+        for (std::uint32_t i = 0; i < m; ++i) {
+            for (std::uint32_t j = i % 2; j < n; j += 2)
+                vertices.emplace_back(pointOnCircle(p_, i), pointOnCircle(q_, j));
+        }
+        const auto vertex = [&](std::uint32_t i, std::uint32_t j) { return (i % m) * q_ + (j % n) / 2; };
+
+        geometry::JaggedArray faces;
+        const auto nextFace = [&] { return static_cast<std::uint32_t>(faces.size()); };
+        // The 2-faces of the antiprisms: betweenQ[i] between the q-gons of the points i and i + 1 of the first circle,
+        // betweenP[j] between the p-gons of the points j and j + 1 of the second one.
+        std::vector<std::vector<std::uint32_t>> betweenQ(m), betweenP(n);
+        std::vector<std::uint32_t> loop;
+        for (std::uint32_t i = 0; i < m; ++i) {
+            loop.clear();
+            for (std::uint32_t j = i % 2; j < n; j += 2) loop.push_back(vertex(i, j));
+            betweenQ[(i + m - 1) % m].push_back(nextFace());
+            betweenQ[i].push_back(nextFace());
+            faces.add(loop);
+        }
+        for (std::uint32_t j = 0; j < n && p_ > 2; ++j) {
+            loop.clear();
+            for (std::uint32_t i = j % 2; i < m; i += 2) loop.push_back(vertex(i, j));
+            betweenP[(j + n - 1) % n].push_back(nextFace());
+            betweenP[j].push_back(nextFace());
+            faces.add(loop);
+        }
+
+        // All other 2-faces are triangles. Each one lies between an antiprism and the disphenoid of the four neighbors
+        // of a removed vertex (i, j).
+        geometry::JaggedArray cells;
+        std::vector<std::uint32_t> orbits;  // of the cells under the symmetry group
+        for (std::uint32_t i = 0; i < m; ++i) {
+            for (std::uint32_t j = 1 - i % 2; j < n; j += 2) {
+                const std::uint32_t beforeI = vertex(i + m - 1, j), afterI = vertex(i + 1, j);
+                const std::uint32_t beforeJ = vertex(i, j + n - 1), afterJ = vertex(i, j + 1);
+                const std::uint32_t first = nextFace();
+                faces.add(std::array{beforeJ, afterJ, beforeI});
+                faces.add(std::array{beforeJ, afterJ, afterI});
+                faces.add(std::array{beforeI, afterI, beforeJ});
+                faces.add(std::array{beforeI, afterI, afterJ});
+                betweenQ[(i + m - 1) % m].push_back(first);
+                betweenQ[i].push_back(first + 1);
+                betweenP[(j + n - 1) % n].push_back(first + 2);
+                betweenP[j].push_back(first + 3);
+                cells.add(std::array{first, first + 1, first + 2, first + 3});
+                orbits.push_back(0);
+            }
+        }
+        for (const auto& antiprism : betweenQ) {
+            cells.add(antiprism);
+            orbits.push_back(1);
+        }
+        for (const auto& antiprism : betweenP) {
+            cells.add(antiprism);
+            orbits.push_back(p_ == q_ ? 1 : 2);
+        }
+        return makePolytope(name, std::move(vertices), std::move(faces), std::move(cells), std::move(orbits));
+    }
+
+  private:
+    std::uint32_t p_, q_;
+};
+
+}  // namespace
+
+std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
+    if (text.words.back() != "duoantiprism") return {};
+    const auto polygons = polygonsNamed(text.withoutLast());
+    const auto isStar = [](RegularPolygon each) { return each.denominator != 1; };
+    if (!polygons || polygons->size() != 2 || std::ranges::any_of(*polygons, isStar)) {
+        return NameError::impossible(
+            "a duoantiprism is named after two polygons that have at least two sides and are no stars, as in "
+            "3,4-duoantiprism");
+    }
+    const auto [p, q] = std::minmax((*polygons)[0].numerator, (*polygons)[1].numerator);
+    if (q == 2) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
+    return Design{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism", std::make_shared<Duoantiprism>(p, q)};
+}
+
+}  // namespace oval4d::polytopes
