@@ -15,6 +15,8 @@ from wire import Client, Refused
     ("sadi", "snub 24-cell", (96, 432, 480, 144)),
     ("grand antiprism", "grand antiprism", (100, 500, 720, 320)),
     ("7x9 duoprism", "7,9-duoprism", (63, 126, 79, 16)),
+    ("4-3 duoantiprism", "3,4-duoantiprism", (24, 96, 110, 38)),
+    ("2,2-duoantiprism", "16-cell", (8, 24, 32, 16)),
     ("pentagonal antiprism prism", "pentagonal antiprism prism", (20, 50, 44, 14)),
     ("snub cube prism", "snub cubic prism", (48, 144, 136, 40)),
     ("pyramid of cube", "pyramid of cube", (9, 20, 18, 7)),
@@ -70,6 +72,7 @@ async def test_kinds_of_cells_have_names_and_colors(server):
     ("x6o3o3o", "finite"),
     ("o5o3o3o", "ringed"),
     ("2,5-duoprism", "at least three sides"),
+    ("5/2,5-duoantiprism", "are no stars"),
     ("{6,3,3}", "finite"),
     ("cube", "is a polyhedron"),
     ("dual of cube", "is a polyhedron"),
@@ -98,6 +101,7 @@ async def test_unknown_names_are_explained(server, text, expected_text):
 async def test_too_many_vertices_are_refused(server):
     async with Client(server) as client:
         for text, most in (("1000,1000-duoprism", 100000), ("x999999o x999999o", 100000),
+                           ("300,300-duoantiprism", 100000),
                            ("500000-gonal antiprism prism", 100000), ("pyramid of 500000-gonal prism", 100000),
                            ("truncation of omnitruncated 120-cell", 20000),
                            ("hull of omnitruncated 120-cell and omnitruncated 120-cell", 20000),
