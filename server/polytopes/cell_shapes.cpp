@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace {
 constexpr double kShapeTolerance = 0.01;  // relative
 
 bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * std::max(a, b); }
+
+bool areAllEqual(const std::vector<double>& lengths) {
+    const auto [least, greatest] = std::ranges::minmax(lengths);
+    return areEqual(least, greatest);
+}
 
 // The numbers of a cell's elements.
 struct ElementTally {
@@ -98,6 +104,54 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
     return adjectiveOfBase(p, p.faces[others[0]]) + " prism";
 }
 
+// Returns the distances of the cell's vertices from their mean.
+std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
+    glm::dvec4 middle(0);
+    for (const auto& [v, degree] : tally.degrees) middle += p.vertices[v] / static_cast<double>(tally.degrees.size());
+    std::vector<double> radii;
+    for (const auto& [v, degree] : tally.degrees) radii.push_back(glm::distance(p.vertices[v], middle));
+    return radii;
+}
+
+// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex, their edges are equally
+// long, and so are all other edges of the cell.
+bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
+    const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
+    const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
+    if (std::ranges::any_of(p.faces[otherBase], isCorner)) return false;
+    std::vector<double> sides, lateral;
+    for (const std::uint32_t f : p.cells[cell]) {
+        const auto loop = p.faces[f];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+            (isCorner(a) == isCorner(b) ? sides : lateral).push_back(glm::distance(p.vertices[a], p.vertices[b]));
+        }
+    }
+    return areAllEqual(sides) && areAllEqual(lateral);
+}
+
+// Returns the name of a right antiprism over a regular polygon, or an empty string.
+std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
+    const auto n = static_cast<std::uint32_t>(p.cells[cell].size() / 2 - 1);
+    std::map<std::size_t, std::uint32_t> wanted;
+    wanted[n] += 2;
+    wanted[3] += 2 * n;
+    if (n < 3 || tally.faces != wanted || !tally.has(n, 4, n, 4)) return {};
+    // The vertices of an antiprism lie on a sphere. A base with equally long edges is regular if its vertices do.
+    if (!areAllEqual(radiiOf(p, tally))) return {};
+    std::vector<std::uint32_t> bases;  // two; or, if n = 3, all eight triangles
+    for (const std::uint32_t f : p.cells[cell]) {
+        if (p.faces[f].size() == n) bases.push_back(f);
+    }
+    for (const std::uint32_t base : bases) {
+        for (const std::uint32_t other : bases) {
+            if (base < other && mayBeBases(p, cell, base, other))
+                return adjectiveOf({static_cast<int>(n), 1}) + " antiprism";
+        }
+    }
+    return {};
+}
+
 // Returns the name of a bipyramid or a trapezohedron, or an empty string. These cells have two apexes; the other
 // vertices lie around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
@@ -118,11 +172,8 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
 // other polyhedra, among them other Catalan solids, may have the same numbers.
 bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
     const SolidMesh mesh = meshOf(solid);
-    std::vector<double> known, own;
+    std::vector<double> known, own = radiiOf(p, tally);
     for (const glm::dvec3& v : mesh.vertices) known.push_back(glm::length(v));
-    glm::dvec4 middle(0);
-    for (const auto& [v, degree] : tally.degrees) middle += p.vertices[v] / static_cast<double>(tally.degrees.size());
-    for (const auto& [v, degree] : tally.degrees) own.push_back(glm::distance(p.vertices[v], middle));
     std::ranges::sort(known);
     std::ranges::sort(own);
     const double scale = own.back() / known.back();
@@ -168,6 +219,7 @@ std::string nameOfIrregularCell(const Polytope& p, std::uint32_t cell) {
     const ElementTally tally(p, cell);
     std::string name = pyramidName(p, cell, tally);
     if (name.empty()) name = prismName(p, cell);
+    if (name.empty()) name = antiprismName(p, cell, tally);
     if (name.empty()) name = catalanName(p, tally, faces);
     return name.empty() ? twoApexName(faces, tally) : name;
 }
