@@ -168,8 +168,8 @@ std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     // In seconds. kElement: for each element of a polytope that is built. kByte: for each byte of a file that lists the
     // elements of a polytope or the points of a cloud. kPointByte: for each byte of a list of points whose convex hull
     // is computed. kArrayByte: for each byte of an array. kTransformedElement: for each element of an object that is
-    // transformed. kSearch: for a search for critical values of w. kHullPoint: for each point whose convex hull is
-    // computed to build a polytope.
+    // transformed. kSearch: for a search for critical values of w. kHullPoint: for each point of the convex hulls that
+    // are computed to build a polytope (see Recipe::hullPointCount()).
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kTransformedElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;

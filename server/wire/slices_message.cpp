@@ -184,7 +184,7 @@ void SlicesMessageWriter::writeMessage(W&& w, Texts& texts, const Scene& scene, 
     writeFogTable(w, scene.fog);
     w.endObject();
     if (scene.look.parts.coordinates) {
-        // The coordinates of the domain's corners would say nothing about a field.
+        // A field shows histograms instead: its vertices are only the corners of its domain.
         if (!scene.showsHistogram()) {
             w.key("coordinates");
             w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));
