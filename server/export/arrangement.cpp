@@ -23,13 +23,13 @@ Box boxOf(const SliceBodies& group) {
     return box;
 }
 
-void move(SliceBodies& group, const glm::dvec3& by, const Grid& grid) {
+void move(SliceBodies& group, const glm::dvec3& by, const RoundingGrid& grid) {
     for (PlacedMesh& solid : group.bodies) solid.at += grid.snap(by);
 }
 
 }  // namespace
 
-void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Grid& grid) {
+void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const RoundingGrid& grid) {
     const auto perRow = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(groups.size()))));
     const double gap = gapFor(size);
     double y = 0;
@@ -46,7 +46,7 @@ void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Grid& g
     }
 }
 
-void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, double size, const Grid& grid) {
+void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, double size, const RoundingGrid& grid) {
     const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimeters per world unit
     std::vector<glm::dvec3> places;
     std::vector<double> radii;

@@ -297,7 +297,7 @@ class Exporter {
     ExportRequest request_;
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
-    const Grid grid_;
+    const RoundingGrid grid_;
     std::optional<slicing::Element> element_;  // the element that is exported alone
     SkeletonRadii radii_;
     double cube_ = 0;

@@ -31,8 +31,8 @@ class RecentObjects {
     /// Returns the object of a request, in the request's frame of reference; null if its source object is not in the
     /// cache.
     const slicing::Object* find(const DrawRequest& request) {
-        const auto found = std::ranges::find(kept_, request.source,
-                                             [](const Kept& kept) { return slicing::infoOf(kept.source).serial; });
+        const auto found = std::ranges::find(
+            kept_, request.source, [](const KeptObject& kept) { return slicing::infoOf(kept.source).serial; });
         if (found == kept_.end()) return nullptr;
         kept_.splice(kept_.begin(), kept_, found);
         if (slicing::infoOf(found->inFrame).serial != request.object) {
@@ -56,11 +56,11 @@ class RecentObjects {
     }
 
   private:
-    struct Kept {
+    struct KeptObject {
         slicing::Object source, inFrame;
         std::size_t bytes, inFrameBytes = 0;
     };
-    std::list<Kept> kept_;
+    std::list<KeptObject> kept_;
     std::size_t bytes_ = 0;
 };
 

@@ -92,8 +92,8 @@ void forEachSetting(const Visitor& visit) {
     };
     using enum ResetOccasion;
     // A setting that applySet() checks and changes with code of its own; Set has a member for it.
-    const auto checked = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
-                             bool forFields = false) {
+    const auto withOwnCode = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
+                                 bool forFields = false) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
         visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
     };
@@ -106,25 +106,25 @@ void forEachSetting(const Visitor& visit) {
     };
 
     const auto frame = &State::referenceFrame;
-    checked({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
-    checked({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
-    checked({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
+    withOwnCode({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
+    withOwnCode({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
+    withOwnCode({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
     plain({"alpha"}, at(&State::alpha), NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}});
     plain({"beta"}, at(&State::beta), NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}});
     plain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
 
     const auto slices = &State::slices;
-    checked({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), never);
-    checked({"spacing", "slices"}, &Set::spacing, at(slices, &SliceSettings::spacing), never);
-    checked({"focus", "slices"}, &Set::focus, at(slices, &SliceSettings::focus), by_reset_or_another_object);
-    checked({"offset", "slices"}, &Set::offset, at(slices, &SliceSettings::offset), by_reset_or_another_object);
-    checked({"w", "slices"}, &Set::focusW, NotInState{}, never);
-    checked(
+    withOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), never);
+    withOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &SliceSettings::spacing), never);
+    withOwnCode({"focus", "slices"}, &Set::focus, at(slices, &SliceSettings::focus), by_reset_or_another_object);
+    withOwnCode({"offset", "slices"}, &Set::offset, at(slices, &SliceSettings::offset), by_reset_or_another_object);
+    withOwnCode({"w", "slices"}, &Set::focusW, NotInState{}, never);
+    withOwnCode(
         {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
 
     const auto look = &State::look;
     plain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
-    checked({"turning"}, &Set::turning, NotInState{}, never);
+    withOwnCode({"turning"}, &Set::turning, NotInState{}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     plain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
@@ -143,14 +143,14 @@ void forEachSetting(const Visitor& visit) {
           NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
     const auto field = &Look::field;
     using Field = slicing::FieldSettings;
-    checked({"levels"}, &Set::levels, at(look, field, &Field::levels), by_another_object, true);
-    checked({"inside"}, &Set::inside, at(look, field, &Field::inside), by_another_object, true);
+    withOwnCode({"levels"}, &Set::levels, at(look, field, &Field::levels), by_another_object, true);
+    withOwnCode({"inside"}, &Set::inside, at(look, field, &Field::inside), by_another_object, true);
     plain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
-    checked({"fog"}, &Set::fog, at(look, field, &Field::fog), by_another_object, true);
+    withOwnCode({"fog"}, &Set::fog, at(look, field, &Field::fog), by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
-    checked({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
-    checked({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
-    checked({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
+    withOwnCode({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
+    withOwnCode({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
+    withOwnCode({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
 
     for (const scene::NamedPart& part : scene::kParts)
         plain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{});

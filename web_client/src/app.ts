@@ -99,7 +99,7 @@ export class App {
         joined: () => (this.state = undefined),
         loadField: async (field) => this.fieldPanel.adoptLoaded(field, await this.loadField(field, {})),
         reloadFile: (name) => this.fileLoading.reload(name),
-        viewShown: (revision) => this.welcomeLine.viewShown(revision),
+        viewShown: (revision) => this.welcomeLine.firstViewComplete(revision),
         tell: (messages) => this.notice.showAll(messages),
     });
     private readonly frameHitTesterCache = new FrameHitTesterCache(this.client, this.stage, () =>

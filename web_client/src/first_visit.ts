@@ -52,7 +52,7 @@ export class WelcomeLine {
     }
 
     /** Tells that the first view is complete from this revision on. */
-    viewShown(revision: number): void {
+    firstViewComplete(revision: number): void {
         this.since = revision;
         this.first = undefined;
     }

@@ -106,7 +106,7 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Fac
 }
 
 /// Returns whether the mesh is convex and consists of these faces, without holes.
-bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const Grid& grid) {
+bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const RoundingGrid& grid) {
     std::size_t corners = 0;
     for (const auto& [cell, face] : faces) {
         corners += face.loop.size() - 2;
@@ -119,7 +119,7 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, cons
 
 /// Engraves the text: replaces the face by a face with holes for the letters, and adds the letters' walls and floors.
 /// Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
-bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, const Grid& grid) {
+bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),
                           glm::dot(p - placement.middle, placement.up));
@@ -178,7 +178,7 @@ bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, c
 LabelText::LabelText(const std::string& name, const std::string& w)
     : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
 
-bool LabelText::engrave(Mesh& mesh, double size, const Grid& grid) const {
+bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid) const {
     const auto faces = facesOf(mesh);
     if (!isConvex(mesh, faces, grid)) return false;
     std::vector<TextPlacement> placements;
@@ -202,7 +202,7 @@ bool LabelText::engrave(Mesh& mesh, double size, const Grid& grid) const {
     });
 }
 
-Mesh LabelText::labelBody(double size, const Grid& grid) const {
+Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
     const double height = std::clamp(size / 15, 3.0, 12.0);
     const Lettering& text = versions_.back();
     const glm::dvec2 extent = (text.size + 2.2 * kMargin) * height;

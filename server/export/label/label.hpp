@@ -22,13 +22,13 @@ class LabelText {
     /// entry in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
     /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
     /// too thin, or if the letters would be less than 1 mm high.
-    bool engrave(Mesh& mesh, double size, const Grid& grid) const;
+    bool engrave(Mesh& mesh, double size, const RoundingGrid& grid) const;
 
     /// Returns a body that carries the label: a plate with the text engraved into its top side. The letters are
     /// size / 15 high, but at least 3 and at most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is
     /// centered in x and extends from y = 0 toward negative y. `size` is ExportRequest::size, in millimeters. Throws
     /// std::runtime_error if the letters cannot be engraved.
-    Mesh labelBody(double size, const Grid& grid) const;
+    Mesh labelBody(double size, const RoundingGrid& grid) const;
 
   private:
     std::vector<Lettering> versions_;  // the text in one line, and in two lines

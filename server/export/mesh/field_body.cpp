@@ -32,7 +32,7 @@ std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::si
 
 }  // namespace
 
-Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const Grid& grid,
+Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
                  const Budget& budget) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[static_cast<std::size_t>(i)];
     const scene::SurfaceLook::Level& look = scene.surfaces.levels[level];

@@ -14,7 +14,7 @@ namespace oval4d::exports {
 /// is an index into scene.surfaces.levels. `scene.slices` must contain the surfaces of the slices. `scale` is in
 /// millimeters per unit of the object. Returns an empty mesh if the rounded body has no volume (see isThickEnough()).
 /// Throws the exceptions of snapSurface().
-Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const Grid& grid,
+Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
                  const Budget& budget);
 
 }  // namespace oval4d::exports

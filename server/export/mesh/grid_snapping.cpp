@@ -27,7 +27,7 @@ std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 :
 class HalfEdges {
   public:
     HalfEdges(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-              const Grid& grid, const Budget& budget)
+              const RoundingGrid& grid, const Budget& budget)
         : grid_(grid), budget_(budget) {
         for (const auto& triangle : triangles) origins_.insert(origins_.end(), triangle.begin(), triangle.end());
         removed_.assign(triangles.size(), false);
@@ -262,7 +262,7 @@ class HalfEdges {
         }
     }
 
-    const Grid& grid_;
+    const RoundingGrid& grid_;
     const Budget& budget_;
     std::vector<std::uint32_t> origins_, twins_;  // per half-edge: its first point, its twin
     std::vector<bool> removed_;                   // per triangle
@@ -275,7 +275,7 @@ class HalfEdges {
 }  // namespace
 
 SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-                           const Grid& grid, const Budget& budget) {
+                           const RoundingGrid& grid, const Budget& budget) {
     constexpr int kLeastSteps = 4;
     HalfEdges surface(points, triangles, grid, budget);
     surface.removeSmallParts(kLeastSteps);

@@ -85,7 +85,7 @@ class Hull {
 
 }  // namespace
 
-Mesh hullOf(const std::vector<glm::dvec3>& points, const Grid& grid) {
+Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid) {
     Mesh mesh;
     std::vector<std::optional<std::uint32_t>> numbers(points.size());
     const auto number = [&](std::uint32_t point) {

@@ -11,6 +11,6 @@ namespace oval4d::exports {
 /// Therefore the mesh is closed, 2-manifold and convex for all inputs. Along each axis, the extent of the points must
 /// be at most 2^18 grid steps, so that the integers do not overflow. Returns an empty mesh if all points lie in one
 /// plane.
-Mesh hullOf(const std::vector<glm::dvec3>& points, const Grid& grid);
+Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid);
 
 }  // namespace oval4d::exports

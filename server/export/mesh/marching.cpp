@@ -58,7 +58,8 @@ constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
 
 class MarchingTetrahedra {
   public:
-    MarchingTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget)
+    MarchingTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+                       const Budget& budget)
         : field_(field), crossing_(crossing), grid_(grid), budget_(budget) {}
 
     Mesh run() {
@@ -172,7 +173,7 @@ class MarchingTetrahedra {
 
     const SampledField& field_;
     const FindCrossing& crossing_;
-    const Grid& grid_;
+    const RoundingGrid& grid_;
     const Budget& budget_;
     Mesh mesh_;
     std::vector<std::uint32_t> pointCells_;
@@ -219,7 +220,8 @@ std::vector<const SampledField::Block*> SampledField::blocks() const {
     return out;
 }
 
-Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget) {
+Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+                     const Budget& budget) {
     return MarchingTetrahedra(field, crossing, grid, budget).run();
 }
 

@@ -76,7 +76,8 @@ using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const 
 /// `crossing` reads for the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be
 /// at least 64 steps of `grid`: then no two crossings coincide after rounding, because crossings are kept away from the
 /// ends of their edges. Throws ExportRefused if `budget` is exceeded.
-Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget);
+Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+                     const Budget& budget);
 
 /// Returns a function that finds crossings by linear interpolation of the values of `field`, with the cell kNoCell.
 /// `field` must outlive the function.

@@ -8,15 +8,15 @@
 
 namespace oval4d::exports {
 
-Grid::Grid(double size, double extent) {
+RoundingGrid::RoundingGrid(double size, double extent) {
     // A float32 has 24 significant bits. Therefore it represents exactly all multiples, from −extent to extent, of a
-    // step that is a power of two ≥ extent / 2^23. With a step ≥ size / 2^17 (0.46 µm for a size of 60 mm), the object spans at most 2^17 steps
-    // along each axis, which hullOf() can process.
+    // step that is a power of two ≥ extent / 2^23. With a step ≥ size / 2^17 (0.46 µm for a size of 60 mm), the object
+    // spans at most 2^17 steps along each axis, which hullOf() can process.
     const double needed = std::max(size / 131'072, extent / 8'388'608);
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
 
-glm::dvec3 Grid::snap(const glm::dvec3& point) const {
+glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
     // Adding zero turns -0 into 0.
     return glm::round(point / step_) * step_ + 0.0;
 }
@@ -64,7 +64,7 @@ double volumeOf(const Mesh& mesh) {
     return six / 6;
 }
 
-bool isThickEnough(const Mesh& mesh, const Grid& grid) {
+bool isThickEnough(const Mesh& mesh, const RoundingGrid& grid) {
     double twiceArea = 0;
     for (const auto& triangle : mesh.triangles) twiceArea += glm::length(doubleAreaNormalOf(mesh, triangle));
     constexpr double kLeastThickness = 4;

@@ -44,12 +44,12 @@ struct PlacedMesh {
 /// Rounds coordinates to multiples of a power of two, so that file formats in millimeters represent them exactly, as
 /// decimals or as 32-bit floats. Therefore two points are equal in a file if and only if their rounded coordinates are
 /// equal, and a mesh remains closed for a program that identifies points by their coordinates.
-class Grid {
+class RoundingGrid {
   public:
     /// Chooses the step: the smallest power of two that is at least size / 2^17 and extent / 2^23. `size` is the
     /// diameter of the object's circumscribed sphere and `extent` the largest absolute coordinate in the file, both in
     /// millimeters.
-    Grid(double size, double extent);
+    RoundingGrid(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.
     double step() const { return step_; }
@@ -69,7 +69,7 @@ double volumeOf(const Mesh& mesh);
 
 /// Returns whether the volume of the mesh is more than a rounding error: the mean thickness of the mesh, which is the
 /// volume divided by half the surface area, must exceed 4 grid steps.
-bool isThickEnough(const Mesh& mesh, const Grid& grid);
+bool isThickEnough(const Mesh& mesh, const RoundingGrid& grid);
 
 /// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.
 glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);

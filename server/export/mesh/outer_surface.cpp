@@ -41,7 +41,7 @@ class OuterSurface {
         }
     }
 
-    Mesh mesh(const Grid& grid) {
+    Mesh mesh(const RoundingGrid& grid) {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > 64 * grid.step())) return {};
@@ -211,7 +211,8 @@ class OuterSurface {
 
 }  // namespace
 
-Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
+                    const Budget& budget) {
     return OuterSurface(slices, i, scale, budget).mesh(grid);
 }
 

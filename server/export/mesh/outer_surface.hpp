@@ -13,6 +13,7 @@ namespace oval4d::exports {
 /// become rounded by about this width. `scale` is in millimeters per unit of the polytope. Returns an empty mesh if no
 /// corner of any cube is inside, or if the cubes are at most 64 grid steps wide. Throws ExportRefused if `budget` is
 /// exceeded.
-Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget);
+Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
+                    const Budget& budget);
 
 }  // namespace oval4d::exports

@@ -98,7 +98,7 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 }
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
-                const Grid& grid, const Budget& budget) {
+                const RoundingGrid& grid, const Budget& budget) {
     // The offset keeps the points of the field off the symmetry planes of the polytope, where many values would be
     // equal.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);

@@ -63,7 +63,7 @@ bool isConvex(const slicing::SliceSet& slices, int i) {
 /// The vertices of a slice in millimeters, rounded to the grid; equal points are merged.
 class Welded {
   public:
-    Welded(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
+    Welded(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
         std::map<std::tuple<double, double, double>, std::uint32_t> known;
         for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
             const glm::dvec3 point = grid.snap(slices.vertices[v] * scale);
@@ -108,7 +108,7 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
     for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
 }
 
-Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
+Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
     const Welded welded(slices, i, scale, grid);
     Mesh mesh;
     mesh.points = welded.points();
@@ -122,7 +122,7 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Gri
 /// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. Assigns each triangle to the
 /// cell of the slice face with the most similar normal. The hull is used instead of the faces if points of the slice
 /// coincide on the grid, because two faces may then share more than one edge.
-Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
+Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid) {
     Mesh hull = hullOf(faces.points, grid);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
@@ -138,7 +138,7 @@ Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const
 
 }  // namespace
 
-Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
     if (slices.faceCount(i) < 4) return {};
     if (isConvex(slices, i)) {
         Mesh mesh = convexSolid(slices, i, scale, grid);

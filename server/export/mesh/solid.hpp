@@ -13,6 +13,6 @@ namespace oval4d::exports {
 /// outer surface (see outer_surface.hpp). `scale` is in millimeters per unit of the polytope. Returns an empty mesh if
 /// the slice has fewer than four faces or if the rounded body has no volume (see isThickEnough()). Throws ExportRefused
 /// if `budget` is exceeded.
-Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget);
+Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

@@ -196,19 +196,19 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
     const bool isTransformed = ofImage && ofImage->dimensions.size() == array.shape.size();
     const std::size_t slash = array.path.rfind('/');
     const std::string group = slash == std::string::npos ? "" : array.path.substr(0, slash + 1);
-    struct Range {
+    struct CoordinateRange {
         double first, last;
         bool known;
     };
     std::vector<CfDimension> stated;
-    std::vector<Range> ranges;
+    std::vector<CoordinateRange> ranges;
     std::vector<std::string> units;
     bool named = false;
     for (const std::size_t i : kept) {
         const std::size_t size = array.shape[i];
         const double last = static_cast<double>(size) - 1;
         CfDimension each;
-        Range range{0, last, false};
+        CoordinateRange range{0, last, false};
         std::string unit;
         if (isTransformed) {
             const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];

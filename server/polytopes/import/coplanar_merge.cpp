@@ -252,7 +252,7 @@ class Merger {
             const glm::dvec4 direction = height.normal.x * hyperplane.axis(0) + height.normal.y * hyperplane.axis(1) +
                                          height.normal.z * hyperplane.axis(2);
             height.uncertain = frame_.errorBound(direction) *
-                               (1 + PlaneThroughPoints(from.corners, points_).errorAmplification(points_[v]));
+                               (1 + PlaneThroughPoints(from.corners, points_).cornerErrorFactor(points_[v]));
             return height;
         };
         const RelativeHeight there = heightFrom(one, other), back = heightFrom(other, one);

@@ -59,7 +59,7 @@ class Flat {
 
     /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of the
     /// barycentric coordinates of p. Returns infinity if the corners span no simplex.
-    double errorAmplification(const glm::dvec4& p) const {
+    double cornerErrorFactor(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
         double sum = 0, first = 1;
         for (std::size_t j = Dimension; j-- > 0;) {
@@ -81,7 +81,7 @@ class Flat {
         if (!(distance > 0)) return true;
         constexpr double kMaxAmplification = 16;  // the largest factor by which extrapolation may increase the bound
         return distance <=
-               factor * frame.errorBound(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
+               factor * frame.errorBound(rest / distance) * (1 + std::min(cornerErrorFactor(p), kMaxAmplification));
     }
 
   private:

@@ -65,7 +65,7 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
     int cut = 0;
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
         const Polytope& p = named(name);
-        const Grid grid(80, 80);
+        const RoundingGrid grid(80, 80);
         const LabelText label(name, "w = \u22120.25");
         for (int trial = 0; trial < 12; ++trial) {
             Mesh mesh =
@@ -91,14 +91,14 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
 
 TEST(Label, isRefusedWhereThereIsNoRoom) {
     const Polytope& p = named("600-cell");
-    const Grid grid(20, 20);
+    const RoundingGrid grid(20, 20);
     Mesh mesh = solidOf(cutAt(p, {}, 0.1), 0, 10 / p.circumradius, grid, unhurried());
     EXPECT_FALSE(LabelText("600-cell", "w = 0.1").engrave(mesh, 20, grid));
 }
 
 TEST(Label, aPlateIsABodyOfItsOwn) {
     for (const double size : {10.0, 60.0, 500.0}) {
-        const Grid grid(size, size);
+        const RoundingGrid grid(size, size);
         const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").labelBody(size, grid);
         expectPrintable(plate);
         const glm::dvec3 extent = boxOf(plate).size();

@@ -49,7 +49,7 @@ TEST(GridSnapping, keepsSurfacesClosedManifolds) {
         for (const auto& [a, b, c] : surface.triangles)
             volume += glm::dot(points[a], glm::cross(points[b], points[c])) / 6;
         for (const double size : {60.0, 10'000.0}) {  // the second has steps of 1/16 of the size of the surface's cells
-            const Grid grid(size, size);
+            const RoundingGrid grid(size, size);
             const SnappedSurface snapped = snapSurface(points, surface.triangles, grid, unhurried());
             expectPrintable(snapped.mesh);
             EXPECT_TRUE(isClosedManifold(snapped.mesh));
@@ -72,7 +72,7 @@ TEST(GridSnapping, separatesWhatTouches) {
     const std::vector<glm::dvec3> points{{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},
                                          {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, -1, -1}};
     const Triangles first{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    const Grid grid(60, 60);
+    const RoundingGrid grid(60, 60);
     for (const Triangles& second : {Triangles{{0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}},
                                     Triangles{{0, 5, 1}, {0, 1, 7}, {0, 7, 5}, {1, 5, 7}}}) {
         Triangles both = first;
@@ -91,7 +91,7 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
     std::vector<glm::dvec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int i = 0; i < 4; ++i) points.push_back(5.0 + 1e-4 * points[static_cast<std::size_t>(i)]);
     Triangles triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {4, 6, 5}, {4, 5, 7}, {4, 7, 6}, {5, 6, 7}};
-    const Grid grid(60, 60);
+    const RoundingGrid grid(60, 60);
     EXPECT_EQ(snapSurface(points, triangles, grid, unhurried()).mesh.triangles.size(), 4U);
     triangles.pop_back();
     EXPECT_THROW(snapSurface(points, triangles, grid, unhurried()), std::invalid_argument);
@@ -104,7 +104,7 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
 TEST(GridSnapping, flipsTrianglesWithoutArea) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
     const Triangles triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};
-    const SnappedSurface snapped = snapSurface(points, triangles, Grid(60, 60), unhurried());
+    const SnappedSurface snapped = snapSurface(points, triangles, RoundingGrid(60, 60), unhurried());
     EXPECT_TRUE(isClosedManifold(snapped.mesh));
     EXPECT_EQ(snapped.mesh.triangles.size(), 6U);
     for (const auto& triangle : snapped.mesh.triangles)

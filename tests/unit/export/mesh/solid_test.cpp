@@ -18,7 +18,9 @@ using namespace oval4d::slicing;
 constexpr double kSize = 60;
 
 double scaleOf(const Polytope& p) { return kSize / 2 / p.circumradius; }
-Mesh solid(const Polytope& p, const SliceSet& s) { return solidOf(s, 0, scaleOf(p), Grid(kSize, kSize), unhurried()); }
+Mesh solid(const Polytope& p, const SliceSet& s) {
+    return solidOf(s, 0, scaleOf(p), RoundingGrid(kSize, kSize), unhurried());
+}
 
 /// Expects that the solid of a slice is a closed mesh with the volume of the slice. Returns whether there is a solid.
 bool expectSolid(const Polytope& p, const Rotation& orientation, double w) {
@@ -27,13 +29,13 @@ bool expectSolid(const Polytope& p, const Rotation& orientation, double w) {
     if (mesh.triangles.empty()) {
         // No solid: the slice is empty, or thinner than a few steps of the grid.
         const SliceMeasurements m = measureSlice(s, 0);
-        const double step = Grid(kSize, kSize).step();
+        const double step = RoundingGrid(kSize, kSize).step();
         EXPECT_LE(m.volume * std::pow(scaleOf(p), 3), 4 * step * m.area * scaleOf(p) * scaleOf(p));
         return false;
     }
     expectPrintable(mesh);
     const double exact = oval4d::support::volumeOf(s, 0) * std::pow(scaleOf(p), 3);
-    const double rounding = 2 * Grid(kSize, kSize).step() * measureSlice(s, 0).area * scaleOf(p) * scaleOf(p);
+    const double rounding = 2 * RoundingGrid(kSize, kSize).step() * measureSlice(s, 0).area * scaleOf(p) * scaleOf(p);
     EXPECT_NEAR(volumeOf(mesh), exact, rounding);
     return true;
 }
@@ -114,7 +116,7 @@ TEST(Solid, isNotToBeHadOfAFaceAnEdgeOrAPoint) {
 }
 
 TEST(Hull, isClosedAndConvexThoughManyPointsLieInOnePlane) {
-    const Grid grid(kSize, kSize);
+    const RoundingGrid grid(kSize, kSize);
     std::mt19937 random(10);
     for (const int side : {1, 2, 4}) {
         for (int trial = 0; trial < 20; ++trial) {
@@ -237,7 +239,7 @@ TEST(OuterSurface, facesLieOnThoseOfTheSlice) {
 TEST(Skeleton, isClosedHoweverTurned) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> level(-0.9, 0.9);
-    const Grid grid(kSize, kSize);
+    const RoundingGrid grid(kSize, kSize);
     for (const char* name : {"5-cell", "8-cell", "24-cell", "600-cell"}) {
         const Polytope& p = named(name);
         for (int trial = 0; trial < (support::kSanitized ? 1 : 4); ++trial) {
@@ -256,7 +258,7 @@ TEST(Skeleton, ofAPointIsABall) {
     const SliceSet s = cutAt(p, up, p.circumradius);
     ASSERT_EQ(s.vertexCount(0), 1U);
     const SkeletonRadii thick{3, 1};
-    const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.3, Grid(kSize, kSize), unhurried());
+    const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.3, RoundingGrid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     EXPECT_NEAR(volumeOf(mesh), 4.0 / 3 * std::numbers::pi * 27, 1);
     double farthest = 0;
@@ -269,7 +271,7 @@ TEST(Skeleton, hasTheVolumeOfItsBallsAndBars) {
     const Polytope& p = named("8-cell");
     const SliceSet s = cutAt(p, {}, 0);
     const SkeletonRadii thick{3, 1};
-    const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.25, Grid(kSize, kSize), unhurried());
+    const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.25, RoundingGrid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     const double pi = std::numbers::pi;
     const double height = 3 - std::sqrt(8.0);  // of the spherical cap above the circle where a bar leaves the ball
