@@ -157,7 +157,7 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
     return projected;
 }
 
-// Returns whether the file of a field contains surfaces.
+// Returns whether an export of a field with this request needs the surfaces of its slices.
 bool readsFieldSurfaces(const exports::ExportRequest& request) {
     using enum exports::ExportContents;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;

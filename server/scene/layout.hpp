@@ -134,9 +134,9 @@ struct LayoutContent {
     bool operator==(const LayoutContent&) const = default;
 };
 
-/// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice;
-/// `focusName` is the text that follows w in the focus slice's label, if there is room for it. Overwrites `out` and
-/// reuses its memory.
+/// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the number n of the focus slice (see
+/// geometry::Hyperplanes); `focusName` is the text that follows w in the focus slice's label, if there is room for it.
+/// Overwrites `out` and reuses its memory.
 void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, const Look& look,
             Viewport viewport, std::string_view focusName, Layout& out);
 

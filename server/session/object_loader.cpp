@@ -134,7 +134,8 @@ std::size_t ObjectLoader::bytesNeeded() const {
     constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
     if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
-        // The message with the samples, and a copy of them. Samples of one byte become floats of four bytes.
+        // The samples are in memory twice: in the message of the process that reads the file, and in the field. A
+        // sample of one byte in the file is a float, of four bytes, in both.
         constexpr std::size_t kCopies = 2, kPerFileByte = kCopies * sizeof(float);
         const std::size_t file = (*load)->file ? (*load)->file->size() : 0;
         return kFixed + kPerTextByte * (*load)->data.size() +

@@ -28,7 +28,8 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.endArray();
 }
 
-// Writes an array of numbers, in all encodings as an ordinary array.
+// Writes a member that is an array of numbers. In binary encodings, too, it is an array of single numbers, not a typed
+// array.
 template <typename W, typename Numbers = std::initializer_list<double>>
 void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);

@@ -204,8 +204,8 @@ class Flattener {
         }
     }
 
-    // Fits the hyperplane of a flat to its points: first to points that are far apart, then to all by least squares.
-    // The second step changes little; therefore its rounding errors are small, too.
+    // Fits the hyperplane of a FittedFlat to the points of the flat: first to points that are far apart, then to all by
+    // least squares. The second step changes little; therefore its rounding errors are small, too.
     void fit(std::uint32_t i) {
         FittedFlat& flat = flats_[i];
         const auto corners = corners_[i];

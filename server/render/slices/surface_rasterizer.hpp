@@ -38,8 +38,8 @@ class SurfaceRasterizer {
     /// them.
     void projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
 
-    /// Draws triangles, each given by the indices of three vertices, in order. Several threads may draw different rows
-    /// at the same time.
+    /// Draws triangles one after another, each given by three consecutive indices of vertices. Several threads may draw
+    /// different rows at the same time.
     void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
 
     /// Estimates the mean screen y of the triangles, as a fraction of the picture height from its lower edge. Uses only
