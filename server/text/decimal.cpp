@@ -83,8 +83,8 @@ struct Block {
     // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
     // byte.
     alignas(32) std::uint64_t digits[kBlock];
-    // Per group: true if `head` and `digits` cannot hold a number of the group, because it is too small or too large, or
-    // has no nonzero digit after the second decimal, so that `head` could end in superfluous zeros. In this case,
+    // Per group: true if `head` and `digits` cannot hold a number of the group, because it is too small or too large,
+    // or has no nonzero digit after the second decimal, so that `head` could end in superfluous zeros. In this case,
     // putPlain() writes all numbers of the group.
     bool needsFallback[kGroups];
 };
