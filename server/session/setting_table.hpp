@@ -17,7 +17,7 @@ namespace oval4d::session {
 /// The names of a setting.
 struct SettingName {
     std::string_view text;           ///< on the page's command line and in queries
-    std::string_view object = "";    ///< in messages: the name of the JSON object that contains the setting, such as
+    std::string_view object{};       ///< in messages: the name of the JSON object that contains the setting, such as
                                      ///< "camera"; empty if the message itself contains it
     std::string_view member = text;  ///< in messages: the name of the setting in this JSON object
 };
@@ -39,7 +39,7 @@ struct KeySteps {
 struct NumberInRange {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     geometry::Range range;
-    std::string_view unit = "";  ///< what the error message states after the range, such as " circumradii"
+    std::string_view unit{};  ///< what the error message states after the range, such as " circumradii"
     KeySteps keys = {};
 };
 /// The rule of a setting that applySet() checks and changes with code of its own.

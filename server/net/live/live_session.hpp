@@ -92,7 +92,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; the
     /// program does not link without one.
     template <typename Body>
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, Body body, RequestId id);
+    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, Body /*body*/, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     void answerWithAddress(Peer& peer, RequestId id);

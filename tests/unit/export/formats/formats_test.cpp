@@ -211,8 +211,9 @@ TEST(Scad, hasTheBodiesOfTheSlices) {
     const auto bodies = bodiesOfScad(fileOf(named("16-cell"), {}, {-2, 5, 0.5}, request));
     ASSERT_EQ(bodies.size(), 5U);
     const double scale = 30 / std::sqrt(2);  // millimeters per unit: the circumradius is √2
-    for (int n = -2; n <= 2; ++n) {
-        const PlacedMesh& body = bodies[static_cast<std::size_t>(n + 2)];
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const PlacedMesh& body = bodies[i];
+        const int n = static_cast<int>(i) - 2;
         SCOPED_TRACE(body.name);
         EXPECT_TRUE(body.name.starts_with("16-cell, w = "));
         EXPECT_EQ(body.color, scene::style().ball);
