@@ -41,13 +41,13 @@ class StoredObjectKeys {
     void forget(const std::string& session) { sessions_.erase(session); }
 
   private:
-    struct KeyState {
+    struct ObjectRecord {
         std::string key;
         bool stored = false;
     };
-    using KeyStates = std::map<std::uint64_t, KeyState>;  // by ObjectInfo::serial
+    using ObjectRecords = std::map<std::uint64_t, ObjectRecord>;  // by ObjectInfo::serial
 
-    std::map<std::string, KeyStates, std::less<>> sessions_;
+    std::map<std::string, ObjectRecords, std::less<>> sessions_;
 };
 
 }  // namespace oval4d::store
