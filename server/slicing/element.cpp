@@ -13,8 +13,8 @@
 #include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
+#include "slicing/overloaded.hpp"
 #include "slicing/slice_set.hpp"
-#include "slicing/visitor.hpp"
 
 namespace oval4d::slicing {
 
@@ -306,9 +306,9 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
     out.center /= static_cast<double>(vertices.size());
     const fields::Field* const field = fieldIn(object);
     const glm::dmat4 toFile = field == nullptr ? glm::dmat4(1) : field->toFunction;
-    visitPolytopeOrCloud(
-        Visitor{[&](const PolytopePtr& p) { measureSize(*p, element, toFile, out); }, [](const CloudPtr& /*cloud*/) {}},
-        object);
+    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { measureSize(*p, element, toFile, out); },
+                                    [](const CloudPtr& /*cloud*/) {}},
+                         object);
     return out;
 }
 
@@ -333,7 +333,7 @@ std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Ro
         for (const glm::dvec4& v : vertices) heights.push_back(glm::dot(direction, v));
     };
     visitPolytopeOrCloud(
-        Visitor{[&](const PolytopePtr& p) { add(p->vertices); }, [&](const CloudPtr& cloud) { add(cloud->points); }},
+        Overloaded{[&](const PolytopePtr& p) { add(p->vertices); }, [&](const CloudPtr& cloud) { add(cloud->points); }},
         object);
     return groupHeights(std::move(heights), kOnPlaneTolerance * infoOf(object).circumradius);
 }
@@ -350,8 +350,8 @@ std::optional<double> nextVertexHeight(const Object& object, const geometry::Rot
             if (beyond && (!next || (upward ? height < *next : height > *next))) next = height;
         }
     };
-    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
-                                 [&](const CloudPtr& cloud) { consider(cloud->points); }},
+    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { consider(p->vertices); },
+                                    [&](const CloudPtr& cloud) { consider(cloud->points); }},
                          object);
     return next;
 }

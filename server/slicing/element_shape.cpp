@@ -9,7 +9,7 @@
 
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -93,8 +93,9 @@ void writeElementAsSlice(const Object& object, const Element& element, const geo
     out.fogs.clear();
     out.clearSlices();
     const double w = visitPolytopeOrCloud(
-        Visitor{[&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
-                [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},
+        Overloaded{
+            [&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
+            [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},
         object);
     out.planes = {0, 1, 1, w};
     out.vertexBegin.push_back(static_cast<std::uint32_t>(out.vertices.size()));

@@ -11,7 +11,7 @@
 #include "polytopes/off.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/cloud_slicer.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -21,8 +21,8 @@ using polytopes::Polytope;
 
 const std::vector<glm::dvec4>& verticesOf(const Object& object) {
     return visitPolytopeOrCloud(
-        Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
-                [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
+        Overloaded{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
+                   [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
         object);
 }
 
@@ -93,11 +93,11 @@ const geometry::ObjectInfo& infoOf(const Object& object) {
 
 std::array<std::size_t, 4> elementCounts(const Object& object) {
     using Counts = std::array<std::size_t, 4>;
-    return visitPolytopeOrCloud(Visitor{[](const PolytopePtr& p) {
-                                            return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
-                                                          p->cells.size()};
-                                        },
-                                        [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
+    return visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& p) {
+                                               return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
+                                                             p->cells.size()};
+                                           },
+                                           [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
                                 object);
 }
 
@@ -129,18 +129,19 @@ double initialSliceExtent(const Object& object) {
 }
 
 std::size_t memoryOf(const Object& object) {
-    return std::visit(Visitor{[](const PolytopePtr& p) { return polytopes::memoryOf(*p); },
-                              [](const CloudPtr& cloud) {
-                                  return sizeof *cloud + cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
-                              },
-                              [](const FieldPtr& field) {
-                                  std::size_t functions = 0;
-                                  if (!field->isTransformed) {
-                                      functions = field->function->memoryBytes();
-                                      if (field->second) functions += field->second->function->memoryBytes();
-                                  }
-                                  return sizeof *field + functions + polytopes::memoryOf(*field->domain);
-                              }},
+    return std::visit(Overloaded{[](const PolytopePtr& p) { return polytopes::memoryOf(*p); },
+                                 [](const CloudPtr& cloud) {
+                                     return sizeof *cloud +
+                                            cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
+                                 },
+                                 [](const FieldPtr& field) {
+                                     std::size_t functions = 0;
+                                     if (!field->isTransformed) {
+                                         functions = field->function->memoryBytes();
+                                         if (field->second) functions += field->second->function->memoryBytes();
+                                     }
+                                     return sizeof *field + functions + polytopes::memoryOf(*field->domain);
+                                 }},
                       object);
 }
 
@@ -171,36 +172,36 @@ double relativeBallRadius(const Object& object) {
 }
 
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
-    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
-                                 [&](const CloudPtr& /*cloud*/) { out.clear(); }},
+    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
+                                    [&](const CloudPtr& /*cloud*/) { out.clear(); }},
                          object);
 }
 
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
-    visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
-                                 [&](const CloudPtr& /*cloud*/) {
-                                     normals.clear();
-                                     offsets.clear();
-                                 }},
+    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
+                                    [&](const CloudPtr& /*cloud*/) {
+                                        normals.clear();
+                                        offsets.clear();
+                                    }},
                          object);
 }
 
 std::span<const std::uint32_t> typeOfCells(const Object& object) {
     using Types = std::span<const std::uint32_t>;
-    return visitPolytopeOrCloud(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
-                                        [](const CloudPtr& /*cloud*/) { return Types(); }},
+    return visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
+                                           [](const CloudPtr& /*cloud*/) { return Types(); }},
                                 object);
 }
 
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
     std::vector<glm::dvec4> vertices(rotatedVertices.begin(), rotatedVertices.end());
     for (glm::dvec4& v : vertices) v += infoOf(object).originInFile;
-    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
-                                        [&](const CloudPtr& cloud) {
-                                            Polytope points;
-                                            points.name = cloud->name;
-                                            return polytopes::write4Off(points, vertices);
-                                        }},
+    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
+                                           [&](const CloudPtr& cloud) {
+                                               Polytope points;
+                                               points.name = cloud->name;
+                                               return polytopes::write4Off(points, vertices);
+                                           }},
                                 object);
 }
 

@@ -13,7 +13,7 @@
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -155,17 +155,17 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     out.clear();
     files.clear();
     ByteWriter archive(out);
-    std::visit(Visitor{[&](const PolytopePtr& p) {
-                           archive(ObjectKind::polytope), visitPolytope(archive, *p);
-                           archive(p->cellTypes.size());
-                           for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
-                           archive(p->originInFile);
-                       },
-                       [&](const CloudPtr& cloud) { archive(ObjectKind::cloud), visitCloud(archive, *cloud); },
-                       [&](const FieldPtr& field) {
-                           archive(ObjectKind::field), writeField(*field, archive, files, 0);
-                           archive(field->name), archive(field->serial);
-                       }},
+    std::visit(Overloaded{[&](const PolytopePtr& p) {
+                              archive(ObjectKind::polytope), visitPolytope(archive, *p);
+                              archive(p->cellTypes.size());
+                              for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
+                              archive(p->originInFile);
+                          },
+                          [&](const CloudPtr& cloud) { archive(ObjectKind::cloud), visitCloud(archive, *cloud); },
+                          [&](const FieldPtr& field) {
+                              archive(ObjectKind::field), writeField(*field, archive, files, 0);
+                              archive(field->name), archive(field->serial);
+                          }},
                object);
 }
 
@@ -196,17 +196,17 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
 }
 
 void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
-    std::visit(Visitor{[&](const PolytopePtr& p) {
-                           archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
-                           visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
-                       },
-                       [&](const CloudPtr& cloud) {
-                           archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile),
-                               archive(cloud->radii);
-                       },
-                       [&](const FieldPtr& field) {
-                           archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory);
-                       }},
+    std::visit(Overloaded{[&](const PolytopePtr& p) {
+                              archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
+                              visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
+                          },
+                          [&](const CloudPtr& cloud) {
+                              archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile),
+                                  archive(cloud->radii);
+                          },
+                          [&](const FieldPtr& field) {
+                              archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory);
+                          }},
                object);
 }
 

@@ -10,7 +10,7 @@
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/cloud_slicer.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -114,7 +114,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         out.ballOpacity.assign(out.ballScale.size(), 1);
     };
     visitPolytopeOrCloud(
-        Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }}, object);
+        Overloaded{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }}, object);
     endPart(out);
     for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
 }

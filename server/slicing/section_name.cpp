@@ -11,7 +11,7 @@
 #include "polytopes/construction/polyhedra.hpp"
 #include "polytopes/construction/snub.hpp"
 #include "polytopes/polytope.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
 // which do not depend on the orientation. For a slice, the numbers of edges and faces and the lengths of the edges are
@@ -140,17 +140,17 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
         return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
     };
     if (fieldIn(object) != nullptr) return false;
-    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) {
-                                            const std::size_t inPlane = countInPlane(p->vertices);
-                                            if (inPlane > 0 && inPlane <= kMaxVertices) return true;
-                                            std::size_t size = inPlane;
-                                            for (const auto& [a, b] : p->edges) {
-                                                size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
-                                                if (size > kMaxVertices) return false;
-                                            }
-                                            return size > 0;
-                                        },
-                                        [](const CloudPtr& /*cloud*/) { return false; }},
+    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) {
+                                               const std::size_t inPlane = countInPlane(p->vertices);
+                                               if (inPlane > 0 && inPlane <= kMaxVertices) return true;
+                                               std::size_t size = inPlane;
+                                               for (const auto& [a, b] : p->edges) {
+                                                   size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
+                                                   if (size > kMaxVertices) return false;
+                                               }
+                                               return size > 0;
+                                           },
+                                           [](const CloudPtr& /*cloud*/) { return false; }},
                                 object);
 }
 

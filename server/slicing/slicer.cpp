@@ -1,6 +1,6 @@
 #include "slicing/slicer.hpp"
 
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -14,9 +14,9 @@ void Slicer::slice(const Object& object, const geometry::Rotation& orientation, 
         out.fogs.clear();
     }
     std::visit(
-        Visitor{[&](const PolytopePtr& p) { polytopes_.slice(*p, orientation, planes, out); },
-                [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); },
-                [&](const FieldPtr& field) { fields_.slice(*field, orientation, planes, settings, detail, out); }},
+        Overloaded{[&](const PolytopePtr& p) { polytopes_.slice(*p, orientation, planes, out); },
+                   [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); },
+                   [&](const FieldPtr& field) { fields_.slice(*field, orientation, planes, settings, detail, out); }},
         object);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "polytopes/polytope.hpp"
-#include "slicing/visitor.hpp"
+#include "slicing/overloaded.hpp"
 
 namespace oval4d::slicing {
 
@@ -46,13 +46,13 @@ void findVisibilities(const Object& object, std::span<const Visibility> ofType, 
     out = {};
     if (std::ranges::all_of(ofType, [](Visibility visibility) { return visibility == Visibility::full; })) return;
     visitPolytopeOrCloud(
-        Visitor{[&](const PolytopePtr& p) { findVisibilities(*p, ofType, out); }, [](const CloudPtr& /*cloud*/) {}},
+        Overloaded{[&](const PolytopePtr& p) { findVisibilities(*p, ofType, out); }, [](const CloudPtr& /*cloud*/) {}},
         object);
 }
 
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
-    return visitPolytopeOrCloud(Visitor{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
-                                        [&](const CloudPtr& /*cloud*/) { return source; }},
+    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
+                                           [&](const CloudPtr& /*cloud*/) { return source; }},
                                 object);
 }
 
