@@ -81,7 +81,7 @@ class Composer {
     LayoutInput laidOut_;               // the input of the layout that the scene has
     const Scene* laidOutIn_ = nullptr;  // the scene that has the layout of laidOut_; null before the first layout
     std::optional<slicing::Element> highlight_;
-    slicing::ElementSources highlightSources_;  // the vertices and edges of slices that show highlight_
+    slicing::PartsShowingElement highlightSources_;  // the vertices and edges of slices that show highlight_
     // A cell that has the highlight color in the scene, and the color that this cell has otherwise.
     std::optional<std::pair<std::size_t, Color>> replacedColor_;
 

@@ -83,7 +83,7 @@ struct Scene : Layout {
     /// SliceSet::faceSource.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
-    slicing::ElementSources highlight;         ///< the vertices and edges of slices that show the highlighted element
+    slicing::PartsShowingElement highlight;    ///< the vertices and edges of slices that show the highlighted element
     slicing::SectionNames sectionNames;        ///< the names of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown

@@ -152,7 +152,7 @@ glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::d
     return best;
 }
 
-void findSourcesIn(const Polytope& p, const Element& element, ElementSources& out) {
+void findSourcesIn(const Polytope& p, const Element& element, PartsShowingElement& out) {
     const auto index = static_cast<std::uint32_t>(element.index);
     const auto edgeCount = static_cast<std::uint32_t>(p.edges.size());
     const auto faceCount = static_cast<std::uint32_t>(p.faces.size());
@@ -185,7 +185,7 @@ void findSourcesIn(const Polytope& p, const Element& element, ElementSources& ou
     }
 }
 
-void findSourcesIn(const geometry::PointCloud& /*cloud*/, const Element& element, ElementSources& out) {
+void findSourcesIn(const geometry::PointCloud& /*cloud*/, const Element& element, PartsShowingElement& out) {
     out.vertices.push_back(static_cast<std::uint32_t>(element.index));
     out.ownVertices = out.vertices;
 }
@@ -279,11 +279,11 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     return Element{kind, candidates[nearest]};
 }
 
-void ElementSources::clear() {
+void PartsShowingElement::clear() {
     for (auto* list : {&vertices, &edges, &ownVertices}) list->clear();
 }
 
-void findSourcesShowing(const Object& object, const Element& element, ElementSources& out) {
+void findSourcesShowing(const Object& object, const Element& element, PartsShowingElement& out) {
     out.clear();
     visitPolytopeOrCloud([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {

@@ -59,7 +59,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
 
 /// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
 /// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.
-struct ElementSources {
+struct PartsShowingElement {
     std::vector<std::uint32_t> vertices, edges;  ///< source numbers of slice vertices and of slice edges
     std::vector<std::uint32_t> ownVertices;      ///< the element's vertices, as indices into the object's vertices
 
@@ -67,7 +67,7 @@ struct ElementSources {
     bool hasEdge(std::uint32_t source) const { return std::ranges::binary_search(edges, source); }
     bool empty() const { return ownVertices.empty(); }
     void clear();
-    bool operator==(const ElementSources&) const = default;
+    bool operator==(const PartsShowingElement&) const = default;
 };
 
 /// Finds the parts of a picture that show an element. These parts are:
@@ -79,7 +79,7 @@ struct ElementSources {
 ///
 /// Overwrites `out`. Takes time linear in the number of edges. Requires element.index < elementCount(object,
 /// element.kind).
-void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
+void findSourcesShowing(const Object& object, const Element& element, PartsShowingElement& out);
 
 /// The center and the size of an element.
 struct ElementMeasurements {

@@ -63,7 +63,7 @@ void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::ui
 
 // Appends the vertices, edges and 2-faces of the shape to `out`, but no entries to vertexBegin, edgeBegin and
 // faceBegin. Returns the w coordinate of the shape.
-double addShape(const Polytope& p, const Element& element, const ElementSources& sources,
+double addShape(const Polytope& p, const Element& element, const PartsShowingElement& sources,
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;
     const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
@@ -86,7 +86,7 @@ double addShape(const Polytope& p, const Element& element, const ElementSources&
 void writeElementAsSlice(const Object& object, const Element& element, const geometry::Rotation& orientation,
                          SliceSet& out) {
     const geometry::Rotation turn = wayToW(object, element, orientation) * orientation;
-    ElementSources sources;
+    PartsShowingElement sources;
     findSourcesShowing(object, element, sources);
     out.rotatedVertices.clear();
     out.surfaces.clear();

@@ -85,7 +85,7 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                 w.member("slice", scene.placements[picked->slice].index);
                 w.member("w", origin.w + scene.placements[picked->slice].w);
             }
-            slicing::ElementSources sources;
+            slicing::PartsShowingElement sources;
             slicing::findSourcesShowing(object, picked->element, sources);
             double least = std::numeric_limits<double>::max(), most = -least;
             for (const std::uint32_t v : sources.ownVertices) {

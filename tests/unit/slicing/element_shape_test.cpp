@@ -33,7 +33,7 @@ TEST(ElementShape, hasTheDistancesOfTheElement) {
             SliceSet shape;
             writeElementAsSlice(object, element, support::randomRotation(random), shape);
             ASSERT_EQ(shape.planes.count, 1);
-            ElementSources sources;
+            PartsShowingElement sources;
             findSourcesShowing(object, element, sources);
             ASSERT_EQ(shape.vertices.size(), sources.ownVertices.size());
             for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
