@@ -20,11 +20,12 @@ bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
 
 }  // namespace
 
-bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexRanks ranks, std::span<SliceSet* const> touching,
-                       SliceSet& out) {
-    if (!ranks.anyOnPlane && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, ranks, out);
+bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow,
+                       std::span<SliceSet* const> touching, SliceSet& out) {
+    if (!planesBelow.anyOnPlane && isWorthTwoCores(polytope, out.planes.count))
+        return cutHalves(polytope, planesBelow, out);
     Sweep& sweep = lower_.sweep;
-    if (!sweep.begin(polytope, ranks, out.planes.count)) return false;
+    if (!sweep.begin(polytope, planesBelow, out.planes.count)) return false;
     SliceCounts size = sweep.maxSize();
     for (const SliceSet* slice : touching) {
         if (slice != nullptr) size = size + slice->totalCounts();
@@ -38,12 +39,12 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexRanks ranks, s
 
 // Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
 // the lower half gives the position of the upper half in `out`.
-bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexRanks ranks, SliceSet& out) {
-    const auto [least, most] = std::minmax_element(ranks.below.begin(), ranks.below.end());
+bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
+    const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;
     const auto begin = [&](Half& half, std::int32_t first, std::int32_t end) {
-        half.below.resize(ranks.below.size());
-        std::transform(ranks.below.begin(), ranks.below.end(), half.below.begin(),
+        half.below.resize(planesBelow.below.size());
+        std::transform(planesBelow.below.begin(), planesBelow.below.end(), half.below.begin(),
                        [&](std::int32_t below) { return std::clamp(below, first, end) - first; });
         half.sound = half.sweep.begin(polytope, {half.below, half.below, false}, end - first);
     };

@@ -8,9 +8,9 @@
 #include "parallel/fork_join.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/degeneracy_collapse.hpp"
+#include "slicing/planes_below_vertices.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/sweep.hpp"
-#include "slicing/vertex_ranks.hpp"
 
 namespace oval4d::slicing {
 
@@ -21,24 +21,24 @@ class ConvexSlicer {
     /// `forkJoin` must outlive this object. If it is null, all work is done on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
-    /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set. `ranks`
-    /// locates the rotated vertices relative to these hyperplanes. If the polytope touches hyperplanes from one side,
-    /// `touching` must contain the slices in them, as for Sweep::cut(); otherwise it may be empty.
+    /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set.
+    /// `planesBelow` locates the rotated vertices relative to these hyperplanes. If the polytope touches hyperplanes
+    /// from one side, `touching` must contain the slices in them, as for Sweep::cut(); otherwise it may be empty.
     ///
     /// Returns false, and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face in
     /// several segments or a cell in several polygons. The caller must then use a method for nonconvex polytopes.
-    bool cut(const polytopes::Polytope& polytope, VertexRanks ranks, std::span<SliceSet* const> touching,
+    bool cut(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, std::span<SliceSet* const> touching,
              SliceSet& out);
 
   private:
     // The lower or upper half of the hyperplanes.
     struct Half {
         Sweep sweep;
-        std::vector<std::int32_t> below;  // like VertexRanks::below, but counts only hyperplanes of this half
+        std::vector<std::int32_t> below;  // like PlanesBelowVertices::below, but counts only hyperplanes of this half
         SliceCounts end;                  // before sweep.cut(), where this half begins in the output; then its end
         bool sound = false;               // what the last call of sweep.begin() or sweep.cut() returned
     };
-    bool cutHalves(const polytopes::Polytope& polytope, VertexRanks ranks, SliceSet& out);
+    bool cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
 
     parallel::ForkJoin* forkJoin_;
     Half lower_, upper_;

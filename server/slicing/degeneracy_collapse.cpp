@@ -4,8 +4,8 @@
 
 namespace oval4d::slicing {
 
-void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, VertexRanks ranks) {
-    ranks_ = ranks;
+void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow) {
+    planesBelow_ = planesBelow;
     sliceVertex_.assign(polytope.vertices.size(), kNone);
     sliceEdge_.assign(polytope.edges.size(), kNone);
 }
@@ -28,8 +28,8 @@ std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& po
     std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto [a, b] = polytope.edges[vertexSource[i]];
-        const std::uint32_t lower = ranks_.below[a] < ranks_.below[b] ? a : b;
-        if (!ranks_.liesIn(lower, plane_)) {
+        const std::uint32_t lower = planesBelow_.below[a] < planesBelow_.below[b] ? a : b;
+        if (!planesBelow_.liesIn(lower, plane_)) {
             vertices[kept] = vertices[i];
             vertexSource[kept] = vertexSource[i];
             newVertex_[i] = kept++;
@@ -139,7 +139,7 @@ std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& po
                                                    std::array<std::uint32_t, 2> ends) const {
     for (const std::uint32_t e : polytope.faceEdges[face]) {
         const auto [a, b] = polytope.edges[e];
-        if (!ranks_.liesIn(a, plane_) || !ranks_.liesIn(b, plane_)) continue;
+        if (!planesBelow_.liesIn(a, plane_) || !planesBelow_.liesIn(b, plane_)) continue;
         if (std::minmax(sliceVertex_[a], sliceVertex_[b]) == std::minmax(ends[0], ends[1])) return e;
     }
     return kNone;
@@ -149,7 +149,7 @@ std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& po
 // there is none, for example because the slice face consists of several coplanar 2-faces.
 std::uint32_t DegeneracyCollapse::faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell,
                                                    std::size_t corners) const {
-    const auto lies = [&](std::uint32_t v) { return ranks_.liesIn(v, plane_); };
+    const auto lies = [&](std::uint32_t v) { return planesBelow_.liesIn(v, plane_); };
     for (const std::uint32_t f : polytope.cells[cell]) {
         const auto loop = polytope.faces[f];
         if (loop.size() == corners && std::all_of(loop.begin(), loop.end(), lies)) return f;

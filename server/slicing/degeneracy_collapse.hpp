@@ -9,8 +9,8 @@
 
 #include "polytopes/polytope.hpp"
 #include "slicing/coinciding_edges.hpp"
+#include "slicing/planes_below_vertices.hpp"
 #include "slicing/slice_set.hpp"
-#include "slicing/vertex_ranks.hpp"
 
 namespace oval4d::slicing {
 
@@ -30,8 +30,9 @@ namespace oval4d::slicing {
 /// miss elements that lie in it. Reuses its memory.
 class DegeneracyCollapse {
   public:
-    /// Prepares for slices of this polytope. The arrays of `ranks` must stay valid until the last call of collapse().
-    void begin(const polytopes::Polytope& polytope, VertexRanks ranks);
+    /// Prepares for slices of this polytope. The arrays of `planesBelow` must stay valid until the last call of
+    /// collapse().
+    void begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow);
 
     /// Moves a slice from just above the hyperplane with the index `plane` down into it, in place. The slice begins at
     /// position `at` in `out` and has this `size`. All of its vertices must have been cut from edges, its edges from
@@ -52,7 +53,7 @@ class DegeneracyCollapse {
                                    std::array<std::uint32_t, 2> ends) const;
     std::uint32_t faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;
 
-    VertexRanks ranks_;
+    PlanesBelowVertices planesBelow_;
     int plane_ = 0;
     // Per vertex or edge of the polytope: its index in the slice if it lies in the hyperplane; kNone if it has no index
     // yet.

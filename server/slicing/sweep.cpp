@@ -56,8 +56,8 @@ SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
 
 }  // namespace
 
-bool Sweep::begin(const polytopes::Polytope& polytope, VertexRanks ranks, int planes) {
-    ranks_ = ranks;
+bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes) {
+    planesBelow_ = planesBelow;
     findSteps(polytope, planes);
     return findElements(polytope, planes);
 }
@@ -91,12 +91,13 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 // Finds the hyperplanes at which the set of cut elements may change.
 void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
     verticesMet_.assign(planes + 1, VerticesMet::none);
-    for (const std::int32_t below : ranks_.below) verticesMet_[below] = VerticesMet::between;
-    if (ranks_.anyOnPlane) {
-        for (std::size_t v = 0; v < ranks_.below.size(); ++v) {
-            if (ranks_.below[v] != ranks_.upTo[v]) verticesMet_[ranks_.below[v]] = VerticesMet::inside;
+    for (const std::int32_t below : planesBelow_.below) verticesMet_[below] = VerticesMet::between;
+    if (planesBelow_.anyOnPlane) {
+        for (std::size_t v = 0; v < planesBelow_.below.size(); ++v) {
+            if (planesBelow_.below[v] != planesBelow_.upTo[v])
+                verticesMet_[planesBelow_.below[v]] = VerticesMet::inside;
         }
-        collapse_.begin(polytope, ranks_);
+        collapse_.begin(polytope, planesBelow_);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
@@ -108,7 +109,7 @@ void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
 // Finds the hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane cuts a
 // 2-face in several segments.
 bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
-    const std::int32_t* below = ranks_.below.data();
+    const std::int32_t* below = planesBelow_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
@@ -175,7 +176,7 @@ void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::
 // Makes an edge active: computes its line, and links the sections of the 2-faces and cells around it.
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
                              const std::vector<glm::dvec4>& rotatedVertices) {
-    const std::int32_t* below = ranks_.below.data();
+    const std::int32_t* below = planesBelow_.below.data();
     const auto& edge = polytope.edges[e];
     const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
     const glm::dvec4& at = rotatedVertices[edge[1 - rises]];

@@ -12,8 +12,8 @@
 #include "polytopes/polytope.hpp"
 #include "slicing/active_list.hpp"
 #include "slicing/degeneracy_collapse.hpp"
+#include "slicing/planes_below_vertices.hpp"
 #include "slicing/slice_set.hpp"
-#include "slicing/vertex_ranks.hpp"
 
 namespace oval4d::slicing {
 
@@ -25,11 +25,11 @@ namespace oval4d::slicing {
 /// between two vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
-    /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts. `ranks`
-    /// locates the vertices relative to the hyperplanes; its arrays must stay valid until cut() returns. Returns false
-    /// if rounding errors in the vertices make a hyperplane cut a 2-face in several segments; cut() must then not be
-    /// called.
-    bool begin(const polytopes::Polytope& polytope, VertexRanks ranks, int planes);
+    /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts.
+    /// `planesBelow` locates the vertices relative to the hyperplanes; its arrays must stay valid until cut() returns.
+    /// Returns false if rounding errors in the vertices make a hyperplane cut a 2-face in several segments; cut() must
+    /// then not be called.
+    bool begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes);
 
     /// Returns an upper bound of the total size of the slices, without those in `touching` (see cut()). The bound is
     /// exact unless vertices lie in hyperplanes; slices through vertices are smaller (see DegeneracyCollapse).
@@ -70,7 +70,7 @@ class Sweep {
     void writeEdges(SliceCounts at, SliceSet& out);
     bool writeFaces(SliceCounts at, SliceSet& out) const;
 
-    VertexRanks ranks_;
+    PlanesBelowVertices planesBelow_;
     SliceCounts size_;  // see maxSize()
     int first_ = 0;     // the slice number in `out` of hyperplane 0
     ActiveList edges_, faces_, cells_;
