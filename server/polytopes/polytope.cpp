@@ -81,7 +81,7 @@ class Orienter {
 
   private:
     // An edge of a 2-face of the current cell, with the direction (see directionOf()) of the 2-face's loop along it.
-    struct Side {
+    struct DirectedEdge {
         std::uint32_t edge, incidence;
         int direction;
     };
@@ -137,28 +137,29 @@ class Orienter {
         const std::uint32_t begin = p_.cells.begin[cell];
         const std::uint32_t end = p_.cells.begin[cell + 1];
         const auto signs = std::span(p_.cellSigns).subspan(begin, end - begin);
-        std::vector<Side> sides;
+        std::vector<DirectedEdge> directedEdges;
         for (std::uint32_t incidence = begin; incidence < end; ++incidence) {
             const std::uint32_t face = p_.cells.items[incidence];
             for (std::size_t i = 0; i < p_.faces[face].size(); ++i) {
-                sides.push_back({p_.faceEdges[face][i], incidence, directionOf(p_, face, i)});
+                directedEdges.push_back({p_.faceEdges[face][i], incidence, directionOf(p_, face, i)});
             }
         }
-        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
-        for (std::size_t i = 0; i < sides.size(); i += 2) {
-            if (i + 1 == sides.size() || sides[i].edge != sides[i + 1].edge ||
-                (i + 2 < sides.size() && sides[i + 2].edge == sides[i].edge)) {
+        std::sort(directedEdges.begin(), directedEdges.end(),
+                  [](const DirectedEdge& a, const DirectedEdge& b) { return a.edge < b.edge; });
+        for (std::size_t i = 0; i < directedEdges.size(); i += 2) {
+            if (i + 1 == directedEdges.size() || directedEdges[i].edge != directedEdges[i + 1].edge ||
+                (i + 2 < directedEdges.size() && directedEdges[i + 2].edge == directedEdges[i].edge)) {
                 throw InvalidPolytope(Part::cell, cell,
                                       "is not closed: one of its edges does not lie in exactly two of its 2-faces");
             }
         }
-        propagateSigns(sides, begin, end);
+        propagateSigns(directedEdges, begin, end);
         if (std::count(signs.begin(), signs.end(), 0) != 0) {
             throw InvalidPolytope(Part::cell, cell, "consists of several disconnected pieces");
         }
-        for (std::size_t i = 0; i < sides.size(); i += 2) {
-            if (p_.cellSigns[sides[i].incidence] * sides[i].direction +
-                    p_.cellSigns[sides[i + 1].incidence] * sides[i + 1].direction !=
+        for (std::size_t i = 0; i < directedEdges.size(); i += 2) {
+            if (p_.cellSigns[directedEdges[i].incidence] * directedEdges[i].direction +
+                    p_.cellSigns[directedEdges[i + 1].incidence] * directedEdges[i + 1].direction !=
                 0) {
                 throw InvalidPolytope(Part::cell, cell, "is not orientable");
             }
@@ -166,12 +167,13 @@ class Orienter {
         return true;
     }
 
-    // Propagates signs across edges to all 2-faces of the cell that are connected to a 2-face with a sign. Sides 2i and
-    // 2i + 1 belong to the same edge.
-    void propagateSigns(const std::vector<Side>& sides, std::uint32_t begin, std::uint32_t end) {
+    // Propagates signs across edges to all 2-faces of the cell that are connected to a 2-face with a sign. Directed
+    // edges 2i and 2i + 1 belong to the same edge.
+    void propagateSigns(const std::vector<DirectedEdge>& directedEdges, std::uint32_t begin, std::uint32_t end) {
         auto& signs = p_.cellSigns;
-        std::vector<std::vector<std::size_t>> sidesOf(end - begin);
-        for (std::size_t i = 0; i < sides.size(); ++i) sidesOf[sides[i].incidence - begin].push_back(i);
+        std::vector<std::vector<std::size_t>> directedEdgesOf(end - begin);
+        for (std::size_t i = 0; i < directedEdges.size(); ++i)
+            directedEdgesOf[directedEdges[i].incidence - begin].push_back(i);
         std::vector<std::uint32_t> waiting;
         for (std::uint32_t incidence = begin; incidence < end; ++incidence) {
             if (signs[incidence] != 0) waiting.push_back(incidence);
@@ -179,11 +181,11 @@ class Orienter {
         while (!waiting.empty()) {
             const std::uint32_t incidence = waiting.back();
             waiting.pop_back();
-            for (const std::size_t i : sidesOf[incidence - begin]) {
-                const Side& other = sides[i ^ 1U];
+            for (const std::size_t i : directedEdgesOf[incidence - begin]) {
+                const DirectedEdge& other = directedEdges[i ^ 1U];
                 if (signs[other.incidence] != 0) continue;
                 signs[other.incidence] =
-                    static_cast<std::int8_t>(-signs[incidence] * sides[i].direction * other.direction);
+                    static_cast<std::int8_t>(-signs[incidence] * directedEdges[i].direction * other.direction);
                 waiting.push_back(other.incidence);
             }
         }

@@ -149,11 +149,11 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
 
 void BrickBounds::readAll() {
     const Level& level = levels_.front();
-    const Index& size = level.size;
+    const BrickIndex& size = level.size;
     std::array<SampleStatistics, kRun> run;
     auto entry = level.entries.begin();
     for (std::size_t row = 0; row < size[1] * size[2] * size[3]; ++row) {
-        Index brick{0, row % size[1], row / size[1] % size[2], row / size[1] / size[2]};
+        BrickIndex brick{0, row % size[1], row / size[1] % size[2], row / size[1] / size[2]};
         for (; brick[0] < size[0]; brick[0] += kRun) {
             const std::size_t count = std::min(kRun, size[0] - brick[0]);
             SampleIndexRange range = rangeOf(from_.lattice, brick);
@@ -203,7 +203,7 @@ void BrickBounds::joinBricks() {
     levels_.push_back(coarse);
 }
 
-std::uint64_t BrickBounds::entryAt(const Level& level, const Index& brick) const {
+std::uint64_t BrickBounds::entryAt(const Level& level, const BrickIndex& brick) const {
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
@@ -219,7 +219,7 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const Index& brick) const
 }
 
 Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
-    Index first{}, last{};
+    BrickIndex first{}, last{};
     for (std::size_t i = 0; i < 4; ++i) {
         first[i] = std::min(range.first[i] / kCells, levels_.front().size[i] - 1);
         last[i] = range.last[i] == 0 ? 0 : std::max(first[i], (range.last[i] - 1) / kCells);
@@ -238,7 +238,7 @@ Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
         }
     }
     Bounds bounds;
-    Index at{};
+    BrickIndex at{};
     for (at[3] = first[3]; at[3] <= last[3]; ++at[3]) {
         for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
             for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {

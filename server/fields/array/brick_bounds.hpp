@@ -60,11 +60,11 @@ class BrickBounds {
     std::size_t memoryBytes() const;
 
   private:
-    using Index = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
+    using BrickIndex = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
 
     // A level of the pyramid; `entries` are the packed bounds of its bricks, empty unless eager_.
     struct Level {
-        Index size;  // the number of bricks along each axis
+        BrickIndex size;  // the number of bricks along each axis
         std::span<std::uint64_t> entries;
     };
 
@@ -73,7 +73,7 @@ class BrickBounds {
     /// evenly over the array.
     void estimateStatistics();
     void joinBricks();
-    std::uint64_t entryAt(const Level& level, const Index& brick) const;
+    std::uint64_t entryAt(const Level& level, const BrickIndex& brick) const;
 
     const SampledLattice from_;
     const bool eager_;
