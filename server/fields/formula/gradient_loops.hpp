@@ -11,10 +11,10 @@ namespace oval4d::fields {
 /// respect to x, y, z, w. The array of a derivative that is 0 everywhere, according to Instruction::axes, is not used.
 template <typename Math>
 class GradientLoops : private ValueLoops<Math> {
-    using Loops = ValueLoops<Math>;
+    using Base = ValueLoops<Math>;
 
   public:
-    static constexpr Kernels kernels() { return {&Loops::evaluate, &differentiate}; }
+    static constexpr Kernels kernels() { return {&Base::evaluate, &differentiate}; }
 
     static void differentiate(const Instruction* instructions, std::size_t count, const GradientBlock& block) {
         float ones[kGradientBlockPoints];
@@ -44,16 +44,16 @@ class GradientLoops : private ValueLoops<Math> {
   private:
     using OperandForm = Instruction::OperandForm;
     using Size = std::size_t;
-    using Loops::binary;
-    using Loops::choosesFirst;
-    using Loops::compute;
-    using Loops::halfIntegerPower;
-    using Loops::integerPower;
-    using Loops::isHalfInteger;
-    using Loops::map;
-    using Loops::sign;
-    using typename Loops::Array;
-    using typename Loops::Number;
+    using Base::binary;
+    using Base::choosesFirst;
+    using Base::compute;
+    using Base::halfIntegerPower;
+    using Base::integerPower;
+    using Base::isHalfInteger;
+    using Base::map;
+    using Base::sign;
+    using typename Base::Array;
+    using typename Base::Number;
 
     static float* outputRegister(const GradientBlock& block, unsigned index) {
         return index == Tape::kResult ? block.values

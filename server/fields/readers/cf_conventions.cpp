@@ -55,7 +55,7 @@ std::optional<std::size_t> cfAxis(const CfDimension& dimension) {
     return {};
 }
 
-std::vector<std::size_t> cfAxes(std::span<const CfDimension> dimensions) {
+std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimensions) {
     constexpr std::size_t kNone = 4;
     std::vector<std::size_t> axes;
     std::array<bool, kNone> taken{};

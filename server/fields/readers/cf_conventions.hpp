@@ -21,7 +21,7 @@ std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 /// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest. A
 /// dimension gets the axis that the file states, unless an earlier dimension has got this axis. Then the other
 /// dimensions, from the fastest to the slowest, each get the first axis of x, y, z, t that is left.
-std::vector<std::size_t> cfAxes(std::span<const CfDimension> dimensions);
+std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimensions);
 
 /// The first and the last of the coordinates along a dimension.
 struct CoordinateEnds {

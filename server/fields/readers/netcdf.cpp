@@ -224,7 +224,7 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
     }
     auto axes = axesOf(options.axes, dimensions.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
-    if (options.axes.empty()) *axes = cfAxes(stated);
+    if (options.axes.empty()) *axes = axisOfEachDimension(stated);
     field.box = {glm::dvec4(0), glm::dvec4(0)};
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
         Dimension& each = dimensions[i];

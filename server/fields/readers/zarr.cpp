@@ -229,7 +229,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
         ranges.push_back(range);
         units.push_back(std::move(unit));
     }
-    if (options.axes.empty() && named) *axes = cfAxes(stated);
+    if (options.axes.empty() && named) *axes = axisOfEachDimension(stated);
     std::vector<Dimension> dimensions;
     field.box = {glm::dvec4(0), glm::dvec4(0)};
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -124,12 +124,12 @@ void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& no
         vertices_.back().clip = projection_.clipCoordinates(corner);
     }
     patches_.push_back({first, count, Patch::Form::face});
-    if (soft) soften(first, count);
+    if (soft) antialiasFace(first, count);
 }
 
 /// Antialiases a face: moves its edges half a pixel inward, and adds a rim whose coverage falls to zero half a pixel
 /// outside the original edges.
-void ShapeBatch::soften(std::uint32_t first, std::uint32_t count) {
+void ShapeBatch::antialiasFace(std::uint32_t first, std::uint32_t count) {
     const glm::vec2 halfSize{0.5f * projection_.width, 0.5f * projection_.height};
     pixels_.clear();
     float area = 0;

@@ -81,7 +81,7 @@ class ShapeBatch {
 
   private:
     void add(std::initializer_list<ShapeVertex> vertices, Patch::Form form);
-    void soften(std::uint32_t first, std::uint32_t count);
+    void antialiasFace(std::uint32_t first, std::uint32_t count);
 
     Projection projection_;
     glm::vec3 light_{0}, halfVector_{0};

@@ -17,8 +17,8 @@
 #include "geometry/rotation.hpp"
 #include "slicing/exact/exact_surface.hpp"
 #include "slicing/exact/field_lattice.hpp"
+#include "slicing/exact/key_numbering.hpp"
 #include "slicing/exact/kuhn_sections.hpp"
-#include "slicing/exact/simplex_numbering.hpp"
 
 namespace oval4d::slicing {
 
@@ -116,7 +116,7 @@ class ExactSlicer {
     std::array<std::vector<double>, 4> heights_;  // per axis and index: its contribution to a lattice point's height
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;
-    SimplexNumbering numbers_;
+    KeyNumbering numbers_;
     std::vector<Triangle> caps_;
     ExactSurface* out_ = nullptr;
 };

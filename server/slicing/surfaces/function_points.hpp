@@ -20,7 +20,7 @@ struct FunctionPoints {
     std::array<std::array<float, kCapacity>, 4> coordinates;
 
     /// Sets point i to the point p of the slice.
-    void set(std::size_t i, const FieldSection& section, const glm::dvec3& p) {
+    void setPoint(std::size_t i, const FieldSection& section, const glm::dvec3& p) {
         const glm::dvec4 at = section.origin + p.x * section.axes[0] + p.y * section.axes[1] + p.z * section.axes[2];
         for (int k = 0; k < 4; ++k) coordinates[static_cast<std::size_t>(k)][i] = static_cast<float>(at[k]);
     }
@@ -29,7 +29,7 @@ struct FunctionPoints {
     /// along x, y and z, in the function's coordinates.
     void setBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
                 const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
-        set(i, section, first);
+        setPoint(i, section, first);
         for (int c = 0; c < 4; ++c) {
             float* out = &coordinates[static_cast<std::size_t>(c)][i];
             const float origin = *out;
@@ -46,7 +46,7 @@ struct FunctionPoints {
     /// vector to the next point, in the function's coordinates.
     void setPointsInRow(std::size_t begin, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
                         std::size_t count) {
-        set(begin, section, first);
+        setPoint(begin, section, first);
         for (int c = 0; c < 4; ++c) {
             float* out = &coordinates[static_cast<std::size_t>(c)][begin];
             const float origin = *out;

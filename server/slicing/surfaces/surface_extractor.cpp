@@ -348,7 +348,7 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
                 if (tooFar[column] || !beyond[column]) continue;
                 glm::dvec3 point = position(first + glm::ivec3(i, j, k));
                 inDomain[n] = moveIntoDomain(section, walls, point);
-                if (inDomain[n]) points.set(begin + n, section, point);
+                if (inDomain[n]) points.setPoint(begin + n, section, point);
             }
         }
     }
@@ -599,7 +599,7 @@ void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, cons
     Evaluation at;
     for (std::size_t begin = 0; begin < positions_.size(); begin += FunctionPoints::kCapacity) {
         const std::size_t size = std::min(FunctionPoints::kCapacity, positions_.size() - begin);
-        for (std::size_t i = 0; i < size; ++i) at.points.set(i, section, positions_[begin + i]);
+        for (std::size_t i = 0; i < size; ++i) at.points.setPoint(i, section, positions_[begin + i]);
         at.evaluate(function, size);
         for (std::size_t i = 0; i < size; ++i) {
             const glm::dvec3 slope = at.slope(section, i);
@@ -622,7 +622,7 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
         const std::span<const std::uint32_t> batch =
             std::span(std::as_const(moving_))
                 .subspan(begin, std::min(FunctionPoints::kCapacity, moving_.size() - begin));
-        for (std::size_t i = 0; i < batch.size(); ++i) at.points.set(i, section, positions_[batch[i]]);
+        for (std::size_t i = 0; i < batch.size(); ++i) at.points.setPoint(i, section, positions_[batch[i]]);
         at.evaluate(function, batch.size());
         for (std::size_t i = 0; i < batch.size(); ++i) {
             ConstrainedStep step = constrainedStep(section, batch[i]);

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers the points of a surface by the lattice simplices in which they lie.
+// Numbers keys, such as those of the lattice simplices in which the points of a surface lie.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace oval4d::slicing {
 
 /// A hash table that numbers keys 0, 1, 2 … in the order in which they are first looked up. Keys must be less than
 /// 2⁶⁴ − 1. Uses open addressing with linear probing.
-class SimplexNumbering {
+class KeyNumbering {
   public:
     /// Returns the number of the key, and whether this is the first lookup of the key.
     std::pair<std::uint32_t, bool> findOrAdd(std::uint64_t key) {
