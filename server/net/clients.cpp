@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMinute = 60;
 constexpr std::size_t kFirstSweep = 256;     // number of clients at which idle ones are first removed
-constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one client
+constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one account
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
 address_v6 mapped(const address& any) {
@@ -41,7 +41,7 @@ std::string nameOf(const address& any) {
 
 }  // namespace
 
-Client::Client(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
+AddressAccount::AddressAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
     : name_(std::move(name)),
       bytes_(std::make_shared<ByteBudget::Account>(budget, limits.bytes)),
       newSessions_(limits.newSessionsPerMinute / kMinute, limits.newSessionsPerMinute, now),
@@ -50,37 +50,37 @@ Client::Client(std::string name, const ClientLimits& limits, ByteBudget& budget,
       messageBytes_(static_cast<double>(limits.messageBytesPerSecond),
                     static_cast<double>(limits.messageBytesPerSecond), now) {}
 
-bool Client::admitNewSession(Clock::time_point now) {
+bool AddressAccount::admitNewSession(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     if (newSessions_.level(now) < 1) return false;
     newSessions_.take(1, now);
     return true;
 }
 
-void Client::countWrongToken(Clock::time_point now) {
+void AddressAccount::countWrongToken(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     if (wrongTokens_.level(now) > 0) wrongTokens_.take(1, now);
 }
 
-bool Client::mayTryToken(Clock::time_point now) const {
+bool AddressAccount::mayTryToken(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
     return wrongTokens_.level(now) >= 1;
 }
 
-std::chrono::duration<double> Client::countMessage(std::size_t bytes, Clock::time_point now) {
+std::chrono::duration<double> AddressAccount::countMessage(std::size_t bytes, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     requests_.take(1, now);
     messageBytes_.take(static_cast<double>(bytes), now);
     return std::max(requests_.timeUntilRepaid(now), messageBytes_.timeUntilRepaid(now));
 }
 
-std::chrono::duration<double> Client::countBytes(std::size_t bytes, Clock::time_point now) {
+std::chrono::duration<double> AddressAccount::countBytes(std::size_t bytes, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     messageBytes_.take(static_cast<double>(bytes), now);
     return messageBytes_.timeUntilRepaid(now);
 }
 
-bool Client::hasFullRateLimits(Clock::time_point now) const {
+bool AddressAccount::hasFullRateLimits(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
     return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
 }
@@ -115,14 +115,14 @@ bool Network::contains(const address& any) const {
 Clients::Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes)
     : limits_(limits), trusted_(trustedProxies.begin(), trustedProxies.end()), budget_(bytes), sweepAt_(kFirstSweep) {}
 
-ClientPtr Clients::findOrCreate(const address& any) {
+AddressAccountPtr Clients::findOrCreate(const address& any) {
     const auto now = TokenBucket::Clock::now();
     const std::lock_guard lock(mutex_);
     std::string name = nameOf(any);
     if (clients_.size() >= sweepAt_ && !clients_.contains(name)) forgetIdle(now);
     if (clients_.size() >= kMaxClients && !clients_.contains(name)) name = "others";
-    ClientPtr& client = clients_[name];
-    if (!client) client = std::make_shared<Client>(name, limits_, budget_, now);
+    AddressAccountPtr& client = clients_[name];
+    if (!client) client = std::make_shared<AddressAccount>(name, limits_, budget_, now);
     return client;
 }
 

@@ -30,14 +30,14 @@ struct ClientLimits {
     std::size_t bytes = 1U << 30U;                   ///< bytes held for the client (ByteBudget)
 };
 
-/// A client: everybody at one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one
-/// customer). Holds the client's rate limits, its byte account, and its lanes in the worker pools (see
-/// parallel::FairQueue). Every function may be called from any thread.
-class Client {
+/// The account of a client, that is, of everybody at one IPv4 address, or in one IPv6 /64 network (the size that
+/// providers assign to one customer). Holds the client's rate limits, its byte account, and its lanes in the worker
+/// pools (see parallel::FairQueue). Every function may be called from any thread.
+class AddressAccount {
   public:
     using Clock = TokenBucket::Clock;
 
-    Client(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now);
+    AddressAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now);
 
     /// Returns the address or network, such as "192.0.2.7" or "2001:db8:1:2::/64".
     const std::string& name() const { return name_; }
@@ -90,7 +90,7 @@ class Client {
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_
 };
-using ClientPtr = std::shared_ptr<Client>;
+using AddressAccountPtr = std::shared_ptr<AddressAccount>;
 
 /// An IP network in CIDR notation such as "10.0.0.0/8", or a single address such as "::1".
 class Network {
@@ -105,16 +105,16 @@ class Network {
     unsigned bits_;                      // prefix length of first_, from 0 to 128
 };
 
-/// The known clients, by address. Every function may be called from any thread.
+/// The accounts of the known clients, by address. Every function may be called from any thread.
 class Clients {
   public:
     /// `trustedProxies`: networks (see Network) of the proxies whose X-Forwarded-For is trusted. `bytes`: the byte
     /// budget of all clients together.
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
-    /// Returns the client at this address; creates the client if it is not known. Once 65,536 clients are known, all
-    /// unknown addresses share one client, "others".
-    ClientPtr findOrCreate(const boost::asio::ip::address& any);
+    /// Returns the account of the client at this address; creates the account if the client is not known. Once 65,536
+    /// clients are known, all unknown addresses share one account, "others".
+    AddressAccountPtr findOrCreate(const boost::asio::ip::address& any);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
@@ -137,7 +137,7 @@ class Clients {
     mutable std::atomic<bool> warnedOfForwarded_ = false;
     ByteBudget budget_;
     mutable std::mutex mutex_;
-    std::map<std::string, ClientPtr, std::less<>> clients_;  // guarded by mutex_
+    std::map<std::string, AddressAccountPtr, std::less<>> clients_;  // guarded by mutex_
     std::size_t sweepAt_;  // number of clients at which idle ones are removed; guarded by mutex_
 };
 

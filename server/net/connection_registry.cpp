@@ -6,7 +6,7 @@
 
 namespace oval4d::net {
 
-ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, ClientPtr client)
+ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, AddressAccountPtr client)
     : connections_(connections) {
     const std::lock_guard lock(connections_.mutex_);
     number_ = ++connections_.last_;
@@ -47,8 +47,8 @@ void ConnectionRegistry::Registration::setInUse(bool inUse) {
     if (found != connections_.entries_.end()) found->second.inUse = inUse;
 }
 
-void ConnectionRegistry::Registration::setClient(const ClientPtr& client) {
-    ClientPtr before;
+void ConnectionRegistry::Registration::setClient(const AddressAccountPtr& client) {
+    AddressAccountPtr before;
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
     if (found == connections_.entries_.end()) return;
@@ -57,19 +57,19 @@ void ConnectionRegistry::Registration::setClient(const ClientPtr& client) {
     ++connections_.counts_[client.get()];
 }
 
-void ConnectionRegistry::uncount(const Client* client) {
+void ConnectionRegistry::uncount(const AddressAccount* client) {
     const auto count = counts_.find(client);
     if (--count->second == 0) counts_.erase(count);
 }
 
-std::size_t ConnectionRegistry::countOf(const Client* client) const {
+std::size_t ConnectionRegistry::countOf(const AddressAccount* client) const {
     const auto count = counts_.find(client);
     return count == counts_.end() ? 0 : count->second;
 }
 
 /// Removes the oldest idle connection of this client, and returns the handler that ends it; an empty function if no
 /// connection of the client is idle.
-ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* client) {
+ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const AddressAccount* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
     });
@@ -80,11 +80,11 @@ ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* clien
     return end;
 }
 
-ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const Client& client, std::size_t registered,
+ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const AddressAccount& client, std::size_t registered,
                                                                 bool isProxy) {
     AdmissionDecision admission = AdmissionDecision::admitted;
     std::vector<EndHandler> ends;
-    const auto evict = [&](const Client* from, AdmissionDecision otherwise) {
+    const auto evict = [&](const AddressAccount* from, AdmissionDecision otherwise) {
         if (EndHandler end = evictIdle(from)) {
             ends.push_back(std::move(end));
         } else {

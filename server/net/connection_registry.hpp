@@ -26,7 +26,7 @@ class ConnectionRegistry {
     /// The entry of one connection in the registry. The constructor adds it, and the destructor removes it.
     class Registration {
       public:
-        Registration(ConnectionRegistry& connections, ClientPtr client);
+        Registration(ConnectionRegistry& connections, AddressAccountPtr client);
         Registration(const Registration&) = delete;
         Registration& operator=(const Registration&) = delete;
         ~Registration();
@@ -40,7 +40,7 @@ class ConnectionRegistry {
         void setInUse(bool inUse);
 
         /// Assigns the connection to another client, which a trusted proxy has named in X-Forwarded-For.
-        void setClient(const ClientPtr& client);
+        void setClient(const AddressAccountPtr& client);
 
       private:
         ConnectionRegistry& connections_;
@@ -54,7 +54,7 @@ class ConnectionRegistry {
     /// the client with the most connections. `registered`: the number of registrations that the new connection itself
     /// already has (0 or 1); they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit
     /// per client does not apply.
-    AdmissionDecision admit(const Client& client, std::size_t registered = 0, bool isProxy = false);
+    AdmissionDecision admit(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.
     std::size_t size() const;
@@ -64,23 +64,23 @@ class ConnectionRegistry {
 
   private:
     struct Entry {
-        ClientPtr client;
+        AddressAccountPtr client;
         EndHandler end;
         bool inUse = false;
     };
     using Entries = std::map<std::uint64_t, Entry>;
 
     // The next three functions require that mutex_ is held.
-    std::size_t countOf(const Client* client) const;
-    EndHandler evictIdle(const Client* client);
-    void uncount(const Client* client);
+    std::size_t countOf(const AddressAccount* client) const;
+    EndHandler evictIdle(const AddressAccount* client);
+    void uncount(const AddressAccount* client);
 
     const std::size_t maxConnections_, maxPerClient_;
     mutable std::mutex mutex_;
-    Entries entries_;                              // by registration number, the oldest first; guarded by mutex_
-    std::map<const Client*, std::size_t> counts_;  // number of connections of each client; guarded by mutex_
-    std::uint64_t last_ = 0;                       // number of the newest registration; guarded by mutex_
-    bool stopping_ = false;                        // guarded by mutex_
+    Entries entries_;  // by registration number, the oldest first; guarded by mutex_
+    std::map<const AddressAccount*, std::size_t> counts_;  // number of connections of each client; guarded by mutex_
+    std::uint64_t last_ = 0;                               // number of the newest registration; guarded by mutex_
+    bool stopping_ = false;                                // guarded by mutex_
 };
 
 }  // namespace oval4d::net

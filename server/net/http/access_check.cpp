@@ -63,12 +63,12 @@ bool isRestricted(const RequestTarget& target) {
 }
 
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 Client& client, std::string& cookie) {
+                                 AddressAccount& client, std::string& cookie) {
     AccessCheckInput fields = accessFieldsOf(request, target);
     // Everybody may load the page's own files. The Origin of such a request is not checked, because it differs from
     // Host behind a proxy that changes Host.
     if (!isRestricted(target)) fields.origin = {};
-    const auto now = Client::Clock::now();
+    const auto now = AddressAccount::Clock::now();
     switch (access.check(fields)) {
         case AccessControl::Verdict::bad_host:
             return refusalReply(403, "this server does not accept the host name " + text::inQuotes(fields.host) +
@@ -100,7 +100,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
     return {};
 }
 
-std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, Client& client,
+std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
                                     bool hasFurtherBytes, std::string& session) {
     const auto target = targetOf(request);
     const auto wanted = target ? sessionIn(target->path) : std::nullopt;

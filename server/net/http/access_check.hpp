@@ -28,7 +28,7 @@ bool isRestricted(const RequestTarget& target);
 /// returns the reply. Otherwise, returns an empty optional, and sets `cookie` to the value of Set-Cookie for the reply,
 /// or to an empty string if the reply needs no cookie.
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 Client& client, std::string& cookie);
+                                 AddressAccount& client, std::string& cookie);
 
 /// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", an empty optional for other paths.
 std::optional<std::string> sessionIn(const std::string& path);
@@ -36,7 +36,7 @@ std::optional<std::string> sessionIn(const std::string& path);
 /// Checks a WebSocket handshake. `hasFurtherBytes`: whether the client has sent more than the handshake. If the
 /// handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets `session` to the session id
 /// in the path.
-std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, Client& client,
+std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
                                     bool hasFurtherBytes, std::string& session);
 
 }  // namespace oval4d::net

@@ -42,7 +42,7 @@ constexpr int kNotSentLowat = 256 << 10;  // approximate maximum of unsent bytes
 /// Serves the HTTP requests of one connection, one after another.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
-    HttpConnection(asio::ip::tcp::socket socket, ServerContext context, ClientPtr client,
+    HttpConnection(asio::ip::tcp::socket socket, ServerContext context, AddressAccountPtr client,
                    ConnectionRegistry::AdmissionDecision admission)
         : stream_(std::move(socket)),
           context_(std::move(context)),
@@ -75,7 +75,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
     beast::tcp_stream stream_;
     const ServerContext context_;
-    ClientPtr client_;
+    AddressAccountPtr client_;
     ConnectionRegistry::Registration registration_;
     ConnectionRegistry::AdmissionDecision admission_;
     std::string resourcePolicy_;  // the Cross-Origin-Resource-Policy of the reply
@@ -120,7 +120,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
         co_return false;
     }
     identifyClient(request);
-    const auto wait = client_->countMessage(request.target().size(), Client::Clock::now());
+    const auto wait = client_->countMessage(request.target().size(), AddressAccount::Clock::now());
     if (wait.count() > 0) {
         asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
         co_await pause.async_wait(kAsTuple);
@@ -161,7 +161,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     if (fault || !context_.services.clients.isTrustedProxy(peer.address())) return;
     const auto origin =
         context_.services.clients.clientAddress(combinedFieldValue(request, "X-Forwarded-For"), peer.address());
-    const ClientPtr client = context_.services.clients.findOrCreate(origin);
+    const AddressAccountPtr client = context_.services.clients.findOrCreate(origin);
     if (client == client_) return;
     registration_.setClient(client);
     client_ = client;
@@ -278,7 +278,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
         return errorReply(
             {ErrorCode::bad_token, "an upload needs the session's token in the header field Session-Token"});
     }
-    if (!client_->mayTryToken(Client::Clock::now()))
+    if (!client_->mayTryToken(AddressAccount::Clock::now()))
         return tooManyReply("this address has sent too many wrong tokens; try again in a minute\n");
     token = {given->value().data(), given->value().size()};
     upload = std::move(*parsed);
@@ -288,7 +288,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
 asio::awaitable<SessionManager::JoinResult> HttpConnection::joinSession(std::string session, std::string token) {
     auto join = sessionJoiner(std::move(session), std::move(token));
     auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(join));
-    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(Client::Clock::now());
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(AddressAccount::Clock::now());
     co_return joined;
 }
 
@@ -328,7 +328,7 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
         }
         buffer_.consume(taken);
         left -= taken;
-        if (const auto wait = client_->countBytes(taken, Client::Clock::now()); wait.count() > 0) {
+        if (const auto wait = client_->countBytes(taken, AddressAccount::Clock::now()); wait.count() > 0) {
             asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
             co_await pause.async_wait(kAsTuple);
         }
@@ -438,7 +438,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     context.services.metrics.connections.Increment();
     auto& connections = context.services.metrics.connections;
     try {
-        ClientPtr client = context.services.clients.findOrCreate(peer.address());
+        AddressAccountPtr client = context.services.clients.findOrCreate(peer.address());
         // Many clients share the connections of a trusted proxy; each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
         const auto admission = context.connections.admit(*client, 0, isProxy);

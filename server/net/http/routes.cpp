@@ -90,7 +90,8 @@ const exports::Format* formatIn(std::string_view path) {
 /// room for the picture.
 std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const session::State& state,
                                                                         scene::Viewport viewport,
-                                                                        const ClientPtr& client, Metrics& metrics) {
+                                                                        const AddressAccountPtr& client,
+                                                                        Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
         auto held = client->byteAccount().reserve(image::byteCount(viewport));  // PNG files are rarely larger than that
         if (!held) return std::nullopt;
@@ -163,7 +164,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
 /// Returns the state that a query describes. `others`: the names of further parameters that the query may have. Builds
 /// the polytope on a worker if necessary. Throws what runOnPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
-                                                      std::span<const std::string_view> others, ClientPtr client) {
+                                                      std::span<const std::string_view> others,
+                                                      AddressAccountPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
@@ -178,7 +180,7 @@ asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters q
     }
 }
 
-asio::awaitable<Reply> Routes::catalogue(ClientPtr client) {
+asio::awaitable<Reply> Routes::catalogue(AddressAccountPtr client) {
     try {
         const std::vector<std::string> names = co_await dataNames(services_, std::move(client));
         co_return jsonReply(wire::catalogueMessage({}, {}, names));
@@ -192,7 +194,7 @@ Reply Routes::countedError(const Error& error) {
     return errorReply(error);
 }
 
-asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr client) {
+asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAccountPtr client) {
     try {
         const auto viewport = takeViewport(query, services_.options.frame);
         if (!viewport) co_return countedError(viewport.error());
@@ -211,7 +213,8 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr c
     }
 }
 
-asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format, ClientPtr client) {
+asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format,
+                                    AddressAccountPtr client) {
     try {
         const auto exported = pipeline::extractExportRequest(query, format, services_.options.session.maxSlices);
         if (!exported) co_return countedError(exported.error());

@@ -29,18 +29,20 @@ class Routes {
         std::string method;
         RequestTarget target;
         std::string ifNoneMatch, acceptEncoding, range, ifRange;
-        ClientPtr client;
+        AddressAccountPtr client;
     };
     /// Returns the reply to a request. Its status is 405 for methods other than GET and HEAD, and 404 for unknown
     /// paths.
     boost::asio::awaitable<Reply> answer(ParsedRequest request);
 
   private:
-    boost::asio::awaitable<Reply> catalogue(ClientPtr client);
-    boost::asio::awaitable<Reply> frame(session::QueryParameters query, ClientPtr client);
-    boost::asio::awaitable<Reply> file(session::QueryParameters query, const exports::Format& format, ClientPtr client);
+    boost::asio::awaitable<Reply> catalogue(AddressAccountPtr client);
+    boost::asio::awaitable<Reply> frame(session::QueryParameters query, AddressAccountPtr client);
+    boost::asio::awaitable<Reply> file(session::QueryParameters query, const exports::Format& format,
+                                       AddressAccountPtr client);
     boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query,
-                                                         std::span<const std::string_view> others, ClientPtr client);
+                                                         std::span<const std::string_view> others,
+                                                         AddressAccountPtr client);
     Reply countedError(const Error& error);
     Reply readiness() const;
     Reply metrics();

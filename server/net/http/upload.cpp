@@ -126,7 +126,7 @@ Reply uploadErrorReply(const Error& error) {
     return reply;
 }
 
-UploadedBody::UploadedBody(const ClientPtr& client) {
+UploadedBody::UploadedBody(const AddressAccountPtr& client) {
     const int file = memfd_create("oval4d-upload", MFD_CLOEXEC | MFD_ALLOW_SEALING);
     if (file < 0) throw std::system_error(errno, std::generic_category(), "an upload cannot be received");
     held_ = std::make_shared<Held>(client->byteAccount().forceReserve(0), file);

@@ -53,7 +53,7 @@ Reply uploadErrorReply(const Error& error);
 class UploadedBody {
   public:
     /// Throws std::system_error if the system cannot create the file.
-    explicit UploadedBody(const ClientPtr& client);
+    explicit UploadedBody(const AddressAccountPtr& client);
 
     /// Appends bytes. Errors: `too_many` if the account has no room for them; `internal` if the system has no memory.
     std::optional<Error> append(std::string_view bytes);

@@ -20,7 +20,7 @@ std::function<Names(std::size_t worker)> listJob(const DataFolder& data) {
 
 }  // namespace
 
-boost::asio::awaitable<Names> dataNames(Services services, ClientPtr client) {
+boost::asio::awaitable<Names> dataNames(Services services, AddressAccountPtr client) {
     if (auto known = services.data.knownNames()) co_return *std::move(known);
     co_return co_await runOnPool<Names>(services.loadWorkers, listJob(services.data), client->loadLane(), kListing);
 }

@@ -32,7 +32,7 @@ class ScopedFileMetrics {
 
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
                                                           const exports::ExportRequest& request,
-                                                          const ClientPtr& client) {
+                                                          const AddressAccountPtr& client) {
     return [services, state, request, client](std::size_t /*worker*/) -> ExportResult {
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);

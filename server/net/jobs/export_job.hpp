@@ -27,6 +27,6 @@ using ExportResult = std::optional<Result<FinishedFile>>;
 /// the account has no room.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
                                                           const exports::ExportRequest& request,
-                                                          const ClientPtr& client);
+                                                          const AddressAccountPtr& client);
 
 }  // namespace oval4d::net

@@ -6,7 +6,7 @@
 
 namespace oval4d::net {
 
-HeldSession::HeldSession(ClientPtr client, session::Session opened)
+HeldSession::HeldSession(AddressAccountPtr client, session::Session opened)
     : value(std::move(opened)),
       client_(std::move(client)),
       objectMemory_(session::ownObjectMemory(value)),

@@ -13,9 +13,9 @@ namespace oval4d::net {
 /// A session whose memory counts against the byte account of the client that opened it. Not thread-safe.
 class HeldSession {
   public:
-    HeldSession(ClientPtr client, session::Session opened);
+    HeldSession(AddressAccountPtr client, session::Session opened);
 
-    const ClientPtr& client() const { return client_; }
+    const AddressAccountPtr& client() const { return client_; }
 
     /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
     /// account, forgets the older half of the undo steps. `objectsChanged`: whether the session may have other objects
@@ -25,7 +25,7 @@ class HeldSession {
     session::Session value;
 
   private:
-    const ClientPtr client_;
+    const AddressAccountPtr client_;
     std::size_t objectMemory_;             // result of session::ownObjectMemory(), in bytes
     ByteBudget::Reservation reservation_;  // for objectMemory_ and the memory of the history
 };

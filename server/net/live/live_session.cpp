@@ -50,7 +50,7 @@ struct KeepAlive {
 }  // namespace
 
 LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                         ClientPtr client, session::Session value)
+                         AddressAccountPtr client, session::Session value)
     : services_(services),
       writeBehind_(writeBehind),
       credentials_(std::move(credentials)),
@@ -61,7 +61,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       saveTimer_(strand_) {}
 
 std::shared_ptr<LiveSession> LiveSession::create(Services services, store::WriteBehindStore& writeBehind,
-                                                 store::SessionCredentials credentials, ClientPtr client,
+                                                 store::SessionCredentials credentials, AddressAccountPtr client,
                                                  session::Session value) {
     auto session = std::make_shared<LiveSession>(services, writeBehind, std::move(credentials), std::move(client),
                                                  std::move(value));
@@ -79,7 +79,7 @@ asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Req
     return asio::co_spawn(strand_, executeOnStrand(std::move(peer), std::move(request)), asio::use_awaitable);
 }
 
-asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::apply(ClientPtr client,
+asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::apply(AddressAccountPtr client,
                                                                                 session::Command command) {
     return asio::co_spawn(strand_, applyOnStrand(std::move(client), std::move(command)), asio::use_awaitable);
 }
@@ -188,7 +188,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Comm
     streams_->update();
 }
 
-asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyOnStrand(ClientPtr by,
+asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyOnStrand(AddressAccountPtr by,
                                                                                         session::Command command) {
     const auto applied = co_await perform(std::move(by), nullptr, command, true);
     if (applied && !applied->owned) co_return Result<Applied>(kInternalError);
@@ -207,7 +207,7 @@ std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
 /// clients. If several servers share the store, a command may be acknowledged only when its result is in the store;
 /// with `awaitStore`, this function waits for that.
-asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by, std::shared_ptr<Peer> peer,
+asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                    const session::Command& command, bool awaitStore) {
     const auto loader = makeLoader();
     Result<std::monostate> done = kInternalError;
@@ -274,7 +274,7 @@ std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::sha
 
 /// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it; `search` is then
 /// its registration, otherwise null. Returns an error if there is no room for the result, else an empty optional.
-asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
+asio::awaitable<std::optional<Error>> LiveSession::loadPending(AddressAccountPtr by,
                                                                std::shared_ptr<session::ObjectLoader> loader,
                                                                std::shared_ptr<CriticalSearchHandle> search) {
     auto reservation = held_->client()->byteAccount().reserve(loader->bytesNeeded());

@@ -38,11 +38,11 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Returns a session in use. `client`: the client that opened the session; the session's memory counts against this
     /// client's byte account. `value`: the session, new or read from the store.
     static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
-                                               store::SessionCredentials credentials, ClientPtr client,
+                                               store::SessionCredentials credentials, AddressAccountPtr client,
                                                session::Session value);
     /// Only for create().
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                ClientPtr client, session::Session value);
+                AddressAccountPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
@@ -62,7 +62,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Applies a command for a client that need not be connected to the session. Connected clients see the change.
     /// Errors: those of session::apply(); `too_many` if a limit on bytes or jobs is reached; `internal` if another
     /// server has taken over the session. The awaited optional is never empty.
-    boost::asio::awaitable<std::optional<Result<Applied>>> apply(ClientPtr client, session::Command command);
+    boost::asio::awaitable<std::optional<Result<Applied>>> apply(AddressAccountPtr client, session::Command command);
 
     /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
     /// the session's strand. `left` must return whether the session has no clients left. If it returns true, this
@@ -103,11 +103,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
-    boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(ClientPtr by, session::Command command);
-    boost::asio::awaitable<Result<Applied>> perform(ClientPtr by, std::shared_ptr<Peer> peer,
+    boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(AddressAccountPtr by,
+                                                                         session::Command command);
+    boost::asio::awaitable<Result<Applied>> perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                     const session::Command& command, bool awaitStore);
     std::shared_ptr<session::ObjectLoader> makeLoader() const;
-    boost::asio::awaitable<std::optional<Error>> loadPending(ClientPtr by,
+    boost::asio::awaitable<std::optional<Error>> loadPending(AddressAccountPtr by,
                                                              std::shared_ptr<session::ObjectLoader> loader,
                                                              std::shared_ptr<CriticalSearchHandle> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);

@@ -20,8 +20,8 @@ class Peer {
     /// socket; it is not called if the connection ends before that.
     virtual void send(Message message, std::function<void()> written = {}) = 0;
 
-    /// Returns the client to whom the connection belongs. The jobs of the connection run in this client's lanes.
-    virtual const ClientPtr& client() const = 0;
+    /// Returns the account of the client to whom the connection belongs. The jobs of the connection run in its lanes.
+    virtual const AddressAccountPtr& client() const = 0;
 
     /// Makes the connection notice at once if its client leaves while a request is being executed, and then call
     /// LiveSession::stopSearches(). Without this call, the connection may notice that only after the request.

@@ -48,7 +48,7 @@ const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
     return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
-PictureStreams::Lanes PictureStreams::lanesOf(const ClientPtr& own) const {
+PictureStreams::Lanes PictureStreams::lanesOf(const AddressAccountPtr& own) const {
     for (const auto& [key, subscriber] : subscribers_) {
         if (subscriber.lanes.client == own) return subscriber.lanes;
     }

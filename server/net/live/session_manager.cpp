@@ -73,7 +73,7 @@ WriteBehindStore::Listener SessionManager::listener() {
 
 /// Checks whether a client may create one more session, and returns the error if it may not. At a limit, evicts an
 /// unmodified closed session to make room. Requires that mutex_ is held.
-std::optional<Error> SessionManager::admitSession(Client& client) {
+std::optional<Error> SessionManager::admitSession(AddressAccount& client) {
     const auto now = SessionsByClient::Clock::now();
     const Options& options = services_.options;
     if (byClient_.count(client.name(), now) >= options.client.sessions) {
@@ -107,7 +107,7 @@ void SessionManager::evict(const std::string& id) {
     byClient_.remove(id);
 }
 
-void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
+void SessionManager::create(const AddressAccountPtr& client, const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (auto refused = admitSession(*client)) {
         lock.unlock();
@@ -128,7 +128,7 @@ void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
     }
 }
 
-void SessionManager::join(const store::SessionCredentials& credentials, const ClientPtr& client,
+void SessionManager::join(const store::SessionCredentials& credentials, const AddressAccountPtr& client,
                           const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (const auto found = live_.find(credentials.id); found != live_.end()) {
@@ -219,8 +219,8 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
     for (const auto& [credentials, client, done] : others) join(credentials, client, done);
 }
 
-std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials, const ClientPtr& client,
-                                                      session::Session value) {
+std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials,
+                                                      const AddressAccountPtr& client, session::Session value) {
     const std::string id = credentials.id;
     auto session = LiveSession::create(services_, writeBehind_, std::move(credentials), client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});

@@ -24,11 +24,11 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
 
     /// Creates a session and passes it, or the error `too_many`, to `done`. At a limit on the number of sessions,
     /// deletes a closed session that was never changed, if there is one.
-    void create(const ClientPtr& client, const JoinHandler& done);
+    void create(const AddressAccountPtr& client, const JoinHandler& done);
     /// Adds a client to the session with these credentials, after loading the session from the store if necessary.
     /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or
     /// `internal` if the store does not answer.
-    void join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done);
+    void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
     /// Removes the client `peer` from a session, and closes the session if that was its last client. `peer`: null if
     /// the client was never welcomed, as for an upload. Must be called once for each successful create() and join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
@@ -53,18 +53,18 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     // A call of join() that waits for the session to be fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
-        ClientPtr client;
+        AddressAccountPtr client;
         JoinHandler done;
     };
 
     store::WriteBehindStore::Listener listener();
     std::shared_ptr<LiveSession> find(const std::string& id) const;
-    std::optional<Error> admitSession(Client& client);
+    std::optional<Error> admitSession(AddressAccount& client);
     void evict(const std::string& id);
     void onFetched(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
     void decode(const PendingJoin& pending, const store::Record& record);
     void finishOpening(const PendingJoin& pending, Result<session::Session> value);
-    std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const ClientPtr& client,
+    std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const AddressAccountPtr& client,
                                           session::Session value);
     void dropTakenSession(const std::string& id);
 

@@ -34,7 +34,7 @@ constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
 }  // namespace
 
 WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services services,
-                                         std::shared_ptr<SessionManager> sessions, ClientPtr client,
+                                         std::shared_ptr<SessionManager> sessions, AddressAccountPtr client,
                                          std::string session, std::function<void()> joined)
     : stream_(std::move(stream)),
       services_(services),
@@ -136,7 +136,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() 
 /// Handles the message in `message_`.
 asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     services_.metrics.messagesReceived.Increment();
-    co_await pause(client_->countMessage(message_.size(), Client::Clock::now()));
+    co_await pause(client_->countMessage(message_.size(), AddressAccount::Clock::now()));
     if (closing_) {
         // Ignore all messages that arrive before the client's close frame.
     } else if (!incoming.isText) {
@@ -166,7 +166,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
             checkLongMessage(incoming);
         }
         if (incoming.refusal) {
-            client_->countMessage(buffer_.size(), Client::Clock::now());
+            client_->countMessage(buffer_.size(), AddressAccount::Clock::now());
             buffer_.consume(buffer_.size());
         }
     } while (!stream_.is_message_done());
@@ -294,11 +294,11 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinSession(wir
         co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
     }
     // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
-    if (hello.token && !client_->mayTryToken(Client::Clock::now()))
+    if (hello.token && !client_->mayTryToken(AddressAccount::Clock::now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
     auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(open));
-    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(Client::Clock::now());
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(AddressAccount::Clock::now());
     co_return joined;
 }
 

@@ -40,13 +40,13 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
     /// sent its first hello and has joined a session; may be empty.
     WebSocketConnection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
-                        ClientPtr client, std::string session, std::function<void()> joined);
+                        AddressAccountPtr client, std::string session, std::function<void()> joined);
 
     /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
     boost::asio::awaitable<void> run(UpgradeRequest upgrade);
 
     void send(Message message, std::function<void()> written = {}) override;
-    const ClientPtr& client() const override { return client_; }
+    const AddressAccountPtr& client() const override { return client_; }
     void watchWhileExecuting() override;
     void close(std::uint16_t code, std::string reason) override;
     /// Closes the connection with code kStopping, because the server stops. Discards the queued messages, except the
@@ -100,7 +100,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
     const Services services_;
     const std::shared_ptr<SessionManager> sessions_;
-    const ClientPtr client_;
+    const AddressAccountPtr client_;
     const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;
     std::shared_ptr<LiveSession> session_;  // null until the client has joined a session

@@ -79,11 +79,12 @@ TEST(Network, RejectsMalformedText) {
     EXPECT_TRUE(Network("::/0").contains(make_address("203.0.113.1")));
 }
 
-TEST(Client, LimitsNewSessionsPerMinute) {
+TEST(AddressAccount, LimitsNewSessionsPerMinute) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.newSessionsPerMinute = 60}, budget, {});
+    AddressAccount client("one", {.newSessionsPerMinute = 60}, budget, {});
     const auto at = [](double seconds) {
-        return Client::Clock::time_point(std::chrono::duration_cast<Client::Clock::duration>(seconds * 1s));
+        return AddressAccount::Clock::time_point(
+            std::chrono::duration_cast<AddressAccount::Clock::duration>(seconds * 1s));
     };
     int opened = 0;
     for (int i = 0; i < 100; ++i) opened += client.admitNewSession(at(0)) ? 1 : 0;
@@ -94,10 +95,10 @@ TEST(Client, LimitsNewSessionsPerMinute) {
     EXPECT_TRUE(client.hasFullRateLimits(at(100)));
 }
 
-TEST(Client, LimitsWrongTokensPerMinute) {
+TEST(AddressAccount, LimitsWrongTokensPerMinute) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.wrongTokensPerMinute = 3}, budget, {});
-    const Client::Clock::time_point start{};
+    AddressAccount client("one", {.wrongTokensPerMinute = 3}, budget, {});
+    const AddressAccount::Clock::time_point start{};
     for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(client.mayTryToken(start));
         client.countWrongToken(start);
@@ -107,10 +108,10 @@ TEST(Client, LimitsWrongTokensPerMinute) {
     EXPECT_TRUE(client.mayTryToken(start + 21s)) << "further wrong tokens do not prolong the lockout";
 }
 
-TEST(Client, IsDelayedAboveItsMessageRate) {
+TEST(AddressAccount, IsDelayedAboveItsMessageRate) {
     ByteBudget budget(kTotalBytes);
-    Client client("one", {.requestsPerSecond = 100, .messageBytesPerSecond = 1000}, budget, {});
-    const Client::Clock::time_point start{};
+    AddressAccount client("one", {.requestsPerSecond = 100, .messageBytesPerSecond = 1000}, budget, {});
+    const AddressAccount::Clock::time_point start{};
     EXPECT_EQ(client.countMessage(1000, start).count(), 0);
     EXPECT_DOUBLE_EQ(client.countMessage(500, start).count(), 0.5);
     EXPECT_EQ(client.countMessage(0, start + 1s).count(), 0);
