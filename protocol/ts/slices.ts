@@ -269,7 +269,7 @@ export interface SectionMatrix {
 }
 
 /** The scales of the histogram of a field. */
-export interface Histogram {
+export interface HistogramScales {
     /** The coordinates at the right edges of the panels of x, y, z and w; those at the left edges are the negatives. */
     reach: [number, number, number, number];
     /** The values of the field at the lower and the upper edge of the panels. */
@@ -293,7 +293,7 @@ export interface Slices {
      */
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */
-    histogram?: Histogram;
+    histogram?: HistogramScales;
     /** The names of the focus slice and of the hull of the polytope's vertices in it; see `section` in State. */
     section: { name: string; vertices: string };
     /** Where the picture shows the highlighted element; absent if no element is highlighted. */

@@ -58,7 +58,8 @@ export class FieldPanel {
     private loaded: ScalarFieldFormula | undefined; // the formula that this page loaded last
     private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until its state arrives
     private state: State | undefined;
-    // The last load of a formula by this page: its revision, its time, and whether recordOwnText() has seen its state.
+    // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
+    // state.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // textOf() of the newest state
     private ownText = ""; // textOf() of the state with the formula that this page loaded last
@@ -121,7 +122,7 @@ export class FieldPanel {
     private noteLoaded(field: ScalarFieldFormula, revision: number): void {
         this.loaded = field;
         this.lastLoad = { revision, time: performance.now(), isRecorded: false };
-        this.recordOwnText();
+        this.recordServerText();
     }
 
     restart(): void {
@@ -152,7 +153,7 @@ export class FieldPanel {
      * Records how the server writes the formula that this page loaded last, from the first state that has it. The
      * server omits superfluous blanks and parentheses, and writes the values of constants as numbers.
      */
-    private recordOwnText(): void {
+    private recordServerText(): void {
         const { lastLoad, state, loaded } = this;
         if (!lastLoad || lastLoad.isRecorded || !loaded || !state || state.revision < lastLoad.revision) return;
         lastLoad.isRecorded = true;
@@ -163,7 +164,7 @@ export class FieldPanel {
 
     /** Shows the formula of a state if this page has not loaded this formula: for example, if undo has restored it. */
     private showForeignFormula(state: State): void {
-        this.recordOwnText();
+        this.recordServerText();
         const text = textOf(state);
         const isNew = text !== this.shownText;
         this.shownText = text;

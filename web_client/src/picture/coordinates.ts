@@ -3,7 +3,7 @@
 // four axes, and the strip shows how many lines pass through each point. For a field, draws the histogram of its values
 // along each axis instead.
 
-import type { Histogram, Slices, Viewport } from "@oval4d/protocol";
+import type { HistogramScales, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
@@ -132,7 +132,7 @@ function drawDensityStrip(
 function drawHistogram(
     pen: CanvasRenderingContext2D,
     picture: Slices,
-    { reach, range: [least, greatest], levels }: Histogram,
+    { reach, range: [least, greatest], levels }: HistogramScales,
     viewport: Viewport,
     leastText: number,
 ): void {
