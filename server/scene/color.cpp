@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -152,6 +153,12 @@ Color colorAt(const ColorScale& scale, double value) {
 }
 
 }  // namespace
+
+std::string cssColor(Color color) {
+    std::array<char, 8> text{};
+    std::snprintf(text.data(), text.size(), "#%06x", color & 0xffffffU);
+    return text.data();
+}
 
 double contrast(Color a, Color b) {
     const auto luminance = [](Color color) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -16,6 +17,9 @@ namespace oval4d::scene {
 
 /// An sRGB color: 0xRRGGBB.
 using Color = std::uint32_t;
+
+/// Returns the color as CSS, SVG and OpenSCAD write it: "#rrggbb", in lower-case hexadecimal digits.
+std::string cssColor(Color color);
 
 /// Returns the contrast of two colors by WCAG 2.2: 1 if they have the same luminance, 21 for black and white.
 double contrast(Color a, Color b);

@@ -1,7 +1,5 @@
 #include "export/formats/writers.hpp"
 
-#include <array>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 
@@ -24,11 +22,9 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 }
 
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
-    std::array<char, 8> color{};
-    std::snprintf(color.data(), color.size(), "#%06x", solid.color & 0xffffffU);
     // Previews of cuts lack parts of a body that a ray enters more than `convexity` times.
-    out += "\n// " + xmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" + color.data() +
-           "\") polyhedron(convexity = 10, points = [";
+    out += "\n// " + xmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
+           scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";
     for (const glm::dvec3& point : solid.mesh.points) {
         out += std::exchange(separator, ",\n");

@@ -17,12 +17,6 @@ std::string number(double value) {
     return text.data();
 }
 
-std::string color(scene::Color rgb) {
-    std::array<char, 8> text{};
-    std::snprintf(text.data(), text.size(), "#%06x", rgb & 0xffffffU);
-    return text.data();
-}
-
 std::string attribute(std::string_view name, const std::string& value) {
     return ' ' + std::string(name) + "=\"" + value + '"';
 }
@@ -62,7 +56,7 @@ std::string gradient(const DensityImage& density) {
     const double last = static_cast<double>(density.colors.size()) - 1;
     for (std::size_t k = 0; k < density.colors.size(); ++k) {
         out += "<stop" + attribute("offset", static_cast<double>(k) / last) +
-               attribute("stop-color", color(density.colors[k])) + "/>\n";
+               attribute("stop-color", scene::cssColor(density.colors[k])) + "/>\n";
     }
     return out + "</linearGradient>\n";
 }
@@ -71,7 +65,7 @@ std::string gradient(const DensityImage& density) {
 struct ElementWriter {
     std::string operator()(const Line& line) const {
         return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
-               attribute("stroke", color(line.color)) + attribute("stroke-width", line.width) +
+               attribute("stroke", scene::cssColor(line.color)) + attribute("stroke-width", line.width) +
                (line.roundEnds ? attribute("stroke-linecap", "round") : "") +
                opacityOf("stroke-opacity", line.opacity) + attribute("x1", line.from.x) + attribute("y1", line.from.y) +
                attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
@@ -82,17 +76,17 @@ struct ElementWriter {
             if (!corners.empty()) corners += ' ';
             corners += number(corner.x) + ',' + number(corner.y);
         }
-        return "<polygon" + attribute("fill", color(polygon.color)) + opacityOf("fill-opacity", polygon.opacity) +
-               attribute("points", corners) + "/>\n";
+        return "<polygon" + attribute("fill", scene::cssColor(polygon.color)) +
+               opacityOf("fill-opacity", polygon.opacity) + attribute("points", corners) + "/>\n";
     }
     std::string operator()(const Disk& disk) const {
-        return "<circle" + attribute("fill", color(disk.color)) + opacityOf("fill-opacity", disk.opacity) +
+        return "<circle" + attribute("fill", scene::cssColor(disk.color)) + opacityOf("fill-opacity", disk.opacity) +
                attribute("cx", disk.center.x) + attribute("cy", disk.center.y) + attribute("r", disk.radius) + "/>\n";
     }
     std::string operator()(const TextLine& line) const {
         return "<text font-family=\"DejaVu Sans, sans-serif\" text-anchor=\"middle\"" +
-               attribute("font-size", line.size) + attribute("fill", color(line.color)) + attribute("x", line.at.x) +
-               attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
+               attribute("font-size", line.size) + attribute("fill", scene::cssColor(line.color)) +
+               attribute("x", line.at.x) + attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const DensityImage& density) const {
         // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
@@ -100,7 +94,7 @@ struct ElementWriter {
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;
         return (isPlain ? std::string() : gradient(density)) + "<g" +
-               attribute("fill", isPlain ? color(density.colors.front()) : "url(#axes-colors)") +
+               attribute("fill", isPlain ? scene::cssColor(density.colors.front()) : "url(#axes-colors)") +
                " shape-rendering=\"crispEdges\" transform=\"translate(" + number(density.topLeft.x - across / 2) + ' ' +
                number(density.topLeft.y - down / 2) + ") scale(" + std::to_string(across) + ' ' + std::to_string(down) +
                ")\">\n" + densityPaths(density) + "</g>\n";

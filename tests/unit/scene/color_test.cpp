@@ -130,6 +130,11 @@ TEST(CellPainter, FollowThePolytopeTheColoringAndTheScheme) {
 
 constexpr Color kWhite = 0xffffff, kBlack = 0;
 
+TEST(CssColor, HasSixHexadecimalDigits) {
+    EXPECT_EQ(scene::cssColor(kBlack), "#000000");
+    EXPECT_EQ(scene::cssColor(0x0a1bcf), "#0a1bcf");
+}
+
 TEST(Contrast, IsThatOfTheGuidelines) {
     EXPECT_DOUBLE_EQ(scene::contrast(kWhite, kBlack), 21);
     EXPECT_DOUBLE_EQ(scene::contrast(kBlack, kWhite), 21);
