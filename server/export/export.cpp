@@ -17,6 +17,7 @@
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
 #include "export/mesh/field_body.hpp"
+#include "export/mesh/marching.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
 #include "export/omissions.hpp"
@@ -198,7 +199,14 @@ class Exporter {
         const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTrianglesAndMemory(static_cast<std::size_t>(coarse / (cube * cube)));
-        cube_ = cube * radii_.bar;
+        const double largest = kCoarseCube * radii_.bar;
+        if (largest < kLeastFieldStep * grid_.step()) {
+            throw ExportRefused{
+                {ExportError::Cause::no_body,
+                 "the bars of this object are too thin for a file; export a larger body, or a solid one "
+                 "(body=solid)"}};
+        }
+        cube_ = std::max(cube * radii_.bar, std::min(largest, kGoodFieldStep * grid_.step()));
     }
 
     std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }

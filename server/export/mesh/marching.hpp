@@ -71,11 +71,14 @@ struct EdgeCrossing {
 /// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
+inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< see marchTetrahedra()
+
 /// Returns a mesh of the surface that separates inside points from outside points. For each cube with an inside corner,
 /// `field` must have the block of the cube's lowest corner (see SampledField::ensureBlock()), and the values that
 /// `crossing` reads for the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be
-/// at least 64 steps of `grid`: then no two crossings coincide after rounding, because crossings are kept away from the
-/// ends of their edges. Throws ExportRefused if `budget` is exceeded.
+/// at least kLeastFieldStep steps of `grid`: then no two crossings coincide after rounding, because crossings are kept
+/// away from the ends of their edges. From kGoodFieldStep on, crossings are far enough apart that the triangles keep
+/// their shapes. Throws ExportRefused if `budget` is exceeded.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 

@@ -44,7 +44,7 @@ class OuterSurface {
     Mesh mesh(const RoundingGrid& grid) {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
-        if (!(cube > 64 * grid.step())) return {};
+        if (!(cube > kGoodFieldStep * grid.step())) return {};
         // The offset keeps the points of the field off the symmetry planes of the slice, where they might lie on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         fill(field);

@@ -38,6 +38,15 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     EXPECT_EQ(std::get<ExportError>(given).cause, ExportError::Cause::too_long);
 }
 
+// The bars of this slice, three long edges, are much thinner than it is long.
+TEST(File, isRefusedIfItsBarsAreTooThin) {
+    const Polytope& p = named("3,12000-duoprism");
+    ExportRequest request{.format = formatNamed("stl"), .body = Body::skeleton};
+    EXPECT_NE(fileOf(p, {}, {0, 1, 1, 0.1}, request, kUnhurried).find("too thin"), std::string::npos);
+    request.body = Body::solid;
+    EXPECT_EQ(fileOf(p, {}, {0, 1, 1, 0.1}, request, kUnhurried).find("too thin"), std::string::npos);
+}
+
 // The measurements of a field take long. They stop in time, and count their memory.
 TEST(File, ofAFieldIsBounded) {
     const SlicedBall ball({-2, 5, 0.2});
