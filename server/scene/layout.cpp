@@ -215,7 +215,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
-    Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
+    const double side = std::min(kMargin, aspect / 4);  // half of the width or more is left, however narrow the picture
+    Rect room{side, aspect - side, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are
     // proportional to it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -175,6 +176,20 @@ TEST(Column, hasLargerSlicesThanARowInATallPicture) {
             };
             EXPECT_GT(radiusIn(scene::View::column), radiusIn(scene::View::strip))
                 << viewport.width << " x " << viewport.height << ", " << count;
+        }
+    }
+}
+
+// A negative field of view would show the picture upside down.
+TEST(Layout, ofVeryNarrowPicturesIsUpright) {
+    for (const scene::Viewport viewport : {scene::Viewport{16, 400}, {16, 1000}, {16, 8192}, {8192, 16}, {16, 16}}) {
+        for (const scene::ViewRow& view : scene::kViews) {
+            scene::Look look;
+            look.view = view.value;
+            const Scene s = composed("24-cell", 21, viewport, look);
+            EXPECT_GT(s.camera.fieldOfView, 0) << viewport.width << " x " << viewport.height << ", " << view.name;
+            EXPECT_LT(s.camera.fieldOfView, std::numbers::pi) << viewport.width << " x " << viewport.height;
+            EXPECT_GT(radiusOnScreen(s, {0, 0, 0}, s.sliceRadius), 0) << viewport.width << " x " << viewport.height;
         }
     }
 }
