@@ -8,7 +8,8 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    private knownFor = ""; // the layoutKey() of the known or requested matrix, whatever its slices; "" if there is none
+    // The layoutKey() of the known or requested matrix, whatever its slices and surfaces; "" if there is none.
+    private knownFor = "";
 
     constructor(
         private readonly client: Client,
@@ -21,12 +22,12 @@ export class FrameMatrixCache {
     }
 
     /** Requests the matrix if its place has changed. To be called when the state, size or mode may have changed. */
-    update({ slices, ...state }: State): void {
+    update({ slices, levels, inside, fog, caps, ...state }: State): void {
         const isShown = state.view === "matrix" && this.stage.mode === "frames";
         const key = isShown ? layoutKey(state, this.stage.size) : "";
         if (key === this.knownFor) return;
         this.knownFor = key;
-        this.known = undefined;
+        if (!isShown) this.known = undefined; // otherwise the old one serves until the answer comes
         if (isShown) void this.request(key);
     }
 

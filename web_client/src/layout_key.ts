@@ -9,6 +9,6 @@ import type { State, Viewport } from "@oval4d/protocol";
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;
-    const { camera, alpha, beta, step, highlight, ...layout } = settings;
+    const { camera, alpha, beta, step, highlight, color, background, ...layout } = settings;
     return JSON.stringify([layout, size]);
 }
