@@ -1,6 +1,7 @@
 #include "cli/render_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -22,7 +23,8 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
     const auto viewport = valueOrThrow(pipeline::checkViewport({options.width, options.height}, {}));
     const auto state = stateOf(queryOf(app.remaining()), session::kPictureParameters);
-    pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin);
+    pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin,
+                                {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;
     pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
                      slicing::Quality::full, png);

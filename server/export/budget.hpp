@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@ struct ExportLimits {
     /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
     /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
     std::function<bool(std::size_t)> grantTotalBytes = nullptr;
+    /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
+    std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
     /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
     int slices = 201;
 };

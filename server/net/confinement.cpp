@@ -15,11 +15,11 @@ constexpr std::size_t kOwnFiles = 16;
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // kOwn: bytes of llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
-    // sixteen buffers of four bytes per pixel. The slices of the largest polytope need at most kEachCut bytes for each
-    // cut of an edge by a hyperplane, and have at most kCuts cuts for each vertex.
-    constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
+    // sixteen buffers of four bytes per pixel. kEachSliceEdge: bytes of slices, and of what is drawn of them, for each
+    // edge; measured were 260 at most.
+    constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
-    return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;
+    return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;
 }
 
 bool filtersSystemCalls(const Options& options) {

@@ -203,9 +203,12 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-height", options.frame.maxHeight, "Maximum height of a picture, in pixels")
         ->check(CLI::Range(1, 16'384));
     add(app, "--max-pixels", options.frame.maxPixels, "Maximum number of pixels of a picture")->check(atLeastOne);
-    add(app, "--max-fill", options.maxFill,
+    add(app, "--max-fill", options.picture.fillSteps,
         "Maximum number of steps to fill self-intersecting faces in one picture: at most 2 n² + n·k for a face of n "
         "sides with k crossings. Faces beyond the limit are filled approximately")
+        ->check(atLeastOne);
+    add(app, "--max-slice-edges", options.picture.sliceEdges,
+        "Maximum number of edges of all slices of a picture or a file together")
         ->check(atLeastOne);
     addFileLimits(app, options.file);
     add(app, "--max-slices", options.session.maxSlices, "Maximum number of slices of a session")
@@ -272,6 +275,7 @@ std::string limitsJson(const Options& options) {
                           {"max_width", options.frame.maxWidth},
                           {"max_height", options.frame.maxHeight},
                           {"max_pixels", options.frame.maxPixels},
+                          {"slice_edges", options.picture.sliceEdges},
                           {"file_triangles", options.file.triangles},
                           {"file_bytes", options.file.bytes},
                           {"file_time", options.file.time.count()},

@@ -41,29 +41,29 @@ struct Options {
     std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
     bool open = false;  ///< require no token, even on addresses other than loopback
 
-    std::size_t maxLoadMessageBytes = 8U << 20U;  ///< maximum size of a `load` message or of an uploaded state
-    std::size_t maxRequestBytes = 64U << 10U;     ///< maximum size of any other message
-    std::size_t maxUpload = 256U << 20U;          ///< maximum size of an uploaded file
-    int maxDepth = 32;                            ///< maximum nesting depth of the JSON of a message
-    std::size_t maxUnsent = 1U << 20U;            ///< unsent bytes at which the server stops reading from a client
-    std::size_t maxSessions = 10'000;             ///< maximum number of stored sessions
-    std::size_t maxConnections = 4096;            ///< maximum number of open connections
-    ClientLimits client;                          ///< limits of each client
-    std::size_t maxBytes = 2U << 30U;             ///< maximum bytes held for all clients together (ByteBudget)
-    std::size_t minReadRate = 32U << 10U;         ///< minimum bytes per second that a client must read or upload
-    std::string spool;                            ///< folder for unread exports; empty: the system's temporary folder
-    int maxRequestsPerSecond = 2000;              ///< maximum messages per second from one connection
-    parallel::FairQueue::Limits jobs;             ///< maximum numbers of waiting jobs in each pool of workers
-    pipeline::FrameLimits frame;                  ///< limits on the size of pictures
-    std::size_t maxFill = pipeline::Pipeline::kFillSteps;  ///< maximum number of steps to fill faces in one picture
-    exports::ExportLimits file;                            ///< limits on the files that clients request
-    session::Limits session;                               ///< limits of each session
-    std::string store = "memory";                          ///< location of the sessions: see store::StoreOptions::url
-    std::size_t storeQuota = store::kDefaultQuota;    ///< maximum total bytes of the sessions in a file or in memory
-    std::size_t keptUndo = 100;                       ///< maximum number of undo steps stored with a session
-    std::string data;                                 ///< folder of arrays that clients may open; empty: none
-    std::size_t dataCache = 1024U << 20U;             ///< maximum total memory of the fields from this folder
-    std::string fieldCacheFolder;                     ///< folder of the field cache (see SampleFiles); empty: /var/tmp
+    std::size_t maxLoadMessageBytes = 8U << 20U;    ///< maximum size of a `load` message or of an uploaded state
+    std::size_t maxRequestBytes = 64U << 10U;       ///< maximum size of any other message
+    std::size_t maxUpload = 256U << 20U;            ///< maximum size of an uploaded file
+    int maxDepth = 32;                              ///< maximum nesting depth of the JSON of a message
+    std::size_t maxUnsent = 1U << 20U;              ///< unsent bytes at which the server stops reading from a client
+    std::size_t maxSessions = 10'000;               ///< maximum number of stored sessions
+    std::size_t maxConnections = 4096;              ///< maximum number of open connections
+    ClientLimits client;                            ///< limits of each client
+    std::size_t maxBytes = 2U << 30U;               ///< maximum bytes held for all clients together (ByteBudget)
+    std::size_t minReadRate = 32U << 10U;           ///< minimum bytes per second that a client must read or upload
+    std::string spool;                              ///< folder for unread exports; empty: the system's temporary folder
+    int maxRequestsPerSecond = 2000;                ///< maximum messages per second from one connection
+    parallel::FairQueue::Limits jobs;               ///< maximum numbers of waiting jobs in each pool of workers
+    pipeline::FrameLimits frame;                    ///< limits on the size of pictures
+    pipeline::PictureLimits picture;                ///< limits on what a picture shows
+    exports::ExportLimits file;                     ///< limits on the files that clients request
+    session::Limits session;                        ///< limits of each session
+    std::string store = "memory";                   ///< location of the sessions: see store::StoreOptions::url
+    std::size_t storeQuota = store::kDefaultQuota;  ///< maximum total bytes of the sessions in a file or in memory
+    std::size_t keptUndo = 100;                     ///< maximum number of undo steps stored with a session
+    std::string data;                               ///< folder of arrays that clients may open; empty: none
+    std::size_t dataCache = 1024U << 20U;           ///< maximum total memory of the fields from this folder
+    std::string fieldCacheFolder;                   ///< folder of the field cache (see SampleFiles); empty: /var/tmp
     std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of the files in the field cache
     std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of the polytopes that the cache keeps
     std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached searches for critical values of w

@@ -162,7 +162,7 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       childEnvironment_(childEnvironment(options_, workers_, sandboxWarning_)),
       readiness_(workers_),
       sharedRasterizer_(processorCount(),
-                        {{options_.maxFill, options_.polytopeCache},
+                        {{options_.picture.fillSteps, options_.polytopeCache},
                          options_.drawTimeout,
                          [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
                          childEnvironment_},
@@ -175,7 +175,7 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       critical_(options_.criticalCache),
       pictureWorkers_({.threads = workers_,
                        .limits = options_.jobs,
-                       .fillSteps = options_.maxFill,
+                       .pictures = options_.picture,
                        .makeRasterizer =
                            [this](std::stop_token stop) {
                                return std::make_unique<raster::WorkerRasterizer>(sharedRasterizer_, std::move(stop));

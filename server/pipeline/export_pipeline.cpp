@@ -14,6 +14,7 @@
 #include "session/settings.hpp"
 #include "slicing/element_shape.hpp"
 #include "slicing/projector.hpp"
+#include "slicing/slice_edges.hpp"
 #include "slicing/slicer.hpp"
 #include "text/ascii.hpp"
 #include "text/choice.hpp"
@@ -192,6 +193,11 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                                          request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
+    try {
+        slicing::checkSliceEdges(state.object, state.orientation, planes, limits.sliceEdges);
+    } catch (const slicing::TooManySliceEdges& fault) {
+        return Error{ErrorCode::too_large, fault.what()};
+    }
     if (isField && readsFieldSurfaces(request)) {
         slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
@@ -225,7 +231,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (!drawing) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
     scene::Scene scene;
     scene::Composer composer;
-    composer.limitFill(Pipeline::kFillSteps);
+    composer.limitFill(PictureLimits().fillSteps);
     // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size; a
     // drawing of a tall view has them in portrait format.
     const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;

@@ -18,8 +18,8 @@ namespace oval4d::pipeline {
 /// - `bad_message` if the request gives both `at` and `fit`, or gives one of them for contents other than
 ///   ExportContents::oval,
 /// - `out_of_range` if two values of w in `at` are equal, if one of them is farther than session::kMaxOffset
-///   circumradii from the w of ObjectInfo::originInFile, if `at` or `fit` asks for no slice or for more than
-///   ExportLimits::slices, or if the size of a body or a drawing is outside its bounds.
+///   circumradii from the w of ObjectInfo::originInFile, if `fit` asks for no slice, if `at` or `fit` asks for more
+///   than ExportLimits::slices, or if the size of a body or a drawing is outside its bounds.
 Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
                                           const exports::ExportLimits& limits, std::stop_token stop = {});
 

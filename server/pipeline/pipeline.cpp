@@ -3,14 +3,15 @@
 #include <utility>
 
 #include "scene/pick.hpp"
+#include "slicing/slice_edges.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::pipeline {
 
 using raster::measureSeconds;
 
-Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, std::size_t fillSteps)
-    : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), workspace_(forkJoin) {}
+Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, PictureLimits limits)
+    : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), limits_(limits), workspace_(forkJoin) {}
 
 slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {
     const parallel::ExclusiveUseAssertion::Use use(inUse_);
@@ -22,6 +23,7 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
     times_ = {};
     times_.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
+        slicing::checkSliceEdges(state.object, state.orientation, planes, limits_.sliceEdges);
         const double circumradius = slicing::infoOf(state.object).circumradius;
         slicing::setEvenDetail(circumradius, planes, quality, workspace_.detail);
         slicing::addEvenFog(circumradius, planes, workspace_.detail);
@@ -34,7 +36,7 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
                            std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
                            std::string& out, slicing::Quality quality) {
     const parallel::ExclusiveUseAssertion::Use use(inUse_);
-    workspace_.composer.limitFill(fillSteps_);
+    workspace_.composer.limitFill(limits_.fillSteps);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                     workspace_.scene);
@@ -58,6 +60,7 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
                        slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
     const parallel::ExclusiveUseAssertion::Use use(inUse_);
     times_ = {};
+    slicing::checkSliceEdges(state.object, state.orientation, state.hyperplanes(), limits_.sliceEdges);
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
                                  state.look.background == scene::Background::transparent};
     if (drawn) drawn();

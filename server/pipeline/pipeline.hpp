@@ -27,24 +27,28 @@ struct PictureTimes : raster::DrawTimes {
     double write = 0, encode = 0;
 };
 
+/// Limits on the time and the memory that a picture takes.
+struct PictureLimits {
+    std::size_t fillSteps = 20'000'000;  ///< steps to fill self-intersecting faces (see slicing::FaceFiller::fill())
+    std::size_t sliceEdges = 5'000'000;  ///< edges of all slices together (see slicing::checkSliceEdges())
+};
+
 /// Converts a session's state to the data that a client displays: a `slices` message (state → slices → scene → message)
 /// or a PNG file (state → pixels → file). Used by the server and the command line. Keeps its memory between calls. A
 /// pipeline may be used by one thread at a time.
 class Pipeline {
   public:
-    /// The default of the parameter `fillSteps` of the constructor.
-    static constexpr std::size_t kFillSteps = 20'000'000;
-
     /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores; if it is
-    /// null, one core is used. `fillSteps` limits the time for filling self-intersecting faces in messages (see
-    /// slicing::FaceFiller::fill()).
-    Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
-             std::size_t fillSteps = kFillSteps);
+    /// null, one core is used. PictureLimits::fillSteps limits only messages; the rasterizer has a limit of its own.
+    Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, PictureLimits limits = {});
 
-    /// Returns the names of the focus slice, for the `state` message.
+    /// Returns the names of the section in the focus slice, for the `state` message. There are two, because the slice
+    /// may have a name, such as "icosahedron", and so may the convex hull of those of its vertices that are vertices of
+    /// the object (see slicing::SectionNames). A name is empty if there is none.
     slicing::SectionNames nameFocusSection(const session::State& state);
 
-    /// Slices the state's object. Overwrites `out` and reuses its memory.
+    /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the
+    /// slices exceed PictureLimits::sliceEdges.
     void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
 
     /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `revision` is
@@ -60,8 +64,9 @@ class Pipeline {
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 
     /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
-    /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws std::runtime_error if the
-    /// picture cannot be drawn, most likely because no GL context can be created.
+    /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws
+    /// slicing::TooManySliceEdges as slice() does, and std::runtime_error if the picture cannot be drawn, most likely
+    /// because no GL context can be created.
     void drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
                  slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
 
@@ -91,7 +96,7 @@ class Pipeline {
 
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;
-    const std::size_t fillSteps_;
+    const PictureLimits limits_;
     Workspace workspace_;
     PictureTimes times_;
     parallel::ExclusiveUseAssertion inUse_;

@@ -11,7 +11,7 @@ PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, proces
                 .onThreadStart =
                     [this, options, &forkJoin](std::size_t worker) {
                         pipelines_[worker] = std::make_unique<Pipeline>(options.makeRasterizer(workers_.stopToken()),
-                                                                        &forkJoin, options.fillSteps);
+                                                                        &forkJoin, options.pictures);
                         options.onThreadStart(*pipelines_[worker]);
                     },
                 .whenIdle =

@@ -19,9 +19,9 @@ class PipelinePool {
     using Job = std::function<void(Pipeline&)>;
 
     struct Options {
-        std::size_t threads = 1;                       ///< number of workers
-        parallel::WorkerPool::Limits limits = {};      ///< maximum numbers of waiting jobs
-        std::size_t fillSteps = Pipeline::kFillSteps;  ///< see the constructor of Pipeline
+        std::size_t threads = 1;                   ///< number of workers
+        parallel::WorkerPool::Limits limits = {};  ///< maximum numbers of waiting jobs
+        PictureLimits pictures = {};
         /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken().
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
         Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job

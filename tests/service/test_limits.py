@@ -24,11 +24,11 @@ async def test_the_welcome_message_states_the_limits():
     with Server("--max-message", "64k", "--max-depth", 9, "--max-requests", 77, "--min-side", 20, "--max-width", 900,
                 "--max-height", 800, "--max-pixels", 500_000, "--max-slices", 41, "--shown-timeout", 2.5,
                 "--max-file-triangles", 5000, "--max-file-bytes", "1M", "--max-file-time", 7, "--max-upload", "1G",
-                "--max-field-bytes", "3M") as server:
+                "--max-field-bytes", "3M", "--max-slice-edges", 123_456) as server:
         async with Client(server, width=900, height=500) as client:
             assert client.welcome["limits"] == {
                 "message": 65536, "request_bytes": 65536, "upload": 1 << 30, "field_bytes": 3 << 20, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
-                "max_height": 800, "max_pixels": 500_000, "slices": 41, "shown_timeout": 2.5,
+                "max_height": 800, "max_pixels": 500_000, "slice_edges": 123_456, "slices": 41, "shown_timeout": 2.5,
                 "file_triangles": 5000, "file_bytes": 1 << 20, "file_time": 7}
             assert (await request_refusal(client, "set", slices={"count": 43})).code == "out_of_range"
             for width, height in ((901, 100), (100, 801), (19, 100), (900, 800)):
@@ -38,6 +38,26 @@ async def test_the_welcome_message_states_the_limits():
             await client.wait_until(lambda: any(m.get("code") == "bad_json" for m in client.messages if isinstance(m, dict)))
             await client.socket.send(" " * 65537)
             assert await client.wait_for_close_code() == 1009
+
+
+async def test_the_number_of_edges_of_slices_is_limited():
+    """A picture or a file of too many edges is refused, however it is asked for. The session goes on."""
+    with Server("--max-slice-edges", 1000) as server:
+        async with Client(server, stream="geometry") as client:
+            await client.wait_for_slices(0)
+            done = await client.request("set", polytope="120-cell")
+            refused = lambda: [m for m in client.messages if m["type"] == "error"]
+            await client.wait_until(refused)
+            assert refused()[0]["code"] == "too_large" and "at most 1000 are allowed" in refused()[0]["message"]
+            for what in ({"what": "frame"}, {"what": "slices"}, {"what": "at", "x": 300, "y": 200},
+                         {"what": "file", "format": "csv", "of": "oval"}):
+                assert (await request_refusal(client, "get", **what)).code == "too_large", what
+            query = "polytope=120-cell&of=oval"
+            for path in ("frame.png?polytope=120-cell", f"file.svg?{query}", f"file.stl?{query}"):
+                answer = await asyncio.to_thread(server.get, f"/api/v1/{path}")
+                assert answer.status == 413 and b"--max-slice-edges" in answer.body, path
+            done = await client.request("set", polytope="24-cell")
+            await client.wait_for_slices(done["revision"])
 
 
 async def slice_fills(server, **settings):

@@ -15,6 +15,7 @@
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
+#include "slicing/slice_edges.hpp"
 #include "text/message_text.hpp"
 #include "text/words.hpp"
 #include "wire/messages.hpp"
@@ -207,6 +208,8 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAcco
         co_return revalidatedReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
         co_return countedError(kTooManyJobs);
+    } catch (const slicing::TooManySliceEdges& fault) {
+        co_return countedError({ErrorCode::too_large, fault.what()});
     } catch (const std::exception& fault) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
         co_return errorReply(kMakingFailed);

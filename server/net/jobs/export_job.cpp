@@ -38,6 +38,7 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
         auto held = client->byteAccount().forceReserve(0);
         exports::ExportLimits limits = services.options.file;
         limits.slices = services.options.session.maxSlices;
+        limits.sliceEdges = services.options.picture.sliceEdges;
         limits.grantTotalBytes = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
         auto made = pipeline::exportState(state, request, limits, services.exportWorkers.stopToken());
         if (!made) {

@@ -4,6 +4,7 @@
 
 #include "fields/field.hpp"
 #include "slicing/object.hpp"
+#include "slicing/slice_edges.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -21,6 +22,7 @@ Error pictureError(const session::State& state, const std::string& sessionId, st
         return {ErrorCode::bad_field,
                 "the file of this field has been changed or shortened, or cannot be read any more; load it again"};
     }
+    if (dynamic_cast<const slicing::TooManySliceEdges*>(&why) != nullptr) return {ErrorCode::too_large, why.what()};
     spdlog::error("picture failed session={} revision={} fault=\"{}\"", sessionId, revision, why.what());
     return otherwise;
 }

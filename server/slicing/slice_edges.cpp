@@ -1,0 +1,86 @@
+#include "slicing/slice_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/point_cloud.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/overloaded.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+// How many hyperplanes lie below a vertex, and how many lie below it or contain it.
+struct PlanesAtVertex {
+    std::size_t below, upTo;
+};
+
+// Vertices that are nearer to a hyperplane than `tolerance` lie in it, as in PolytopeSlicer.
+PlanesAtVertex planesAt(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
+                        double w) {
+    if (!sorted.empty()) {
+        return {static_cast<std::size_t>(std::ranges::lower_bound(sorted, w - tolerance) - sorted.begin()),
+                static_cast<std::size_t>(std::ranges::upper_bound(sorted, w + tolerance) - sorted.begin())};
+    }
+    const auto count = static_cast<double>(planes.count);
+    const auto levelOf = [&](double height) { return (height - planes.offset) / planes.spacing - planes.first; };
+    return {static_cast<std::size_t>(std::clamp(std::ceil(levelOf(w - tolerance)), 0.0, count)),
+            static_cast<std::size_t>(std::clamp(std::floor(levelOf(w + tolerance)) + 1, 0.0, count))};
+}
+
+std::size_t countInPolytope(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                            const geometry::Hyperplanes& planes) {
+    std::vector<double> sorted = planes.listed;
+    std::ranges::sort(sorted);
+    const glm::dmat4 turned = orientation.matrix();
+    std::vector<PlanesAtVertex> at;
+    at.reserve(polytope.vertices.size());
+    const double tolerance = kOnPlaneTolerance * polytope.circumradius;
+    for (const glm::dvec4& vertex : polytope.vertices)
+        at.push_back(planesAt(planes, sorted, tolerance, (turned * vertex).w));
+    std::size_t crossings =
+        0;  // of the edges of all 2-faces with hyperplanes; two of them are the ends of a slice edge
+    for (std::size_t f = 0; f < polytope.faces.size(); ++f) {
+        const auto loop = polytope.faces[f];
+        std::uint32_t previous = loop.back();
+        for (const std::uint32_t v : loop) {
+            const auto [low, high] = std::minmax(at[previous], at[v], [](const auto& a, const auto& b) {
+                return std::pair(a.below, a.upTo) < std::pair(b.below, b.upTo);
+            });
+            crossings += high.upTo - low.below;
+            previous = v;
+        }
+    }
+    return (crossings + 1) / 2;
+}
+
+}  // namespace
+
+TooManySliceEdges::TooManySliceEdges(std::size_t found, std::size_t allowed)
+    : std::runtime_error("these slices have " + std::to_string(found) + " edges; at most " + std::to_string(allowed) +
+                         " are allowed (--max-slice-edges). Show fewer slices, or a greater spacing") {}
+
+std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
+                            const geometry::Hyperplanes& planes) {
+    return visitPolytopeOrCloud(
+        Overloaded{[&](const PolytopePtr& polytope) { return countInPolytope(*polytope, orientation, planes); },
+                   [](const CloudPtr&) { return std::size_t{0}; }},
+        object);
+}
+
+void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+                     std::size_t allowed) {
+    const std::size_t most = elementCounts(object)[2] * static_cast<std::size_t>(planes.count);
+    if (most <= allowed) return;
+    const std::size_t found = countSliceEdges(object, orientation, planes);
+    if (found > allowed) throw TooManySliceEdges(found, allowed);
+}
+
+}  // namespace oval4d::slicing
