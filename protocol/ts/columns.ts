@@ -120,7 +120,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
     let corner = 0;
-    const loops = ([first, last]: Range): Slice["faces"] => {
+    const takeFaces = ([first, last]: Range): Slice["faces"] => {
         const begin = allocate(last - first + 1);
         begin[0] = 0;
         for (let face = first; face < last; ++face) begin[face - first + 1] = begin[face - first]! + sides[face]!;
@@ -130,7 +130,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
         const elements: Elements = {
             vertices: columns.vertices.subarray(3 * range[0], 3 * range[1]),
             edges: ends.subarray(2 * edges[i]![0], 2 * edges[i]![1]),
-            faces: loops(faces[i]!),
+            faces: takeFaces(faces[i]!),
             of: partOfEach(of, i),
         };
         const own = tints?.subarray(...faces[i]!);

@@ -170,7 +170,7 @@ function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonEl
         ...rest,
         vertices: floats(vertices),
         edges: indices(edges),
-        faces: loops(faces),
+        faces: flattenFaces(faces),
         of: ofAll(of),
         ...(tints && { tints: indices(tints) }),
         ...(seen && { seen: ofAll(seen) }),
@@ -227,7 +227,7 @@ function indices(values: FlatOrNested<Integers>): Uint32Array {
     return wide;
 }
 
-function loops(faces: number[][]): Slice["faces"] {
+function flattenFaces(faces: number[][]): Slice["faces"] {
     const begin = new Uint32Array(faces.length + 1);
     faces.forEach((face, i) => (begin[i + 1] = begin[i]! + face.length));
     return { begin, corners: Uint32Array.from(faces.flat()) };

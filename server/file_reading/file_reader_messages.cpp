@@ -65,7 +65,7 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
 template <typename Archive, typename Load, typename Limits>
 void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
-    archive(load.secondFormula), archive(load.secondVariable), archive(load.center.kind), archive(load.center.place);
+    archive(load.secondFormula), archive(load.secondVariable), archive(load.center.choice), archive(load.center.place);
     archive(limits.maxVertices), archive(limits.maxHullCells), archive(limits.maxFieldBytes);
 }
 

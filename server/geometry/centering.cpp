@@ -25,13 +25,13 @@ glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
 }  // namespace
 
 glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> points) {
-    if (centering.kind == Centering::Kind::origin || points.empty()) return glm::dvec4(0);
-    if (centering.kind == Centering::Kind::point) return centering.place;
+    if (centering.choice == Centering::OriginChoice::origin || points.empty()) return glm::dvec4(0);
+    if (centering.choice == Centering::OriginChoice::point) return centering.place;
     glm::dvec4 center = meanOf(points);
     double extent = 0;
     for (const glm::dvec4& p : points) extent = std::max(extent, glm::distance(p, center));
     const bool isFar = extent > 0 && glm::length(center) > kFar * extent;
-    if (centering.kind == Centering::Kind::automatic && !isFar) return glm::dvec4(0);
+    if (centering.choice == Centering::OriginChoice::automatic && !isFar) return glm::dvec4(0);
     if (!(extent > 0)) return center;
     // Rounding removes the errors of the mean: a center such as (10, 10, 0, 0) becomes exact.
     const double unit = std::ldexp(1.0, std::ilogb(extent) - kBitsOfCenter);

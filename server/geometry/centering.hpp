@@ -11,15 +11,15 @@ namespace oval4d::geometry {
 /// Which point of the file's coordinates becomes the origin of an object. The object turns about its origin, its size
 /// is measured from there, and its slices lie around it.
 struct Centering {
-    enum class Kind : std::uint8_t {
+    enum class OriginChoice : std::uint8_t {
         automatic,  ///< like `object` if the object is far from the origin of the file (see newOriginFor()); else
                     ///< `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
         point,      ///< `place`
     };
-    Kind kind = Kind::automatic;
-    glm::dvec4 place{0};  ///< used only by the kind `point`, in the coordinates of the file
+    OriginChoice choice = OriginChoice::automatic;
+    glm::dvec4 place{0};  ///< used only by the choice `point`, in the coordinates of the file
     bool operator==(const Centering&) const = default;
 };
 
@@ -27,7 +27,7 @@ struct Centering {
 /// file. The center of the object is the mean of the points, rounded to about 11 digits of the object's size. The
 /// object is far from the origin of the file if the distance of its center from this origin is more than three times
 /// the largest distance of a point from the center, and this largest distance is not 0. If there are no points, returns
-/// the zero vector for every kind.
+/// the zero vector for every choice.
 glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> points);
 
 }  // namespace oval4d::geometry

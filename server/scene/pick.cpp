@@ -59,7 +59,7 @@ class Picker {
         if (!scene_.projectionPlacement.shown) return;
         const ObjectProjection& projection = scene_.projection;
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
-            const ProjectionPart& part = projection.parts[i];
+            const ProjectionPartLook& part = projection.parts[i];
             pick(projection.elements, i, scene_.projectionPlacement.position, projection.scale,
                  {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PictureArea::projection, 0});
         }

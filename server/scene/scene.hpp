@@ -23,21 +23,21 @@
 namespace oval4d::scene {
 
 /// How a part of the projection of the whole object is drawn.
-struct ProjectionPart {
+struct ProjectionPartLook {
     double ballRadius = 0, barRadius = 0;  ///< in world units; balls or bars with the radius 0 are not drawn
     Color ballColor = 0, barColor = 0;
     double faceOpacity = 0;  ///< 0 … 1
-    bool operator==(const ProjectionPart&) const = default;
+    bool operator==(const ProjectionPartLook&) const = default;
 };
 
 /// The projection of the whole object from four to three dimensions, together with the projected sections of the object
 /// by hyperplanes.
 struct ObjectProjection {
-    slicing::SliceSet elements;            ///< the output of slicing::Projector: part 0 is the object, other parts are
-                                           ///< its sections
-    std::vector<std::uint32_t> faceCells;  ///< for each face of `elements`, the cell that determines its color
-    std::vector<ProjectionPart> parts;     ///< for each part of `elements`
-    double scale = 1;                      ///< world units per unit of the object
+    slicing::SliceSet elements;             ///< the output of slicing::Projector: part 0 is the object, other parts are
+                                            ///< its sections
+    std::vector<std::uint32_t> faceCells;   ///< for each face of `elements`, the cell that determines its color
+    std::vector<ProjectionPartLook> parts;  ///< for each part of `elements`
+    double scale = 1;                       ///< world units per unit of the object
 };
 
 /// The matrix of planar sections, which the matrix view shows beside the focus slice.

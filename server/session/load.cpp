@@ -59,7 +59,7 @@ Error errorOf(const FileError& error) {
 
 // Appends a warning if the object was moved because it is far from the origin of its file.
 void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
-    if (wanted.kind != geometry::Centering::Kind::automatic || originInFile == glm::dvec4(0)) return;
+    if (wanted.choice != geometry::Centering::OriginChoice::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
     for (int axis = 0; axis < 4; ++axis) center += (axis == 0 ? "" : ", ") + text::roundedDecimal(originInFile[axis]);
     warnings.push_back("the object is far from the origin: it turns about its center, (" + center +

@@ -107,12 +107,12 @@ Result<fields::Box> parseBox(std::string_view text) {
 
 Result<geometry::Centering> parseCenter(std::string_view written) {
     const std::string_view text = text::trimmed(written);
-    using Kind = geometry::Centering::Kind;
-    if (text == "object") return geometry::Centering{Kind::object};
-    if (text == "origin") return geometry::Centering{Kind::origin};
+    using OriginChoice = geometry::Centering::OriginChoice;
+    if (text == "object") return geometry::Centering{OriginChoice::object};
+    if (text == "origin") return geometry::Centering{OriginChoice::origin};
     const auto place = parseNumbers<4>("center", "object, origin or four numbers x,y,z,w, such as 0,0,0,2", text);
     if (!place) return place.error();
-    return geometry::Centering{Kind::point, {(*place)[0], (*place)[1], (*place)[2], (*place)[3]}};
+    return geometry::Centering{OriginChoice::point, {(*place)[0], (*place)[1], (*place)[2], (*place)[3]}};
 }
 
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state,

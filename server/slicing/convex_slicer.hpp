@@ -31,8 +31,8 @@ class ConvexSlicer {
              SliceSet& out);
 
   private:
-    // The lower or upper half of the hyperplanes.
-    struct Half {
+    // The sweep through the lower or upper half of the hyperplanes, and its results.
+    struct HalfOfPlanes {
         Sweep sweep;
         std::vector<std::int32_t> below;  // like PlanesBelowVertices::below, but counts only hyperplanes of this half
         SliceCounts end;                  // before sweep.cut(), where this half begins in the output; then its end
@@ -41,7 +41,7 @@ class ConvexSlicer {
     bool cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
 
     parallel::ForkJoin* forkJoin_;
-    Half lower_, upper_;
+    HalfOfPlanes lower_, upper_;
 };
 
 }  // namespace oval4d::slicing

@@ -58,7 +58,7 @@ SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
 
 bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes) {
     planesBelow_ = planesBelow;
-    findSteps(polytope, planes);
+    findStructureChanges(polytope, planes);
     return findElements(polytope, planes);
 }
 
@@ -66,9 +66,9 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
                 SliceSet& out) {
     first_ = first;
     SliceCounts here = at;  // a local copy, which no other write can alias
-    for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
-        int k = steps_[step];
-        const int next = steps_[step + 1];
+    for (std::size_t step = 0; step + 1 < structureChanges_.size(); ++step) {
+        int k = structureChanges_[step];
+        const int next = structureChanges_[step + 1];
         advance(polytope, out.rotatedVertices, k);
         const SliceCounts size = countsOfSlice();
         if (verticesMet_[k] == VerticesMet::inside) {
@@ -89,7 +89,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 }
 
 // Finds the hyperplanes at which the set of cut elements may change.
-void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
+void Sweep::findStructureChanges(const polytopes::Polytope& polytope, int planes) {
     verticesMet_.assign(planes + 1, VerticesMet::none);
     for (const std::int32_t below : planesBelow_.below) verticesMet_[below] = VerticesMet::between;
     if (planesBelow_.anyOnPlane) {
@@ -99,11 +99,11 @@ void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
         }
         collapse_.begin(polytope, planesBelow_);
     }
-    steps_.assign(1, 0);
+    structureChanges_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (verticesMet_[k] != VerticesMet::none) steps_.push_back(k);
+        if (verticesMet_[k] != VerticesMet::none) structureChanges_.push_back(k);
     }
-    steps_.push_back(planes);
+    structureChanges_.push_back(planes);
 }
 
 // Finds the hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane cuts a
@@ -123,7 +123,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
         ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
         edges_.add(e, from, to);
     }
-    edges_.sort(steps_);
+    edges_.sort(structureChanges_);
 
     faces_.clear(faces, planes);
     faceSpan_.resize(faces);
@@ -140,7 +140,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
         faces_.add(f, from, to);
     }
     if (ends != 2 * total.edges) return false;
-    faces_.sort(steps_);
+    faces_.sort(structureChanges_);
     total.corners = 2 * total.edges;  // every slice edge bounds two faces
 
     cells_.clear(cells, planes);
@@ -155,7 +155,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
         total.faces += span.to - span.from;
         cells_.add(c, span.from, span.to);
     }
-    cells_.sort(steps_);
+    cells_.sort(structureChanges_);
 
     line_.resize(edges);
     vertex_.resize(edges);

@@ -59,7 +59,7 @@ class Sweep {
     // Where vertices lie relative to a hyperplane: in it (inside), not in it but between it and the next lower
     // hyperplane (between), or in neither place (none).
     enum class VerticesMet : std::uint8_t { none, between, inside };
-    void findSteps(const polytopes::Polytope& polytope, int planes);
+    void findStructureChanges(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
     void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
     void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge,
@@ -78,7 +78,7 @@ class Sweep {
     std::vector<VerticesMet> verticesMet_;  // per hyperplane
     // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
     // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
-    std::vector<int> steps_;
+    std::vector<int> structureChanges_;
     std::vector<Line> line_;                // per active edge
     std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex
     std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: its slice edge

@@ -12,7 +12,7 @@
 #include "scene/pick.hpp"
 #include "session/session.hpp"
 #include "slicing/critical/critical_sections.hpp"
-#include "wire/request.hpp"
+#include "wire/answer.hpp"
 
 namespace oval4d::wire {
 

@@ -188,9 +188,9 @@ session::Rotate bodyOf(const json& message) {
 }
 
 geometry::Centering centerOf(const json& center) {
-    using Kind = geometry::Centering::Kind;
+    using OriginChoice = geometry::Centering::OriginChoice;
     if (center.is_array()) {
-        geometry::Centering result{Kind::point};
+        geometry::Centering result{OriginChoice::point};
         for (int axis = 0; axis < 4; ++axis) result.place[axis] = center[axis].get<double>();
         return result;
     }
@@ -199,7 +199,7 @@ geometry::Centering centerOf(const json& center) {
         throw InvalidRequest{"load: /center must be \"object\", \"origin\" or an array x, y, z, w, not " +
                              text::inQuotes(name)};
     }
-    return {name == "object" ? Kind::object : Kind::origin};
+    return {name == "object" ? OriginChoice::object : OriginChoice::origin};
 }
 
 template <>

@@ -1,7 +1,6 @@
 #pragma once
-// Parsed messages from clients, and those answers whose members are described. `kMessageType` is the type of the
-// messages that are parsed to a struct or written from it. If the members of a struct are described with
-// Boost.Describe, a message has them under the same names.
+// Parsed messages from clients. `kMessageType` is the type of the messages that are parsed to a struct. If the members
+// of a struct are described with Boost.Describe, a message has them under the same names.
 
 #include <array>
 #include <boost/describe/class.hpp>
@@ -11,10 +10,8 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
 #include "export/export_request.hpp"
 #include "scene/scene.hpp"
@@ -77,15 +74,6 @@ struct Measure {
 };
 BOOST_DESCRIBE_STRUCT(Measure, (), (element, number))
 
-/// Answers a Measure: the slicing::ElementMeasurements of the element.
-struct Measured {
-    static constexpr std::string_view kMessageType = "measured";
-    std::uint64_t revision = 0;
-    std::optional<double> length, area, volume;
-    glm::dvec4 center{0};
-};
-BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center))
-
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {
     static constexpr std::string_view kMessageType = "shown";
@@ -99,32 +87,10 @@ struct Ping {
 };
 BOOST_DESCRIBE_STRUCT(Ping, (), ())
 
-/// Answers a Ping: how busy the threads are that slice and draw pictures.
-struct Pong {
-    static constexpr std::string_view kMessageType = "pong";
-    std::uint64_t workers = 0;  ///< the number of these threads
-    std::uint64_t waiting = 0;  ///< the number of pictures that wait for one of them
-    double busy = 0;            ///< the total time spent on all pictures that have ended, in seconds
-    double time = 0;            ///< the time of a steady clock, in seconds
-};
-BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
-
-/// Answers a request that took effect, unless another message answers it.
-struct Done {
-    static constexpr std::string_view kMessageType = "done";
-    std::uint64_t revision = 0;
-    std::vector<std::string> warnings = {};  ///< from reading a file, or what an exported file lacks
-};
-BOOST_DESCRIBE_STRUCT(Done, (), (revision, warnings))
-
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
     std::variant<Hello, session::Command, Get, Measure, Ping, PictureShown> body;
 };
-
-/// An answer whose members are described. An OpenAddress is also the answer to GetTarget::address: its query is then
-/// that of the session's view.
-using Answer = std::variant<Done, Measured, Pong, session::OpenAddress>;
 
 }  // namespace oval4d::wire

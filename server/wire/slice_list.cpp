@@ -205,7 +205,7 @@ void writeColumn(BinaryWriter& w, std::string_view name, const std::vector<Slice
 }
 
 template <typename W>
-void writePart(W& w, const scene::ProjectionPart& part) {
+void writePart(W& w, const scene::ProjectionPartLook& part) {
     w.member("ball", part.ballRadius);
     w.member("bar", part.barRadius);
     w.member("ball_color", part.ballColor);
@@ -317,7 +317,7 @@ void SliceListWriter::writeProjection(BinaryWriter& w, const Scene& scene) {
     w.beginObject();
     w.key("looks");
     w.beginArray();
-    for (const scene::ProjectionPart& part : projection.parts) {
+    for (const scene::ProjectionPartLook& part : projection.parts) {
         w.beginObject();
         writePart(w, part);
         w.endObject();

@@ -37,7 +37,7 @@ class SliceListWriter {
         });
         writeColumns(w, placements, scene);
     }
-    /// Writes the projection of the whole object: each ProjectionPart with its vertices, edges and faces. In binary
+    /// Writes the projection of the whole object: each ProjectionPartLook with its vertices, edges and faces. In binary
     /// encodings, as with slices, one array per property has the vertices, edges and faces of all parts.
     void writeProjection(JsonWriter& w, const scene::Scene& scene);
     void writeProjection(BinaryWriter& w, const scene::Scene& scene);

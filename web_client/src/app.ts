@@ -15,7 +15,7 @@ import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
-import { fieldOfLine, loadOf, type ScalarFieldFormula } from "./fields";
+import { fieldOfLine, loadOf, type FormulaWithBox } from "./fields";
 import { FileLoading } from "./file_loading";
 import { WelcomeLine } from "./first_visit";
 import { FocusPointControl } from "./focus_point_control";
@@ -43,7 +43,7 @@ import { type Mode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
 import { PrintView } from "./print_view";
-import { RenderingMode } from "./rendering_mode";
+import { RenderingModeSwitch } from "./rendering_mode_switch";
 import { Sharing } from "./sharing";
 import { RotationControl } from "./rotation";
 import { Tools } from "./tools";
@@ -67,7 +67,7 @@ export class App {
             this.pointing.update();
             this.focusPointDrag.update();
         },
-        graphicsChanged: (isAvailable) => this.renderingMode.graphicsChanged(isAvailable),
+        graphicsChanged: (isAvailable) => this.renderingModeSwitch.graphicsChanged(isAvailable),
     });
     private readonly client = new Client({
         url: new URL(".", location.href),
@@ -133,7 +133,7 @@ export class App {
         this.pointedLabel,
         (revision) => revision === this.state?.revision && !this.state.moving && this.keyRepeatLimiter.mayRepeat,
     );
-    private readonly renderingMode = new RenderingMode(this.stage, {
+    private readonly renderingModeSwitch = new RenderingModeSwitch(this.stage, {
         changed: (mode) => this.modeChanged(mode),
         tell: (message) => this.notice.show(message),
     });
@@ -208,7 +208,7 @@ export class App {
             () => this.state?.polytope.name ?? "",
             (error) => this.notice.show(error.message),
         );
-        this.renderingMode.start();
+        this.renderingModeSwitch.start();
         listenForGestures(this.drawing, {
             orbit: this.orbit,
             rotation: this.rotation,
@@ -271,7 +271,7 @@ export class App {
         const page = pageSections({
             mode: this.stage.mode,
             canDrawGeometry: this.stage.canDrawGeometry,
-            setMode: (mode) => this.renderingMode.choose(mode),
+            setMode: (mode) => this.renderingModeSwitch.choose(mode),
             reset: () => void this.send({ type: "reset" }),
             share: () => void this.sharing.copySessionLink(),
             copyViewLink: () => void this.sharing.copyViewLink(),
@@ -406,7 +406,7 @@ export class App {
     }
 
     /** Loads a formula, then changes settings; resolves to the revision after both. */
-    private async loadField(field: ScalarFieldFormula, settings: Settings, continues = false): Promise<number> {
+    private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both are sent at once, so that no picture shows the formula without the settings.
         const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
         if (Object.keys(settings).length > 0) {

@@ -3,11 +3,11 @@
 import type { Box } from "@oval4d/protocol";
 
 import table from "../../protocol/fields.json";
-import type { ScalarFieldFormula } from "./fields";
+import type { FormulaWithBox } from "./fields";
 
 const kTable: { name: string; formula: string; box: number[][]; values?: string }[] = table.fields;
 
-export const kExamples: (ScalarFieldFormula & { title: string })[] = kTable.map(({ name, formula, box, values }) => ({
+export const kExamples: (FormulaWithBox & { title: string })[] = kTable.map(({ name, formula, box, values }) => ({
     title: name.charAt(0).toUpperCase() + name.slice(1),
     formula,
     box: box as Box,

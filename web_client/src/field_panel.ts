@@ -5,7 +5,7 @@ import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@
 
 import { byId, element } from "./element";
 import { kExamples } from "./field_examples";
-import { isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf, type ScalarFieldFormula } from "./fields";
+import { isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf, type FormulaWithBox } from "./fields";
 import { FogEditor } from "./fog_editor";
 import { toSentence } from "./format";
 import { comparisonOf } from "./formula";
@@ -20,7 +20,7 @@ export interface FieldPanelEvents {
      * Loads a formula, then changes settings; resolves to the revision. `continues` tells whether this belongs to the
      * undo step of the previous command. Rejects with an Error if the formula is refused.
      */
-    load(field: ScalarFieldFormula, settings: Settings, continues: boolean): Promise<number>;
+    load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
     set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
     /** Gives the user a link to this address. */
@@ -49,13 +49,13 @@ export class FieldPanel {
         this.formula.value = text;
         this.changed(0);
     });
-    private readonly loads = new NewestOnly<ScalarFieldFormula>((field) => this.load(field));
+    private readonly loads = new NewestOnly<FormulaWithBox>((field) => this.load(field));
     private readonly levelSettings = new NewestOnly<number[]>((levels) => this.apply({ levels }));
     private readonly capSettings = new NewestOnly<Caps>((caps) => this.apply({ caps }));
     private readonly insideSettings = new NewestOnly<Inside>((inside) => this.apply({ inside }));
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
-    private loaded: ScalarFieldFormula | undefined; // the formula that this page loaded last
+    private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
     private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until its state arrives
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
@@ -63,13 +63,13 @@ export class FieldPanel {
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // textOf() of the newest state
     private ownText = ""; // textOf() of the state with the formula that this page loaded last
-    private readonly typedFields = new Map<string, ScalarFieldFormula>(); // what was typed, by textOf() of its state
+    private readonly typedFields = new Map<string, FormulaWithBox>(); // what was typed, by textOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
         byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
-        this.loaded = readStored<ScalarFieldFormula>(kStorageKey);
+        this.loaded = readStored<FormulaWithBox>(kStorageKey);
         this.write(this.loaded ?? { formula: kExamples[0]!.formula, box: kUsualBox });
         for (const end of this.ends) end.addEventListener("input", () => this.changed(kTypingDelay));
         this.example.addEventListener("change", () => this.startFrom(Number(this.example.value)));
@@ -112,14 +112,14 @@ export class FieldPanel {
     }
 
     /** Shows a formula that another part of the page has loaded at this revision, and stores it as if typed here. */
-    adoptLoaded(field: ScalarFieldFormula, revision: number): void {
+    adoptLoaded(field: FormulaWithBox, revision: number): void {
         this.write(field);
         writeStored(kStorageKey, field);
         this.noteLoaded(field, revision);
         this.showError(undefined);
     }
 
-    private noteLoaded(field: ScalarFieldFormula, revision: number): void {
+    private noteLoaded(field: FormulaWithBox, revision: number): void {
         this.loaded = field;
         this.lastLoad = { revision, time: performance.now(), isRecorded: false };
         this.recordServerText();
@@ -183,7 +183,7 @@ export class FieldPanel {
     }
 
     /** Shows a formula in the fields. */
-    private write({ formula, box, values = "" }: ScalarFieldFormula): void {
+    private write({ formula, box, values = "" }: FormulaWithBox): void {
         this.formula.value = formula;
         this.values.value = values;
         this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
@@ -209,7 +209,7 @@ export class FieldPanel {
     }
 
     /** What is written in the fields. */
-    private written(box: Box): ScalarFieldFormula {
+    private written(box: Box): FormulaWithBox {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
     }
@@ -228,7 +228,7 @@ export class FieldPanel {
         return kAxes.map((_, i) => [numberIn(this.ends[2 * i]!.value), numberIn(this.ends[2 * i + 1]!.value)]) as Box;
     }
 
-    private async load(field: ScalarFieldFormula): Promise<void> {
+    private async load(field: FormulaWithBox): Promise<void> {
         this.root.setAttribute("aria-busy", "true");
         try {
             const settings = this.keptSettings(field);
@@ -246,7 +246,7 @@ export class FieldPanel {
      * Whether the change to this field continues a series of changes, such as the steps of a drag, that are undone
      * together.
      */
-    private continues({ formula }: ScalarFieldFormula): boolean {
+    private continues({ formula }: FormulaWithBox): boolean {
         const { loaded, lastLoad, state } = this;
         // If the state is newer than the last load, there was another command in between.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
@@ -254,7 +254,7 @@ export class FieldPanel {
     }
 
     /** The settings that stay the same when a formula is edited, although a new object has settings of its own. */
-    private keptSettings({ formula, box }: ScalarFieldFormula): Settings {
+    private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;
         if (!loaded || !state || !isField(state) || state.polytope.name !== kFormulaName) return {};
         const { levels, inside, fog, slices, point } = { ...state, ...this.sent?.settings };

@@ -6,8 +6,8 @@ import { textOfFog } from "./fog";
 import { formatCoordinate } from "./format";
 import { frameQuery } from "./reference_frame";
 
-/** A formula and its domain, from which the server makes a field. */
-export interface ScalarFieldFormula {
+/** A formula, its domain, and what colors its surfaces: all from which the server makes a field. */
+export interface FormulaWithBox {
     formula: string;
     box: Box;
     /** The formula whose values color the surfaces, if there is one. */
@@ -44,12 +44,12 @@ export interface FormulaLoad {
     values?: string;
 }
 
-export function loadOf({ formula, box, values }: ScalarFieldFormula): FormulaLoad {
+export function loadOf({ formula, box, values }: FormulaWithBox): FormulaLoad {
     return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
 }
 
 /** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */
-export function fieldOfLine(line: string): ScalarFieldFormula | undefined {
+export function fieldOfLine(line: string): FormulaWithBox | undefined {
     const [, formula, values] = /^\s*:?\s*formula\s+(.*?\S)(?:\s+colored by\s+(.*?\S))?\s*$/s.exec(line) ?? [];
     return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
 }
@@ -76,7 +76,7 @@ export function boxOf(numbers: number[]): Box | undefined {
 }
 
 /** The query of an address that opens this field, without the question mark. */
-export function queryOf({ formula, box, values }: ScalarFieldFormula, look: FieldLook): string {
+export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLook): string {
     const { levels, inside, caps, fog } = look;
     const parameters = {
         formula,

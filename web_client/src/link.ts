@@ -4,14 +4,14 @@
 import type { Credentials } from "@oval4d/protocol";
 
 import address from "../../protocol/address.json";
-import { boxOf, kUsualBox, parseNumbers, type ScalarFieldFormula } from "./fields";
+import { boxOf, kUsualBox, parseNumbers, type FormulaWithBox } from "./fields";
 import { readStored, writeStored } from "./storage";
 
 export interface InitialView {
     /** The session to return to, or to join. */
     credentials?: Credentials;
     /** The field of the query, which is loaded in a new session before the commands. */
-    field?: ScalarFieldFormula;
+    field?: FormulaWithBox;
     /** What is wrong with the query, except for the formula and the commands. */
     faults: string[];
     /** Commands that produce the rest of the view of the query. */

@@ -2,7 +2,7 @@
 
 import type { Client, Credentials, RequestError, State } from "@oval4d/protocol";
 
-import type { ScalarFieldFormula } from "./fields";
+import type { FormulaWithBox } from "./fields";
 import { isFirstVisit, kFirstView } from "./first_visit";
 import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
 
@@ -10,7 +10,7 @@ interface PageSessionActions {
     /** Called when the page joins another session, of which nothing is known yet. */
     joined: () => void;
     /** Loads a field, which the panel of fields then shows. */
-    loadField: (field: ScalarFieldFormula) => Promise<void>;
+    loadField: (field: FormulaWithBox) => Promise<void>;
     /** Reloads a file that this page had loaded into the lost session. */
     reloadFile: (name: string) => Promise<unknown>;
     /** Called when a command of the initial view has produced this revision. */

@@ -67,7 +67,7 @@ class ProjectionDrawer {
     }
 
     void addPart(std::size_t part) {
-        const scene::ProjectionPart& look = scene_.projection.parts[part];
+        const scene::ProjectionPartLook& look = scene_.projection.parts[part];
         const SliceSet& set = scene_.projection.elements;
         const scene::Style& style = scene_.style();
         const std::uint32_t v0 = set.vertexBegin[part];

@@ -6,8 +6,8 @@
 #include "export/formats/text.hpp"
 #include "export/mesh/measure.hpp"
 #include "fields/field.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 #include "slicing/element.hpp"
-#include "slicing/exact/exact_slicer.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/surfaces/section_values.hpp"
 #include "slicing/surfaces/surface_measurements.hpp"
@@ -56,9 +56,9 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
-    slicing::ExactSlicer slicer(field, source.orientation);
-    slicing::ExactSurface surface;
-    slicing::ExactSlicer::Options options{
+    slicing::ClosedSurfaceSlicer slicer(field, source.orientation);
+    slicing::ClosedSurface surface;
+    slicing::ClosedSurfaceSlicer::Options options{
         .inside = settings.inside, .maxTriangles = source.budget.triangles(), .mustStop = [&] {
             source.budget.checkTrianglesAndMemory(surface.triangles.size());
             return source.budget.mustStop();

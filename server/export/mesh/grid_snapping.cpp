@@ -122,25 +122,26 @@ class HalfEdges {
     std::uint32_t turned(std::uint32_t edge) const { return twins_[previousOf(edge)]; }
 
     void pairTwins() {
-        struct Side {
+        struct HalfEdge {
             std::uint64_t ends;  // two points, the one with the smaller index first
             std::uint32_t edge;
             bool upward;
         };
-        std::vector<Side> sides;
-        sides.reserve(origins_.size());
+        std::vector<HalfEdge> halfEdges;
+        halfEdges.reserve(origins_.size());
         for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
             const auto [low, high] = std::minmax({origins_[edge], endOf(edge)});
-            sides.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
+            halfEdges.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
         }
         // Sorts half-edges with the same ends next to each other, grouped by direction.
-        std::ranges::sort(sides, [](const Side& a, const Side& b) {
+        std::ranges::sort(halfEdges, [](const HalfEdge& a, const HalfEdge& b) {
             return std::tuple(a.ends, a.upward, a.edge) < std::tuple(b.ends, b.upward, b.edge);
         });
         twins_.assign(origins_.size(), kNone);
-        for (auto first = sides.begin(); first != sides.end();) {
-            const auto last = std::find_if(first, sides.end(), [&](const Side& s) { return s.ends != first->ends; });
-            const auto up = std::find_if(first, last, [](const Side& side) { return side.upward; });
+        for (auto first = halfEdges.begin(); first != halfEdges.end();) {
+            const auto last =
+                std::find_if(first, halfEdges.end(), [&](const HalfEdge& each) { return each.ends != first->ends; });
+            const auto up = std::find_if(first, last, [](const HalfEdge& each) { return each.upward; });
             if (up - first != last - up) throw std::invalid_argument("the surface is not closed");
             for (auto down = first, to = up; to != last; ++down, ++to) {
                 twins_[down->edge] = to->edge;

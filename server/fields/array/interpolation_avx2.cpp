@@ -44,7 +44,7 @@ struct Cells {
 using Pairs = __m256;
 
 // The results of the interpolation along w, z and y in four cells: the values and the derivatives along y, z and w.
-struct Reduced {
+struct InterpolatedAlongWzy {
     Pairs value, dy, dz, dw;
 };
 
@@ -102,8 +102,9 @@ OVAL4D_AVX2 inline Pairs rowAt(const float* samples, const std::int64_t* first) 
 // Interpolates along w, z and y in four cells. `first` are the indices of the cells' first samples; y, z and w are the
 // positions in the cells, each position twice, once for each number of a pair.
 template <bool kGradient>
-OVAL4D_AVX2 inline void reduce(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
-                               const __m256& y, const __m256& z, const __m256& w, Reduced& out) {
+OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
+                                            const __m256& y, const __m256& z, const __m256& w,
+                                            InterpolatedAlongWzy& out) {
     Pairs rows[kRows];
     for (std::size_t row = 0; row < kRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
     Pairs v[4];  // at the lower and upper y of the lower z, then of the upper z
@@ -177,11 +178,13 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             prefetch(from.samples, offsets, next);
         }
         const __m256* const t = cells.t;
-        Reduced first, last;
-        reduce<kGradient>(from.samples, offsets, cells.first.data(), _mm256_permutevar8x32_ps(t[1], firstFour),
-                          _mm256_permutevar8x32_ps(t[2], firstFour), _mm256_permutevar8x32_ps(t[3], firstFour), first);
-        reduce<kGradient>(from.samples, offsets, cells.first.data() + 4, _mm256_permutevar8x32_ps(t[1], lastFour),
-                          _mm256_permutevar8x32_ps(t[2], lastFour), _mm256_permutevar8x32_ps(t[3], lastFour), last);
+        InterpolatedAlongWzy first, last;
+        interpolateAlongWzy<kGradient>(
+            from.samples, offsets, cells.first.data(), _mm256_permutevar8x32_ps(t[1], firstFour),
+            _mm256_permutevar8x32_ps(t[2], firstFour), _mm256_permutevar8x32_ps(t[3], firstFour), first);
+        interpolateAlongWzy<kGradient>(
+            from.samples, offsets, cells.first.data() + 4, _mm256_permutevar8x32_ps(t[1], lastFour),
+            _mm256_permutevar8x32_ps(t[2], lastFour), _mm256_permutevar8x32_ps(t[3], lastFour), last);
         Ends ends;
         split(first.value, last.value, ends);
         const __m256 value = mix(ends.low, ends.high, t[0]);

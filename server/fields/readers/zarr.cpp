@@ -193,7 +193,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
     auto axes = axesOf(options.axes, kept.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
-    const bool isTransformed = ofImage && ofImage->dimensions.size() == array.shape.size();
+    const bool imageStatesCoordinates = ofImage && ofImage->dimensions.size() == array.shape.size();
     const std::size_t slash = array.path.rfind('/');
     const std::string group = slash == std::string::npos ? "" : array.path.substr(0, slash + 1);
     struct CoordinateRange {
@@ -210,7 +210,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
         CfDimension each;
         CoordinateRange range{0, last, false};
         std::string unit;
-        if (isTransformed) {
+        if (imageStatesCoordinates) {
             const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];
             each.name = name;
             unit = text::printable(statedUnit, kMaxZarrText);
@@ -219,7 +219,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
             each.name = array.dimensionNames[i];
         }
         named = named || !each.name.empty();
-        if (!isTransformed && !each.name.empty() && !array.path.empty()) {
+        if (!imageStatesCoordinates && !each.name.empty() && !array.path.empty()) {
             if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
                 const auto ends = endsOfCoordinates(*at, each.name, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
@@ -253,11 +253,11 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     while (path.starts_with('/')) path.erase(0, 1);
     auto found = zarr.array(path);
     if (found && !*found && path.empty()) {
-        const auto choice = zarr.choose();
-        if (!choice) return choice.error();
-        path = choice->path;
-        if (choice->all.size() > 1) {
-            field.warnings.push_back("of " + std::to_string(choice->all.size()) + " arrays, " + text::inQuotes(path) +
+        const auto chosen = zarr.choose();
+        if (!chosen) return chosen.error();
+        path = chosen->path;
+        if (chosen->all.size() > 1) {
+            field.warnings.push_back("of " + std::to_string(chosen->all.size()) + " arrays, " + text::inQuotes(path) +
                                      " is shown");
         }
         found = zarr.array(path);
@@ -265,8 +265,8 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     if (!found) return found.error();
     if (!*found) {
         std::vector<std::string_view> names;
-        const auto choice = zarr.choose();
-        if (choice) names.assign(choice->all.begin(), choice->all.end());
+        const auto chosen = zarr.choose();
+        if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
         return Error{ErrorCode::out_of_range,
                      "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
     }

@@ -394,16 +394,16 @@ std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path
     return coordinates;
 }
 
-Result<ZarrFolder::Choice> ZarrFolder::choose() const {
+Result<ZarrFolder::ChosenArray> ZarrFolder::choose() const {
     const nlohmann::json attributes = groupAttributes();
-    Choice choice;
+    ChosenArray chosen;
     if (const nlohmann::json* const images = member(attributes, "multiscales");
         images != nullptr && images->is_array() && !images->empty()) {
         const nlohmann::json* const levels = member(images->front(), "datasets");
         if (levels != nullptr && levels->is_array() && !levels->empty()) {
-            for (const auto& level : *levels) choice.all.push_back(textIn(level, "path"));
-            choice.path = choice.all.front();
-            return choice;
+            for (const auto& level : *levels) chosen.all.push_back(textIn(level, "path"));
+            chosen.path = chosen.all.front();
+            return chosen;
         }
     }
     // The consolidated metadata contain the metadata of all arrays; only the paths of the arrays are used here.
@@ -438,15 +438,15 @@ Result<ZarrFolder::Choice> ZarrFolder::choose() const {
         const auto found = array(path);
         if (!found || !*found) continue;
         const ZarrArray& each = **found;
-        choice.all.push_back(path);
+        chosen.all.push_back(path);
         const std::string name = path.substr(path.rfind('/') + 1);
         const bool isCoordinate = each.shape.size() == 1 && each.dimensionNames == std::vector{name};
         if (isCoordinate || each.shape.size() <= dimensions) continue;
         dimensions = each.shape.size();
-        choice.path = path;
+        chosen.path = path;
     }
     if (dimensions == 0) return Error{ErrorCode::bad_field, "the Zarr group has no array that the server reads"};
-    return choice;
+    return chosen;
 }
 
 }  // namespace oval4d::fields

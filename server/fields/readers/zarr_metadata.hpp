@@ -59,15 +59,15 @@ class ZarrFolder {
     /// `unsupported_format`, `too_large`; `out_of_range` if the path leads out of the folder.
     Result<std::optional<ZarrArray>> array(const std::string& path) const;
 
-    /// The path of the array to read if none is requested, and the paths of all arrays that the group lists.
-    struct Choice {
+    /// The array of a group to read if none is requested.
+    struct ChosenArray {
         std::string path;
-        std::vector<std::string> all;
+        std::vector<std::string> all;  ///< the paths of all arrays that the group lists
     };
     /// Chooses an array to read if the folder is a group (see readZarr()). Errors: `unsupported_format` if the folder
     /// is neither an array nor a group; `out_of_range` if the group does not list its arrays; `bad_field` if none of
     /// them can be read.
-    Result<Choice> choose() const;
+    Result<ChosenArray> choose() const;
 
     /// Returns the coordinates of an array; an empty optional unless the folder is a multiscale image and the array is
     /// one of its levels.

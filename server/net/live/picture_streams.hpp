@@ -17,12 +17,12 @@
 #include "errors/error.hpp"
 #include "net/live/draft_timing.hpp"
 #include "net/live/held_session.hpp"
-#include "net/live/made_pictures.hpp"
 #include "net/live/motion_timing.hpp"
 #include "net/live/pacing.hpp"
 #include "net/live/peer.hpp"
 #include "net/live/pictures_in_progress.hpp"
 #include "net/live/snapshot.hpp"
+#include "net/live/snapshot_picture_cache.hpp"
 #include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
 #include "net/shared_bytes.hpp"
@@ -106,7 +106,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         std::uint64_t revision = 0;
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;
-        MadePictures::List pictures;
+        SnapshotPictureCache::List pictures;
         std::vector<FailedPicture> failed;
     };
 
@@ -145,7 +145,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     DraftTiming draftTiming_;
     MotionTiming motionTiming_;
     PicturesInProgress inProgress_;
-    MadePictures pictures_;  // kept while a client waits for a picture, else empty
+    SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
     SharedBytes stateText_;  // the `state` message of stateRevision_ in the dark scheme, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;

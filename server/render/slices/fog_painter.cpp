@@ -117,9 +117,9 @@ constexpr std::array<std::uint32_t, 36> kBoxTriangles{0, 4, 6, 0, 6, 2, 1, 3, 7,
 }  // namespace
 
 FogPainter::FogPainter()
-    : program_(
-          kVertexSource, kFragmentSource, sizeof(Corner),
-          std::to_array<Attribute>({{3, GL_FLOAT, offsetof(Corner, clip)}, {3, GL_FLOAT, offsetof(Corner, place)}})) {
+    : program_(kVertexSource, kFragmentSource, sizeof(BoxCorner),
+               std::to_array<Attribute>(
+                   {{3, GL_FLOAT, offsetof(BoxCorner, clip)}, {3, GL_FLOAT, offsetof(BoxCorner, place)}})) {
     const auto at = [&](const char* name) { return program_.uniform(name); };
     uniforms_ = {at("toDepth"), at("isBehind"), at("eye"),         at("walls"),       at("wallCount"),
                  at("low"),     at("size"),     at("latticeStep"), at("circumradius")};
@@ -207,7 +207,7 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     const SliceView view{*scene.slices, scene, toView_, slice};
     const SliceTransform transform(view);
     const glm::dvec3 reach = fog.step * glm::dvec3(fog.size - 1);
-    std::array<Corner, 8> corners{};
+    std::array<BoxCorner, 8> corners{};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 place = fog.min + reach * glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
         corners[static_cast<std::size_t>(i)] = {projection_.clipCoordinates(transform(place)), glm::vec3(place)};

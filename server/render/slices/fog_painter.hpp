@@ -56,7 +56,8 @@ class FogPainter {
     void freeMemory() { texels_ = blockTexels_ = {}; }
 
   private:
-    struct Corner {
+    // A corner of the box that the lattice of a slice fills; the box is drawn to run the shader for its pixels.
+    struct BoxCorner {
         glm::vec3 clip;   // clip coordinates x, y, w
         glm::vec3 place;  // in slice coordinates
     };

@@ -22,7 +22,7 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     DepthRange depths{std::numeric_limits<float>::max(), 0};
     for (const glm::vec3& point : points_) depths = {std::min(depths.from, -point.z), std::max(depths.to, -point.z)};
     float thickest = 0;
-    for (const scene::ProjectionPart& part : projection.parts)
+    for (const scene::ProjectionPartLook& part : projection.parts)
         thickest = std::max({thickest, static_cast<float>(part.ballRadius), static_cast<float>(part.barRadius)});
     out.depths = {std::max(depths.from - thickest, static_cast<float>(scene.camera.near)), depths.to + thickest};
 
@@ -44,7 +44,7 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 
 void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint32_t part) {
     const slicing::SliceSet& elements = scene.projection.elements;
-    const scene::ProjectionPart& look = scene.projection.parts[part];
+    const scene::ProjectionPartLook& look = scene.projection.parts[part];
     const auto add = [&](const Item& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
         // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. So faces must be
@@ -79,7 +79,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
 
 void ProjectionShapeCollector::addShape(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
     const slicing::SliceSet& elements = scene.projection.elements;
-    const scene::ProjectionPart& part = scene.projection.parts[item.part];
+    const scene::ProjectionPartLook& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];
     const auto opacity = [](Visibility visibility) { return static_cast<float>(slicing::opacityOf(visibility)); };
     if (item.kind == Kind::ball) {

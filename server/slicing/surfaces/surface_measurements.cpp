@@ -134,11 +134,11 @@ SurfaceParts findParts(const SliceSurface& surface, std::size_t level) {
     return result;
 }
 
-SurfaceMeasurements measureSurface(const ExactSurface& surface) {
+SurfaceMeasurements measureSurface(const ClosedSurface& surface) {
     return measureTriangles(std::span(surface.points), std::span(surface.triangles), surface.firstCap);
 }
 
-std::optional<double> meanOnSurface(const ExactSurface& surface, std::span<const float> values) {
+std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values) {
     double area = 0, sum = 0;
     for (std::size_t t = 0; t < surface.firstCap; ++t) {
         const auto& [a, b, c] = surface.triangles[t];

@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "slicing/exact/exact_surface.hpp"
+#include "slicing/closed_surfaces/closed_surface.hpp"
 #include "slicing/surfaces/slice_surface.hpp"
 
 namespace oval4d::slicing {
@@ -35,7 +35,7 @@ SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t leve
 /// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the
 /// function at the points of the surface; the function is treated as linear in each triangle. Ignores triangles with a
 /// value that is not finite. Returns std::nullopt if the area of the other triangles is 0.
-std::optional<double> meanOnSurface(const ExactSurface& surface, std::span<const float> values);
+std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values);
 
 /// The connected parts of the surface of one level.
 struct SurfaceParts {
@@ -52,7 +52,7 @@ struct SurfaceParts {
 /// Finds the connected parts of the surface of the level with the index `level`.
 SurfaceParts findParts(const SliceSurface& surface, std::size_t level);
 
-/// Measures the surface of an exact slice.
-SurfaceMeasurements measureSurface(const ExactSurface& surface);
+/// Measures a closed surface.
+SurfaceMeasurements measureSurface(const ClosedSurface& surface);
 
 }  // namespace oval4d::slicing

@@ -33,7 +33,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     load.variable = "a/b";
     load.secondFormula = "x*y";
     load.secondVariable = "a/c";
-    load.center = {geometry::Centering::Kind::point, {1, 2, 3, 4}};
+    load.center = {geometry::Centering::OriginChoice::point, {1, 2, 3, 4}};
     for (const bool hasBox : {false, true}) {
         if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
         std::string bytes;

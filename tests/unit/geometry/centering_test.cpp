@@ -32,20 +32,20 @@ TEST(Centering, OfAnObjectFarFromTheOriginIsItsCenter) {
 }
 
 TEST(Centering, IsWhatIsAskedFor) {
-    using Kind = Centering::Kind;
+    using OriginChoice = Centering::OriginChoice;
     const glm::dvec4 near(0.5, 0, 0, 0), far(0, 0, 50, 0), place(1, 2, 3, 4);
     for (const glm::dvec4& center : {near, far}) {
-        EXPECT_EQ(newOriginFor({Kind::object}, crossAt(center)), center);
-        EXPECT_EQ(newOriginFor({Kind::origin}, crossAt(center)), glm::dvec4(0));
-        EXPECT_EQ(newOriginFor({Kind::point, place}, crossAt(center)), place);
+        EXPECT_EQ(newOriginFor({OriginChoice::object}, crossAt(center)), center);
+        EXPECT_EQ(newOriginFor({OriginChoice::origin}, crossAt(center)), glm::dvec4(0));
+        EXPECT_EQ(newOriginFor({OriginChoice::point, place}, crossAt(center)), place);
     }
 }
 
 TEST(Centering, OfPointsWithoutExtentIsTheOriginUnlessAskedFor) {
     const Points one{{1, 2, 3, 4}, {1, 2, 3, 4}};
     EXPECT_EQ(newOriginFor({}, one), glm::dvec4(0));
-    EXPECT_EQ(newOriginFor({Centering::Kind::object}, one), one.front());
-    EXPECT_EQ(newOriginFor({Centering::Kind::object}, Points()), glm::dvec4(0));
+    EXPECT_EQ(newOriginFor({Centering::OriginChoice::object}, one), one.front());
+    EXPECT_EQ(newOriginFor({Centering::OriginChoice::object}, Points()), glm::dvec4(0));
 }
 
 // The center of the points is not a coordinate that a double represents exactly; nevertheless the differences from it

@@ -257,11 +257,11 @@ TEST(Load, ObjectsFarFromTheOriginTurnAboutTheirCenter) {
 }
 
 TEST(Load, ObjectsTurnAboutThePointThatIsAskedFor) {
-    using Kind = geometry::Centering::Kind;
+    using OriginChoice = geometry::Centering::OriginChoice;
     const glm::dvec4 center(10, 10, 0, 0), place(1, 2, 3, 4);
-    for (const auto& [wanted, origin] : {std::pair<geometry::Centering, glm::dvec4>{{Kind::object}, center},
-                                         {{Kind::origin}, glm::dvec4(0)},
-                                         {{Kind::point, place}, place}}) {
+    for (const auto& [wanted, origin] : {std::pair<geometry::Centering, glm::dvec4>{{OriginChoice::object}, center},
+                                         {{OriginChoice::origin}, glm::dvec4(0)},
+                                         {{OriginChoice::point, place}, place}}) {
         LoadObject load{"mine", "points", crossAt(center)};
         load.center = wanted;
         const auto read = readObject(load, Limits{});
@@ -271,7 +271,7 @@ TEST(Load, ObjectsTurnAboutThePointThatIsAskedFor) {
     }
     Session session;
     LoadObject formula{"mine", std::string(kFormula), "x"};
-    formula.center = {Kind::origin};
+    formula.center = {OriginChoice::origin};
     expectRefused(session, formula, ErrorCode::bad_message, "only polytopes and points take a center");
 }
 

@@ -49,7 +49,7 @@ inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed
         for (int j = 0; j < 4; ++j) text += std::to_string(coordinate(random)) + (j < 3 ? " " : "\n");
     }
     session::LoadObject load{name, "points", text};
-    if (seed % 2 == 1) load.center = {geometry::Centering::Kind::point, {0.5, 0, -0.25, 1}};
+    if (seed % 2 == 1) load.center = {geometry::Centering::OriginChoice::point, {0.5, 0, -0.25, 1}};
     return load;
 }
 

@@ -142,7 +142,7 @@ function drawAxes(
         pen.fill();
     };
     const axes = ([0, 1, 2] as const).map((i) => {
-        return { direction: viewCamera.axis(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
+        return { direction: viewCamera.worldAxisInCamera(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
     const digits = setFont(pen, Math.max(scene.text * viewport.height, leastText));

@@ -83,7 +83,7 @@ export class ViewCamera {
     }
 
     /** The world's x, y or z axis in camera coordinates. */
-    axis(i: 0 | 1 | 2): Vector3 {
+    worldAxisInCamera(i: 0 | 1 | 2): Vector3 {
         return new Vector3().setFromMatrixColumn(this.view, i);
     }
 

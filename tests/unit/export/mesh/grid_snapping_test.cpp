@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "slicing/exact/exact_slicer.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 #include "unit/export/support.hpp"
 #include "unit/slicing/field_support.hpp"
 
@@ -17,8 +17,8 @@ using namespace oval4d::support;
 using namespace oval4d::exports;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The exact surface of a random function has many points that are close together.
-slicing::ExactSurface waves(std::mt19937& random, int cells) {
+// The closed surface of a random function has many points that are close together.
+slicing::ClosedSurface waves(std::mt19937& random, int cells) {
     std::normal_distribution<double> normal;
     std::array<glm::dvec4, 4> waves{};
     double slope = 0;
@@ -32,8 +32,8 @@ slicing::ExactSurface waves(std::mt19937& random, int cells) {
         return sum;
     };
     const fields::Field field = slicing::testField(f, slope, {glm::dvec4(-1), glm::dvec4(1)});
-    slicing::ExactSurface surface;
-    slicing::ExactSlicer slicer(field, randomRotation(random), cells);
+    slicing::ClosedSurface surface;
+    slicing::ClosedSurfaceSlicer slicer(field, randomRotation(random), cells);
     EXPECT_TRUE(slicer.slice(0.1, {.level = 0.2}, surface));
     return surface;
 }
@@ -41,7 +41,7 @@ slicing::ExactSurface waves(std::mt19937& random, int cells) {
 TEST(GridSnapping, keepsSurfacesClosedManifolds) {
     std::mt19937 random(50);
     for (int trial = 0; trial < 6; ++trial) {
-        const slicing::ExactSurface surface = waves(random, 12);
+        const slicing::ClosedSurface surface = waves(random, 12);
         ASSERT_GT(surface.triangles.size(), 100U);
         std::vector<glm::dvec3> points;
         for (const glm::dvec3& point : surface.points) points.push_back(10.0 * point);

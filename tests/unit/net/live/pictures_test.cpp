@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "net/live/made_pictures.hpp"
 #include "net/live/pictures_in_progress.hpp"
+#include "net/live/snapshot_picture_cache.hpp"
 
 namespace oval4d::net {
 namespace {
@@ -23,10 +23,12 @@ SnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) 
     return snapshot;
 }
 
-MadePictures::List pictureOf(const StreamKey& key, const std::string& text) { return {{key, textMessage(text)}}; }
+SnapshotPictureCache::List pictureOf(const StreamKey& key, const std::string& text) {
+    return {{key, textMessage(text)}};
+}
 
-TEST(MadePictures, AreFoundByKindRevisionAndQuality) {
-    MadePictures pictures;
+TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
+    SnapshotPictureCache pictures;
     EXPECT_EQ(pictures.find(kFrames, 0, Quality::draft), nullptr);
     const SnapshotPtr draft = snapshotOf(3, Quality::draft);
     pictures.add(draft, pictureOf(kFrames, "frame"));
@@ -39,8 +41,8 @@ TEST(MadePictures, AreFoundByKindRevisionAndQuality) {
     EXPECT_EQ(pictures.find(3, Quality::full), nullptr);
 }
 
-TEST(MadePictures, NewerOnesReplaceOlderOnes) {
-    MadePictures pictures;
+TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {
+    SnapshotPictureCache pictures;
     pictures.add(snapshotOf(3), pictureOf(kFrames, "3"));
     pictures.add(snapshotOf(4, Quality::draft), pictureOf(kGeometry, "4"));
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);

@@ -140,9 +140,10 @@ TEST(Flatten, LeavesDistantPolytopesAsExactAsTheirCoordinatesAre) {
             for (const glm::dvec4& v : exact.vertices)
                 vertices.push_back(rotation(v) + distance * glm::dvec4(1, -2, 0, 1));
             const std::string text = write4Off(exact, vertices);
-            for (const auto kind : {geometry::Centering::Kind::origin, geometry::Centering::Kind::object}) {
+            for (const auto choice :
+                 {geometry::Centering::OriginChoice::origin, geometry::Centering::OriginChoice::object}) {
                 const Imported made =
-                    sound(importPolytope(FileFormat::off4, text, "p", {}, {.kind = kind, .place = {}}));
+                    sound(importPolytope(FileFormat::off4, text, "p", {}, {.choice = choice, .place = {}}));
                 EXPECT_EQ(made.warnings, std::vector<std::string>()) << name << " at " << distance;
                 EXPECT_EQ(countsOf(made.polytope), countsOf(exact));
                 EXPECT_LT(unevenness(made.polytope), std::max(4e-12, 1e-14 * distance));

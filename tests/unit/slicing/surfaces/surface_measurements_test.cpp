@@ -11,7 +11,7 @@ namespace oval4d::slicing {
 namespace {
 
 // Adds a cube with this corner and side, facing inward if `inward`.
-void addCube(ExactSurface& surface, const glm::dvec3& corner, double side, bool inward = false) {
+void addCube(ClosedSurface& surface, const glm::dvec3& corner, double side, bool inward = false) {
     const auto first = static_cast<std::uint32_t>(surface.points.size());
     for (int i = 0; i < 8; ++i) surface.points.push_back(corner + side * glm::dvec3(i & 1, i >> 1 & 1, i >> 2));
     constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces{
@@ -27,7 +27,7 @@ void addCube(ExactSurface& surface, const glm::dvec3& corner, double side, bool 
 }
 
 TEST(SurfaceMeasurements, OfACube) {
-    ExactSurface surface;
+    ClosedSurface surface;
     addCube(surface, {1, 2, 3}, 2);
     surface.firstCap = 10;  // one of its sides is a cap
     const auto measured = measureSurface(surface);
@@ -41,7 +41,7 @@ TEST(SurfaceMeasurements, OfACube) {
 }
 
 TEST(SurfaceMeasurements, CavitiesAreNoComponents) {
-    ExactSurface surface;
+    ClosedSurface surface;
     addCube(surface, {0, 0, 0}, 4);
     addCube(surface, {1, 1, 1}, 2, true);
     addCube(surface, {1.5, 1.5, 1.5}, 1);  // a body in the cavity
@@ -53,7 +53,7 @@ TEST(SurfaceMeasurements, CavitiesAreNoComponents) {
 }
 
 TEST(SurfaceMeasurements, OfNothing) {
-    const auto measured = measureSurface(ExactSurface{});
+    const auto measured = measureSurface(ClosedSurface{});
     EXPECT_EQ(measured.volume, 0);
     EXPECT_EQ(measured.components, 0U);
     EXPECT_EQ(measured.euler, 0);
@@ -62,7 +62,7 @@ TEST(SurfaceMeasurements, OfNothing) {
 }
 
 TEST(SurfaceMeasurements, OfOneLevelOfSeveral) {
-    ExactSurface cubes;
+    ClosedSurface cubes;
     addCube(cubes, {0, 0, 0}, 3);
     addCube(cubes, {1, 1, 1}, 1);
     SliceSurface surface;

@@ -1,4 +1,4 @@
-#include "slicing/exact/exact_slicer.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -31,7 +31,7 @@ constexpr std::array<CornerPermutation, 6> kWithFirstTwo{
 
 }  // namespace
 
-Result<std::monostate> ExactSlicer::slice(double w, const Options& options, ExactSurface& out) {
+Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& options, ClosedSurface& out) {
     out.clear();
     out_ = &out;
     options_ = options;
@@ -57,7 +57,7 @@ Result<std::monostate> ExactSlicer::slice(double w, const Options& options, Exac
 }
 
 // Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most a brick.
-void ExactSlicer::visit(const CellRange& range) {
+void ClosedSurfaceSlicer::visit(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
     if (++visits_ % kVisitsPerQuestion == 0 && options_.mustStop && options_.mustStop()) {
@@ -84,7 +84,7 @@ void ExactSlicer::visit(const CellRange& range) {
 // Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares bounds
 // of their heights with 0. The bounds and the heights are sums of four terms in the same order. Rounded sums are
 // monotone in each term, so no height is outside the bounds.
-bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
+bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const double first = heights_[axis][static_cast<std::size_t>(range.first[static_cast<int>(axis)])];
@@ -94,16 +94,16 @@ bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
     return (low[0] + low[1]) + (low[2] + low[3]) < 0 && (high[0] + high[1]) + (high[2] + high[3]) >= 0;
 }
 
-bool ExactSlicer::touchesBoundary(const CellRange& range) const {
+bool ClosedSurfaceSlicer::touchesBoundary(const CellRange& range) const {
     return glm::any(glm::equal(range.first, glm::ivec4(0))) ||
            glm::any(glm::equal(range.end, lattice_.pointCounts() - 1));
 }
 
-double ExactSlicer::valueOf(float sample) const {
+double ClosedSurfaceSlicer::signedValueOf(float sample) const {
     return std::isfinite(sample) ? sign_ * static_cast<double>(sample) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void ExactSlicer::cutBrick(const CellRange& range) {
+void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
     std::array<float, kBrickPoints> samples{};
     const glm::ivec4 size = range.end - range.first, points = size + 1;
     const glm::u64vec4 n(points);
@@ -124,7 +124,7 @@ void ExactSlicer::cutBrick(const CellRange& range) {
                         };
                         heights[corner] = (height(0) + height(1)) + (height(2) + height(3));
                         const int index = p.x + points.x * (p.y + points.y * (p.z + points.z * p.w));
-                        values[corner] = valueOf(samples[static_cast<std::size_t>(index)]);
+                        values[corner] = signedValueOf(samples[static_cast<std::size_t>(index)]);
                     }
                     cutCell(cell, heights, values);
                 }
@@ -133,8 +133,8 @@ void ExactSlicer::cutBrick(const CellRange& range) {
     }
 }
 
-void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights,
-                          const std::array<double, 16>& values) {
+void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights,
+                                  const std::array<double, 16>& values) {
     const unsigned inside = bitsOf(values, [&](double value) { return value < level_; });
     if (inside == 0) return;
     const bool atBoundary = touchesBoundary({cell, cell + 1});
@@ -174,7 +174,7 @@ void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights
 
 // All simplices with the same edge compute its crossing from the same numbers. The value is clamped to those of the
 // ends, so that in spite of rounding no crossing is inside if all corners of the cell are outside, or the reverse.
-void ExactSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
+void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = i + 1; j < 5; ++j) {
             if ((above >> i & 1U) == (above >> j & 1U)) continue;
@@ -190,7 +190,7 @@ void ExactSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
 
 // Adds the surface in a pentatope. `boundary` has bit i set if the facet opposite to corner i is on the boundary of the
 // domain.
-void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
+void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         const unsigned inside = bitsOf(
             tetrahedron.edges, [&](const PentatopeEdge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
@@ -206,11 +206,11 @@ void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned
 
 // Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to it if the pentatope on the
 // other side of this facet has values at all of its corners.
-void ExactSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
+void ClosedSurfaceSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
         return;
-    if (std::isnan(valueOf(lattice_.sample(other)))) return;
+    if (std::isnan(signedValueOf(lattice_.sample(other)))) return;
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         for (std::size_t face = 0; face < 4; ++face) {
             if (tetrahedron.facets[face] == hole) addCap(cut, tetrahedron, face, true);
@@ -219,7 +219,7 @@ void ExactSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t h
 }
 
 // Adds the level set in a tetrahedron: a triangle if one corner differs from the others, or a quadrilateral.
-void ExactSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
+void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
     const int count = std::popcount(inside);
@@ -241,8 +241,8 @@ void ExactSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron&
 
 // Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed`, its orientation is opposite to
 // that of the face.
-void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
-                         bool reversed) {
+void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
+                                 bool reversed) {
     std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];
     if (reversed) std::swap(corners[1], corners[2]);
     std::array<std::uint32_t, 4> loop{};
@@ -259,7 +259,7 @@ void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetr
 }
 
 // Returns the index of the point where the hyperplane crosses an edge. Adds the point if it is new.
-std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
+std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
     const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) out_->points.push_back(position(cut, edge));
     return number;
@@ -267,8 +267,8 @@ std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge&
 
 // Returns the index of the point of the level set between the crossings of two edges. Adds the point if it is new. The
 // crossing of `inner` must be inside, and the crossing of `outer` outside.
-std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
-                                        const PentatopeEdge& outer) {
+std::uint32_t ClosedSurfaceSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
+                                                const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
     const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, corners));
     if (isNew) {
@@ -279,7 +279,7 @@ std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const Pentatope
     return number;
 }
 
-glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const PentatopeEdge& edge) const {
+glm::dvec3 ClosedSurfaceSlicer::position(const CutPentatope& cut, const PentatopeEdge& edge) const {
     const auto corner = [&](std::size_t i) {
         const unsigned bits = cut.shape->corners[i];
         return glm::dvec3(
@@ -291,7 +291,7 @@ glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const PentatopeEdge& e
 // Returns a key of the simplex whose corners are the corners i of the pentatope for which bit i of `corners` is set.
 // The key contains the lattice index of the first corner and, for each other corner, the axes along which it is above
 // the first.
-std::uint64_t ExactSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
+std::uint64_t ClosedSurfaceSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
     const auto& chain = cut.shape->corners;
     const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];
     std::uint64_t key =

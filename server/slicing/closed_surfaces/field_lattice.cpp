@@ -1,4 +1,4 @@
-#include "slicing/exact/field_lattice.hpp"
+#include "slicing/closed_surfaces/field_lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

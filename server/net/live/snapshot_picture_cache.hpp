@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a session that have been made.
+// A cache of the newest snapshot of a session and its pictures.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace oval4d::net {
 
 /// The newest snapshot of a session, and the pictures that have been made of this snapshot. Each picture is made once,
 /// and sent to all clients with the same StreamKey. Not thread-safe.
-class MadePictures {
+class SnapshotPictureCache {
   public:
     using List = std::vector<std::pair<StreamKey, Message>>;
 

@@ -6,7 +6,7 @@ import { readStored, writeStored } from "./storage";
 const kModeKey = "oval4d.mode"; // storage key
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
-export class RenderingMode {
+export class RenderingModeSwitch {
     private chosen = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
 
     constructor(

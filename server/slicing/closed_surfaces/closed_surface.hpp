@@ -1,5 +1,5 @@
 #pragma once
-// The surface of an exact slice.
+// The closed surface of a body in a slice of a field.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace oval4d::slicing {
 
 /// The boundary of the body of one level (see fields::Inside) in one slice of a field: a closed surface, oriented
 /// outward.
-struct ExactSurface {
+struct ClosedSurface {
     std::vector<glm::dvec3> points;                       ///< in the units of the object
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise, seen from outside the body
     /// The index of the first triangle of the caps; the triangles before it form the level set. Caps close the surface

@@ -1,4 +1,4 @@
-#include "slicing/exact/kuhn_sections.hpp"
+#include "slicing/closed_surfaces/kuhn_sections.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,6 @@
 #pragma once
-// Exact slices of a field that is replaced by the piecewise linear interpolation of its values on a lattice.
+// Slices with closed surfaces of a field, which is replaced by the piecewise linear interpolation of its values on a
+// lattice.
 
 #include <array>
 #include <cstddef>
@@ -15,10 +16,10 @@
 #include "fields/field.hpp"
 #include "fields/inside.hpp"
 #include "geometry/rotation.hpp"
-#include "slicing/exact/exact_surface.hpp"
-#include "slicing/exact/field_lattice.hpp"
-#include "slicing/exact/key_numbering.hpp"
-#include "slicing/exact/kuhn_sections.hpp"
+#include "slicing/closed_surfaces/closed_surface.hpp"
+#include "slicing/closed_surfaces/field_lattice.hpp"
+#include "slicing/closed_surfaces/key_numbering.hpp"
+#include "slicing/closed_surfaces/kuhn_sections.hpp"
 
 namespace oval4d::slicing {
 
@@ -39,7 +40,7 @@ namespace oval4d::slicing {
 /// holes, and the body has caps there. Parts of the body that touch along an edge of a hole share this edge.
 ///
 /// Reuses its memory. Only one thread at a time may use a slicer.
-class ExactSlicer {
+class ClosedSurfaceSlicer {
   public:
     /// The default number of lattice cells along the longest side of the domain of a formula.
     static constexpr int kFormulaCells = 64;
@@ -55,13 +56,13 @@ class ExactSlicer {
 
     /// `cells` is the number of lattice cells along the longest side of the domain of a formula; it is ignored for an
     /// array. `field` must outlive this object.
-    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, int cells = kFormulaCells)
+    ClosedSurfaceSlicer(const fields::Field& field, const geometry::Rotation& orientation, int cells = kFormulaCells)
         : lattice_(field, orientation, cells) {}
 
     /// Slices the rotated field by the hyperplane at `w`. Overwrites `out`, which is incomplete after an error. Error:
     /// `too_large` if there are more than Options::maxTriangles triangles, or if `mustStop` returns true. Throws what
     /// `mustStop` throws.
-    Result<std::monostate> slice(double w, const Options& options, ExactSurface& out);
+    Result<std::monostate> slice(double w, const Options& options, ClosedSurface& out);
 
     /// Returns the lattice on which the field is sampled.
     const FieldLattice& lattice() const { return lattice_; }
@@ -106,7 +107,7 @@ class ExactSlicer {
     std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);
     glm::dvec3 position(const CutPentatope& cut, const PentatopeEdge& edge) const;
     std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
-    double valueOf(float sample) const;
+    double signedValueOf(float sample) const;
 
     FieldLattice lattice_;
     // The state of the current slice. If the body is above the level, values and level are negated, so that the body is
@@ -118,7 +119,7 @@ class ExactSlicer {
     std::size_t visits_ = 0;
     KeyNumbering numbers_;
     std::vector<Triangle> caps_;
-    ExactSurface* out_ = nullptr;
+    ClosedSurface* out_ = nullptr;
 };
 
 }  // namespace oval4d::slicing

@@ -1,4 +1,4 @@
-#include "slicing/exact/exact_slicer.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -41,8 +41,8 @@ fields::Field formula(std::string_view text, const fields::Box& box) {
     return std::move(*field);
 }
 
-ExactSurface exactSlice(ExactSlicer& slicer, double w, double level, Inside inside = Inside::below) {
-    ExactSurface surface;
+ClosedSurface exactSlice(ClosedSurfaceSlicer& slicer, double w, double level, Inside inside = Inside::below) {
+    ClosedSurface surface;
     const auto done = slicer.slice(w, {.level = level, .inside = inside}, surface);
     EXPECT_TRUE(done);
     return surface;
@@ -138,7 +138,7 @@ std::vector<double> breakpoints(const std::vector<Cut>& simplices, double level)
 
 // The integral of the slices' volumes over w is the 4-volume of the body, which follows from the volumes of the
 // simplices. Gauss's formula with two points is exact for polynomials of degree 3.
-TEST(ExactSlicer, VolumesAddUpToThatOfTheBody) {
+TEST(ClosedSurfaceSlicer, VolumesAddUpToThatOfTheBody) {
     std::mt19937 random(30);
     for (int trial = 0; trial < 8; ++trial) {
         const fields::Field field = randomArray({3, 2, 3, 2}, {glm::dvec4(-1, 0, 0.5, -2), glm::dvec4(1, 1.5, 2, 1)},
@@ -148,13 +148,13 @@ TEST(ExactSlicer, VolumesAddUpToThatOfTheBody) {
         const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
         const auto simplices = simplicesOf(field, orientation);
         const std::vector<double> ws = breakpoints(simplices, level);
-        ExactSlicer slicer(field, orientation);
+        ClosedSurfaceSlicer slicer(field, orientation);
         double sum = 0;
         for (std::size_t i = 1; i < ws.size(); ++i) {
             const double half = (ws[i] - ws[i - 1]) / 2, middle = (ws[i] + ws[i - 1]) / 2;
             if (half < 1e-12) continue;
             for (const double side : {-1.0, 1.0}) {
-                const ExactSurface surface =
+                const ClosedSurface surface =
                     exactSlice(slicer, middle + side * half / std::numbers::sqrt3, level, inside);
                 EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
                 sum += half * measureSurface(surface).volume;
@@ -167,7 +167,7 @@ TEST(ExactSlicer, VolumesAddUpToThatOfTheBody) {
 }
 
 // Sums of waves on small lattices, of which the surfaces have many components and tunnels.
-TEST(ExactSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
+TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
     std::mt19937 random(31);
     std::uniform_int_distribution<std::size_t> samples(2, 6);
     std::size_t triangles = 0;
@@ -176,12 +176,12 @@ TEST(ExactSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
         const bool holes = trial % 4 == 3;
         const fields::Field field =
             randomArray(shape, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)}, random, holes ? 0.05 : 0);
-        ExactSlicer slicer(field, trial % 5 == 0 ? geometry::Rotation() : support::randomRotation(random));
+        ClosedSurfaceSlicer slicer(field, trial % 5 == 0 ? geometry::Rotation() : support::randomRotation(random));
         for (const double level : {-0.5, 0.0, 0.4}) {
             // w = 0 is in the middle of the lattice, and often contains lattice points.
             for (const double w : {-0.3, 0.0, 0.7}) {
                 const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
-                const ExactSurface surface = exactSlice(slicer, w, level, inside);
+                const ClosedSurface surface = exactSlice(slicer, w, level, inside);
                 triangles += surface.triangles.size();
                 EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U) << "trial " << trial;
                 if (!holes) {
@@ -197,12 +197,12 @@ TEST(ExactSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
 }
 
 // What is below a level and what is above it fill the domain together.
-TEST(ExactSlicer, BothSidesOfALevelFillTheDomain) {
+TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
     std::mt19937 random(32);
     const fields::Field field = randomArray({4, 5, 3, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
     for (int trial = 0; trial < 20; ++trial) {
         const geometry::Rotation orientation = trial == 0 ? geometry::Rotation() : support::randomRotation(random);
-        ExactSlicer slicer(field, orientation);
+        ClosedSurfaceSlicer slicer(field, orientation);
         const double w = std::uniform_real_distribution<double>(-0.9, 0.9)(random);
         const auto below = measureSurface(exactSlice(slicer, w, 0.1, Inside::below));
         const auto above = measureSurface(exactSlice(slicer, w, 0.1, Inside::above));
@@ -220,7 +220,7 @@ TEST(ExactSlicer, BothSidesOfALevelFillTheDomain) {
     }
 }
 
-TEST(ExactSlicer, ConstantAndSmallFields) {
+TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
     const auto constant = [](float value, const fields::Shape& shape) {
         auto function = std::make_shared<const fields::ArrayFunction>(
             shape, fields::Box{}, fields::Samples(std::vector<float>(fields::sampleCount(shape), value)));
@@ -231,7 +231,7 @@ TEST(ExactSlicer, ConstantAndSmallFields) {
     for (const fields::Shape& shape :
          {fields::Shape{2, 2, 2, 2}, fields::Shape{1, 1, 1, 1}, fields::Shape{9, 1, 3, 2}}) {
         const fields::Field field = constant(0.5F, shape);
-        ExactSlicer slicer(field, {});
+        ClosedSurfaceSlicer slicer(field, {});
         EXPECT_NEAR(measureSurface(exactSlice(slicer, 0, 1)).volume, 8, 1e-12);
         EXPECT_TRUE(exactSlice(slicer, 0, 0.5).triangles.empty()) << "a value on the level is outside";
         EXPECT_TRUE(exactSlice(slicer, 0, 0.5, Inside::above).triangles.empty());
@@ -241,12 +241,12 @@ TEST(ExactSlicer, ConstantAndSmallFields) {
         EXPECT_NEAR(measureSurface(exactSlice(slicer, 1, 1)).volume, 8, 1e-12);
     }
     const fields::Field nothing = constant(NAN, {3, 3, 3, 3});
-    ExactSlicer slicer(nothing, {});
+    ClosedSurfaceSlicer slicer(nothing, {});
     EXPECT_TRUE(exactSlice(slicer, 0, 1).triangles.empty());
 }
 
 // A lattice of which one sample has no value: the pentatopes around it are missing.
-TEST(ExactSlicer, HolesHaveCaps) {
+TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
     std::vector<float> samples(5 * 5 * 5 * 5, -1);
     samples[2 + 5 * (2 + 5 * (2 + 5 * 2))] = NAN;
     const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
@@ -254,8 +254,8 @@ TEST(ExactSlicer, HolesHaveCaps) {
                                                                   fields::Samples(std::move(samples)));
     fields::Field field = fields::makeField("hole", function, box);
     field.array = function;
-    ExactSlicer slicer(field, {});
-    const ExactSurface surface = exactSlice(slicer, 0.25, 0);
+    ClosedSurfaceSlicer slicer(field, {});
+    const ClosedSurface surface = exactSlice(slicer, 0.25, 0);
     EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
     EXPECT_EQ(surface.firstCap, 0U);
     const auto measured = measureSurface(surface);
@@ -265,7 +265,7 @@ TEST(ExactSlicer, HolesHaveCaps) {
     EXPECT_GT(measured.volume, 56);  // the hole is within 8 cells
 }
 
-TEST(ExactSlicer, EllipsoidsConverge) {
+TEST(ClosedSurfaceSlicer, EllipsoidsConverge) {
     // x²/a² + y²/b² + z²/c² + w²/d² < 1, rotated: the slice at w is an ellipsoid of the 3-volume
     // 4/3 π abcd/h (1 − w²/h²)^(3/2), with h, the extent along w.
     const glm::dvec4 axes(0.9, 0.7, 0.8, 0.6);
@@ -280,7 +280,7 @@ TEST(ExactSlicer, EllipsoidsConverge) {
                                 std::pow(1 - w * w / (extent * extent), 1.5);
         std::array<double, 3> errors{};
         for (std::size_t i = 0; i < 3; ++i) {
-            ExactSlicer slicer(field, orientation, 12 << i);
+            ClosedSurfaceSlicer slicer(field, orientation, 12 << i);
             const auto measured = measureSurface(exactSlice(slicer, w, 0));
             EXPECT_EQ(measured.euler, 2);
             EXPECT_EQ(measured.components, 1U);
@@ -293,13 +293,13 @@ TEST(ExactSlicer, EllipsoidsConverge) {
     }
 }
 
-TEST(ExactSlicer, TheInteractiveSurfacesConvergeToIt) {
+TEST(ClosedSurfaceSlicer, TheInteractiveSurfacesConvergeToIt) {
     const fields::Field field = formula("(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 < 0.09",
                                         {glm::dvec4(-1.5, -1.5, -0.9, -1.2), glm::dvec4(1.5, 1.2, 1.2, 1.2)});
     std::mt19937 random(34);
     const geometry::Rotation orientation = support::randomRotation(random);
     const geometry::Hyperplanes planes{-2, 5, 0.2, 0.03};
-    ExactSlicer exact(field, orientation, 96);
+    ClosedSurfaceSlicer exact(field, orientation, 96);
     SliceSet slices;
     SurfaceDetail detail;
     setEvenDetail(field.circumradius, planes, Quality::file, detail);
@@ -318,7 +318,7 @@ TEST(ExactSlicer, TheInteractiveSurfacesConvergeToIt) {
 }
 
 // The object's axes may be any linear images of the function's.
-TEST(ExactSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
+TEST(ClosedSurfaceSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
     std::mt19937 random(35);
     fields::Field field = randomArray({4, 4, 4, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
     glm::dmat4 sheared(1);
@@ -328,7 +328,7 @@ TEST(ExactSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
     const geometry::Rotation orientation = support::randomRotation(random);
     const auto simplices = simplicesOf(field, orientation);
     const std::vector<double> ws = breakpoints(simplices, 0);
-    ExactSlicer slicer(field, orientation);
+    ClosedSurfaceSlicer slicer(field, orientation);
     double sum = 0;
     constexpr int kSlices = 400;
     for (int i = 0; i < kSlices; ++i) {
@@ -338,11 +338,11 @@ TEST(ExactSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
     EXPECT_NEAR(sum / bodyVolume(simplices, 0, Inside::below), 1, 1e-4);
 }
 
-TEST(ExactSlicer, IsBoundedAndCancelable) {
+TEST(ClosedSurfaceSlicer, IsBoundedAndCancelable) {
     std::mt19937 random(36);
     const fields::Field field = randomArray({12, 12, 12, 12}, {glm::dvec4(-1), glm::dvec4(1)}, random);
-    ExactSlicer slicer(field, support::randomRotation(random));
-    ExactSurface surface;
+    ClosedSurfaceSlicer slicer(field, support::randomRotation(random));
+    ClosedSurface surface;
     auto done = slicer.slice(0, {.maxTriangles = 1000}, surface);
     ASSERT_FALSE(done);
     EXPECT_NE(done.error().message.find("1000 triangles"), std::string::npos);
