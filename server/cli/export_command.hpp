@@ -1,5 +1,6 @@
 #pragma once
-// The subcommand `oval4d export`: writes a file with one slice or with all slices, without a server.
+// The subcommand `oval4d export`: writes a file for other programs, such as a solid body of a slice or a drawing,
+// without a server. The option --of chooses the content (see exports::ExportContents).
 
 #include <string>
 

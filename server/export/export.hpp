@@ -25,7 +25,7 @@ struct ExportedFile {
 /// Returns a file with the slices of `scene` or with a drawing of it. The slices must have been cut from `object`
 /// rotated by `orientation`. `scene` must meet a requirement for some values of ExportRequest::contents:
 /// - focus: it contains only the focus slice.
-/// - oval: it is laid out for the oval view.
+/// - oval: its view shows all slices (see scene::showsAllSlices()).
 /// - highlight: its Look::highlight is the element to export, and its only slice is this element
 /// (see slicing::writeElementAsSlice()).
 /// - projection: for a drawing, it shows the projection; for bodies, its only slice is the projection.

@@ -113,8 +113,8 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
     return radii;
 }
 
-// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex, their edges are equally
-// long, and so are all other edges of the cell.
+// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex; the edges of both have one
+// length; and all other edges of the cell have one length, which may be another.
 bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };

@@ -44,9 +44,9 @@ struct Measures {
     }
 };
 
-// Measures cells; all of them in time linear in the size of the polytope. measure() marks the vertices of the cell with
-// a number that no other cell has. The mark of a vertex shows, without a search, whether the vertex has already been
-// visited in this cell.
+// Measures cells. Measuring all cells takes time linear in the size of the polytope. measure() marks the vertices of
+// the cell with a number that no other cell has. The mark of a vertex shows, without a search, whether the vertex has
+// already been visited in this cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}

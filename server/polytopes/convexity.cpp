@@ -56,7 +56,7 @@ class ConvexityTest {
     }
 
     // Finds the foot of the perpendicular from center_ to each cell's hyperplane. Returns false if the points of a cell
-    // do not span a hyperplane, or if its hyperplane contains center_.
+    // do not span a hyperplane, or if the hyperplane of a cell contains center_.
     bool findHyperplanes() {
         for (std::size_t c = 0; c < p_.cellCount(); ++c) {
             points_.clear();

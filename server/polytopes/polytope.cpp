@@ -129,8 +129,8 @@ class Orienter {
         }
     }
 
-    // Propagates the sign of one 2-face, which is already set, to the whole cell. Returns false if the cell was
-    // oriented before.
+    // Sets the signs of all 2-faces of the cell to agree with the sign of one of them, which must be set already.
+    // Returns false if the cell was oriented before.
     bool orientCell(std::uint32_t cell) {
         if (done_[cell]) return false;
         done_[cell] = true;

@@ -23,7 +23,8 @@ struct DrawRequest {
     /// The serial number of State::source. The object itself is sent in another message, and only if the process does
     /// not have it.
     std::uint64_t source = 0;
-    /// The serial number of State::object, which the process derives from the source and the frame of reference.
+    /// The serial number of State::object. This object is never sent: the process makes it from the source and the
+    /// frame of reference.
     std::uint64_t object = 0;
     /// Of its members, only those that affect pictures are sent. The objects are not part of the message.
     session::State state;

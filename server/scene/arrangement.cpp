@@ -17,8 +17,9 @@ constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, 
 
 constexpr double kLineStep = 2.12;     // between neighboring slices in a row or column, in radii of slices with balls
 constexpr double kLineDistance = 4;    // from the eye to a row or column, in half lengths: nearly a parallel projection
-constexpr double kRowFocusDrop = 1.4;  // from the labels of a row down to that of the focus slice, in heights of text
-// From the labels of a column to the right to that of the focus slice, in heights of text: room for its wider plate.
+constexpr double kRowFocusDrop = 1.4;  // the label of the focus slice is this far below the others, in heights of text
+// In a column, the label of the focus slice is this far to the right of the others, in heights of text, because its
+// plate is wider.
 constexpr double kColumnFocusDrop = 0.8;
 constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
 

@@ -23,8 +23,8 @@ struct Arrangement {
     double pitch = 0, distance = 1;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
     double reach = 1;        ///< the radius of a slice with its balls
-    /// Whether the layout keeps the slices and the projection beside the symbol of the axes. Otherwise they may overlap
-    /// it.
+    /// Whether the layout keeps the slices and the projection beside the symbol of the axes. Otherwise the slices and
+    /// the projection may overlap the symbol.
     bool isClearOfAxes = false;
     bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
     /// The direction from a slice to its label: a downward vector of this length is added to the unit vector away from
@@ -34,9 +34,9 @@ struct Arrangement {
     double focusLabelDrop = 0;  ///< how much farther away the label of the focus slice is, in heights of text
     /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
     bool labelsAreBeside = false;
-    /// If not 0, labels shrink, so that this many fit side by side into the width of the room. If they are beside the
-    /// slices, all of them shrink, and the gap between slice and label is a part of this width. Otherwise, the label of
-    /// the focus slice, which is below the others, keeps its size.
+    /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
+    /// column. Labels beside the slices all shrink, and must leave room in the column for the gap between slice and
+    /// label. Otherwise, the label of the focus slice keeps its size, because it is below the others.
     int labelColumns = 0;
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
@@ -45,7 +45,7 @@ struct Arrangement {
     /// Returns an upper bound of the distance from the focus slice to the first and to the last slice.
     double extent() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
-    /// assumed to lie. Unless the slices stand one behind the other, it is 1. On a parabola, it is the radius of the
+    /// assumed to lie. In a row, a column or a single place, this radius is 1. On a parabola, it is the radius of the
     /// slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice only
     /// touch this sphere; the parabola has just enough room for such slices.
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }

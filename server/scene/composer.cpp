@@ -14,8 +14,8 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Writes to `out`, for each of `elements`, the cell that determines its color. Leaves `out` empty if the sources of all
-// elements are cells, because these cells then determine the colors.
+// Writes to `out`, for each of `elements`, the cell that determines the color of the element. If the source of every
+// element is a cell, this cell determines the color, and `out` stays empty.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {

@@ -107,7 +107,7 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
             (box.center.y < bottom + box.half.y || overlap(box, axes) || isOverSlice(i, box, camera, toView, aspect)))
             return false;
         // The labels of slices nearer to the focus slice are decided before this one, and so is the label at the same
-        // distance if its index is less. This label must not overlap those of them that are kept.
+        // distance if its index is less. Some of these labels are removed; this label must not overlap the others.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

@@ -22,8 +22,8 @@ struct SlicePlacement {
     double w = 0;            ///< the w of the hyperplane, in the object's coordinates
     glm::dvec3 position{0};  ///< the position of the slice's origin
     /// The text of the label, with w in the coordinates of the object's file: "−0.25"; for the focus slice, "w =
-    /// −0.25", followed by a comma and the name of the section if it has a name for which there is room. Empty if the
-    /// label is not shown.
+    /// −0.25", followed by a comma and the name of the section, if the section has a name and there is room for it.
+    /// Empty if the label is not shown.
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
     double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight

@@ -111,7 +111,7 @@ struct CellTypeFilter {
 };
 
 /// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; positive
-/// values move it to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
+/// values move the camera to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
     static constexpr geometry::Range kAngleRange{-1000, 1000};  ///< of `azimuth` and `elevation`
     static constexpr geometry::Range kZoomRange{0.05, 20};

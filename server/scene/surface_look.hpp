@@ -52,8 +52,8 @@ struct SurfaceLook {
                                      ///< empty
     PointColoring pointColoring = PointColoring::none;  ///< for the points of level sets
     PointColoring capColoring = PointColoring::none;    ///< for the points of caps: none or value
-    ValueScale scale;                                   ///< valid if a member above is PointColoring::value
-    Scheme scheme = Scheme::dark;                       ///< of all colors
+    ValueScale scale;              ///< valid if one of the two members above is PointColoring::value
+    Scheme scheme = Scheme::dark;  ///< of all colors
 
     /// Removes all levels, so that no surfaces are shown.
     void clear() {

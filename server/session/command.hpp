@@ -85,13 +85,15 @@ struct LoadObject {
 /// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
 class PlainSettings {
   public:
-    /// Returns the value of a setting; an empty optional if there is none. `Value` must be the type that the value has
-    /// in a State, and `name` a constant of the program.
+    /// Returns a reference to the value of a setting, through which the caller may set it; it is an empty optional
+    /// until then. `Value` must be the type that the value has in a State. `name` must be a constant of the program,
+    /// because this object stores only a reference to its characters.
     template <typename Value>
     std::optional<Value>& of(std::string_view name) {
         std::any& value = values_.try_emplace(name, std::optional<Value>()).first->second;
         return std::any_cast<std::optional<Value>&>(value);
     }
+    /// Returns the value of a setting; an empty optional if it is not set.
     template <typename Value>
     const std::optional<Value>& of(std::string_view name) const {
         static const std::optional<Value> none;

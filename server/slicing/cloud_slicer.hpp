@@ -19,9 +19,9 @@ double relativeBallRadius(const geometry::PointCloud& cloud);
 /// is half the spacing of the hyperplanes; a distance greater than 1 counts as 1.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
-/// Slices point clouds. Each point belongs to the nearest hyperplane, unless this is more than half a spacing away; a
-/// point halfway between two hyperplanes belongs to the upper one. But if the hyperplanes are listed (see
-/// Hyperplanes::listed), a point belongs to every hyperplane within half a spacing. The slice shows the point as a
+/// Slices point clouds. Each point belongs to the nearest hyperplane, or to none if the nearest one is more than half a
+/// spacing away; a point halfway between two hyperplanes belongs to the upper one. But if the hyperplanes are listed
+/// (see Hyperplanes::listed), a point belongs to every hyperplane within half a spacing. The slice shows the point as a
 /// ball, whose opacity decreases linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. Only
 /// one thread at a time may use a slicer.
 class CloudSlicer {

@@ -40,7 +40,8 @@ class CoincidingEdges {
   private:
     std::uint32_t edges_ = 0;
     bool any_ = false;
-    // Valid only if any_. Per edge: an edge with a smaller index that coincides with it, or else the edge itself.
+    // Per edge: an edge with a smaller index that coincides with this edge, if there is one; else the edge itself.
+    // Valid only if any_ is true.
     std::vector<std::uint32_t> first_;
 };
 

@@ -35,8 +35,8 @@ class ConvexSlicer {
     struct HalfOfPlanes {
         Sweep sweep;
         std::vector<std::int32_t> below;  // like PlanesBelowVertices::below, but counts only hyperplanes of this half
-        SliceCounts end;                  // before sweep.cut(), where this half begins in the output; then its end
-        bool sound = false;               // what the last call of sweep.begin() or sweep.cut() returned
+        SliceCounts end;     // where the slices of this half end in the output; before sweep.cut(), where they begin
+        bool sound = false;  // what the last call of sweep.begin() or sweep.cut() returned
     };
     bool cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
 

@@ -55,8 +55,8 @@ class DegeneracyCollapse {
 
     PlanesBelowVertices planesBelow_;
     int plane_ = 0;
-    // Per vertex or edge of the polytope: its index in the slice if it lies in the hyperplane; kNone if it has no index
-    // yet.
+    // Per vertex or edge of the polytope: its index in the slice by the hyperplane in which it lies; kNone if it lies
+    // in no hyperplane, or as long as it has no index.
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;
     // Per vertex or edge of the slice before the collapse: its index afterward; kNone for an edge that was removed.
     std::vector<std::uint32_t> newVertex_, newEdge_;

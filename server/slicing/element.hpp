@@ -84,7 +84,8 @@ void findSourcesShowing(const Object& object, const Element& element, PartsShowi
 /// The center and the size of an element.
 struct ElementMeasurements {
     std::optional<double> length;  ///< of an edge; empty for other elements
-    /// Of a 2-face, and of a cell; empty for other elements. A region that a star encloses n times counts n times.
+    /// The area of a 2-face, and the volume of a cell; empty for other elements. A region that a star encloses n times
+    /// counts n times.
     std::optional<double> area, volume;
     glm::dvec4 center{0};  ///< the mean of the element's vertices
 };

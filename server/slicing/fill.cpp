@@ -50,7 +50,7 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
             const glm::dvec2 a = onPlane(points_[first + i]);
             const glm::dvec2 b = onPlane(points_[first + (i + 1) % size]);
             // The inside is to the left of a side that goes up, so the winding number decreases from left to right
-            // across it.
+            // across such a side.
             const double slope = (b.x - a.x) / (b.y - a.y);
             if (a.y < b.y) sides_.push_back({a, b, slope, -1, 0, 0, 0});
             if (a.y > b.y) sides_.push_back({b, a, slope, 1, 0, 0, 0});

@@ -1,8 +1,9 @@
 #pragma once
-// The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new
-// kind needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
+// The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new kind
+// needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
 // session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions.
-// Some of it also asks whether an object is a point cloud or a field (fieldIn()); only fields have levels and fog.
+// Some of this code also asks whether an object is a point cloud or a field (fieldIn()); only fields have levels and
+// fog.
 
 #include <array>
 #include <cstddef>
@@ -97,9 +98,9 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
-/// of the object's own vertices, with ObjectInfo::originInFile added to each. Therefore importing the file gives the
-/// polytope turned about its origin. The file of a point cloud has only vertices; the file of a field contains the
-/// domain.
+/// of the object's own vertices. ObjectInfo::originInFile, the point of the object's file that is the origin of the
+/// object, is added to each of them. Therefore an import of the new file gives the polytope as in the object's file,
+/// turned about this point. The file of a point cloud has only vertices; the file of a field contains the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

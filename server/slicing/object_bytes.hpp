@@ -30,8 +30,8 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 /// vertices, 2-faces, cells and cell types; for a cloud, the points and radii; for both, also ObjectInfo::originInFile.
 /// For a field, these are the functions (formulas or samples) and the domain.
 ///
-/// The samples of an array are written inline if they are not in a file, or if the object then has at most
-/// `maxInMemory` inline samples in total. Otherwise a reference to their file is written, and the file is added to
+/// The samples of an array are written inline if they are not in a file, or if the object has at most `maxInMemory`
+/// inline samples in total, these included. Otherwise a reference to their file is written, and the file is added to
 /// `files` if it is not there yet.
 void writeParts(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
                 std::size_t maxInMemory = fields::kMaxSamples);

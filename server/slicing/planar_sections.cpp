@@ -36,7 +36,7 @@ glm::dvec4 unitVector(int axis) {
 }  // namespace
 
 // A plane is the intersection of two hyperplanes. The object is cut by the first hyperplane, and the resulting slice by
-// the second. If the plane lies in a hyperplane w = const, this is the first one.
+// the second. If the plane lies in a hyperplane w = const, this hyperplane is the first one.
 void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                          const glm::dvec4& point, PlanarSections& out) {
     // For a first hyperplane z = const or y = const, the object is cut after z or y has been rotated to w.
@@ -89,7 +89,7 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
         return;
     }
     // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. So a slice that only
-    // touches the hyperplane has a section, too, on whichever side it lies.
+    // touches the hyperplane has a section, too, on whichever side of the hyperplane the slice lies.
     zeroIsAbove_ = anyBelow;
     cutEdges(slices, slice, static_cast<std::uint32_t>(elementCounts(object)[2]), axis, point[axis], out);
     cutFaces(slices, slice, out);
@@ -140,7 +140,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
 }
 
 // Adds the edges in which the hyperplane cuts the slice's faces. The loops that were cut from one cell form one face.
-// It contains the points around which the sum of the winding numbers of these loops is not 0 (as in FilledFaces).
+// This face contains the points around which the sum of the winding numbers of these loops is not 0 (as in
+// FilledFaces).
 void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& out) {
     const std::uint32_t begin = slices.faceBegin[slice], end = slices.faceBegin[slice + 1];
     const auto isAbove = [&](std::uint32_t v) { return distance_[v] > 0 || (distance_[v] == 0 && zeroIsAbove_); };

@@ -49,8 +49,8 @@ class PlanarSlicer {
     /// Cuts `object`, rotated by `orientation`, by the six planes through `point`. `slices` must have been cut from the
     /// rotated object, and the hyperplane of slice number `slice` must contain `point`. Each plane is the intersection
     /// of two hyperplanes: the first cuts the object, and the second cuts the resulting slice. The section of a point
-    /// cloud contains the points whose distance from each of the two is at most half the spacing of `slices`.
-    /// Overwrites `out` and reuses its memory.
+    /// cloud contains the points whose distance from each of the two hyperplanes is at most half the spacing of
+    /// `slices`. Overwrites `out` and reuses its memory.
     void slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                const glm::dvec4& point, PlanarSections& out);
 

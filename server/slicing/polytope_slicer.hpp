@@ -113,15 +113,15 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> sliceEdgeOf_;   // per edge that lies in a hyperplane: its slice edge
     std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
     std::vector<std::uint32_t> faceCrossingBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;     // per element: the hyperplanes that have vertices of it on both sides
+    std::vector<Span> faceSpan_, cellSpan_;     // per 2-face or cell: the hyperplanes between two of its vertices
     std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
     CoincidingEdges coinciding_;                // per slice edge
     // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
-    // it. next_ is kNone for a slot that has no next slot or has already been traced.
+    // this next slot. next_ is kNone for a slot that has no next slot or has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
-    // The slots that have a next slot in the current cell, each with its hyperplane. The tracing of loops starts at
-    // them.
+    // The slots that have a next slot in the current cell, each with the index of its hyperplane. The tracing of loops
+    // starts at these slots.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be the whole slice in it
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face

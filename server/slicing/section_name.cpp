@@ -14,10 +14,11 @@
 #include "slicing/overloaded.hpp"
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
-// which do not depend on the orientation. For a slice, the numbers of edges and faces and the lengths of the edges are
-// compared, too: if the edges are those of the convex hull of the vertices, and the number of faces is that of the
-// hull, the slice is the hull. The distances also distinguish polyhedra with the same faces and the same circumradius,
-// such as the cuboctahedron and the triangular orthobicupola (Johnson's J27).
+// which do not depend on the orientation. These distances suffice for nameOfVertices(), which names a convex hull. A
+// slice, however, need not be the convex hull of its vertices. It is the hull if it has the edges of the hull and
+// equally many faces. Therefore nameOfSlice() also compares the number and the lengths of the edges, and the number of
+// faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as the
+// cuboctahedron and the triangular orthobicupola (Johnson's J27).
 
 namespace oval4d::slicing {
 

@@ -16,7 +16,8 @@
 
 namespace oval4d::slicing {
 
-/// The names of a section.
+/// The two names of the section of an object by a hyperplane. They may differ, because the slice also has vertices
+/// where edges of the object cross the hyperplane.
 struct SectionNames {
     std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
     std::string_view vertices;  ///< the result of SectionNamer::nameOfVertices()
@@ -29,10 +30,11 @@ struct SectionNames {
 /// antiprisms of these polygons, and the rhombic dodecahedron, which is the middle section of the vertex-first 24-cell.
 /// All other shapes have no name, including slices that are not convex or have several components.
 ///
-/// If no named shape has the same numbers of vertices, edges and faces as a slice, a call takes 0.1 µs, regardless of
-/// the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2 µs for an octahedron, 0.7
-/// µs for an icosahedron, 20 µs for a rhombicosidodecahedron, 300 µs for a truncated icosidodecahedron. The first call
-/// in the process takes 5 ms longer. Repeated calls allocate no memory. Only one thread at a time may use a namer.
+/// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes 0.1
+/// µs, regardless of the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2 µs for
+/// an octahedron, 0.7 µs for an icosahedron, 20 µs for a rhombicosidodecahedron, 300 µs for a truncated
+/// icosidodecahedron. The first call in the process takes 5 ms longer. Repeated calls allocate no memory. Only one
+/// thread at a time may use a namer.
 class SectionNamer {
   public:
     /// A quick test: returns false if the section of `object`, rotated by `orientation`, at w cannot have a name.

@@ -15,7 +15,8 @@
 
 namespace oval4d::slicing {
 
-/// A vertex counts as lying in a hyperplane if their distance is at most this fraction of the circumradius.
+/// A vertex counts as lying in a hyperplane if its distance from the hyperplane is at most this fraction of the
+/// circumradius.
 inline constexpr double kOnPlaneTolerance = 1e-9;
 
 /// Numbers of vertices, edges, faces and face corners. They are either the size of one or more slices, or the position

@@ -56,8 +56,8 @@ class Sweep {
     struct Span {
         std::int32_t from, to;
     };
-    // Where vertices lie relative to a hyperplane: in it (inside), not in it but between it and the next lower
-    // hyperplane (between), or in neither place (none).
+    // Which vertices the rising hyperplane meets on its way from the next lower hyperplane to this one: vertices in
+    // this hyperplane (inside); otherwise, vertices between the two hyperplanes (between) or no vertices (none).
     enum class VerticesMet : std::uint8_t { none, between, inside };
     void findStructureChanges(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);

@@ -36,8 +36,8 @@ struct Visibilities {
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out);
 
 /// Returns the cell that determines the color of the slice face with the source number `source`. If the face was cut
-/// from a cell, this is that cell. If it is a 2-face in the hyperplane, this is the first of its two cells or, if that
-/// one is hidden, the second.
+/// from a cell, this is that cell. If the slice face is a 2-face that lies in the hyperplane, the result is the first
+/// cell of this 2-face or, if the first one is hidden, the second.
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source);
 
 }  // namespace oval4d::slicing

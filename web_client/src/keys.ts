@@ -78,7 +78,7 @@ function digitOfKey(event: KeyboardEvent): string | undefined {
     return row === "Numpad" && event.key !== digit ? undefined : digit;
 }
 
-/** Whether the row's key is the name of one key in KeyboardEvent.key, such as "ArrowLeft". */
+/** Whether a binding gives its key by name, as KeyboardEvent.key does ("ArrowLeft"), not as one or two characters. */
 function isNamed({ key }: KeyBinding): boolean {
     return key.length > 2;
 }

@@ -10,7 +10,7 @@
 namespace oval4d::polytopes {
 
 /// A branch of a diagram: the mirrors at its two ends meet at the angle π · denominator / numerator. The default value
-/// stands for a right angle; a drawn or written diagram omits it.
+/// stands for a right angle; a drawn or written diagram omits branches with this value.
 struct Branch {
     int numerator = 2, denominator = 1;
     auto operator<=>(const Branch&) const = default;

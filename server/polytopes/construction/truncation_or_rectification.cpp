@@ -18,10 +18,11 @@ class TruncationOrRectification : public Recipe {
   public:
     TruncationOrRectification(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
-    // The number of vertices is exact: all cut points on edges are vertices of the hull, because each edge is the
-    // intersection of the polytope with a supporting hyperplane. The other numbers assume that a single cell replaces
-    // each vertex, and that the 2-faces of the base have four sides; Euler's relation (vertices − edges + 2-faces −
-    // cells = 0) then gives the number of 2-faces. Unlike rectification, truncation leaves a part of each edge.
+    // The number of vertices is exact: a hyperplane that touches the convex base only in one edge touches the hull only
+    // in the points that cut this edge, so these points are vertices of the hull. The other numbers are estimates. They
+    // assume that one cell replaces each vertex, and that each 2-face of the base has four sides, so that the f 2-faces
+    // have 4 f corners, each of which is replaced by an edge. Truncation also leaves a part of each of the e edges.
+    // Euler's relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
     ElementCounts counts() const override {
         const auto [v, e, f, c] = base_.recipe->counts();
         const std::uint64_t corners = 4 * f;

@@ -96,7 +96,8 @@ using PlaneThroughPoints = Flat<2>;
 using Hyperplane = Flat<3>;
 
 /// Chooses points among `from` that span a large simplex, and returns their indices. Chooses greedily: the first point
-/// is the farthest from the mean of `from`; each further one is the farthest from the flat through those chosen before.
+/// is the farthest from the mean of `from`; each further point is the farthest from the flat through the points chosen
+/// before.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
     glm::dvec4 middle(0);

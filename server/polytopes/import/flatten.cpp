@@ -41,10 +41,11 @@ constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equatio
 // next round multiplies the tolerance by kTighter, down to kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// A set of points that are moved into one hyperplane, and the hyperplane that fits them best; it contains their mean.
-// The vertices of each cell of more than four vertices are such a set. The vertices of a 2-face are one, too, if the
-// hyperplanes of its two cells are nearly parallel, because such hyperplanes do not determine the plane of the 2-face.
-// The hyperplane of a 2-face is perpendicular to the hyperplane of `cell`, one of its two cells.
+// A set of points that are moved into one hyperplane, and the hyperplane that fits the points best, which contains the
+// mean of the points. The vertices of each cell of more than four vertices are such a set. The vertices of a 2-face are
+// such a set, too, if the hyperplanes of its two cells are nearly parallel, because such hyperplanes do not determine
+// the plane of the 2-face. The hyperplane of a 2-face is perpendicular to the hyperplane of `cell`, one of its two
+// cells.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`
@@ -134,8 +135,9 @@ class Flattener {
         }
     }
 
-    /// Moves the vertices until all flats are flat. Returns false if this does not succeed, or if a vertex moves by
-    /// more than `maxDistance`; then the caller must restore the vertices.
+    /// Moves the vertices until the points of each FittedFlat lie in its hyperplane, within the permitted distance.
+    /// Returns false if this does not succeed, or if a vertex moves by more than `maxDistance`; then the caller must
+    /// restore the vertices.
     bool run(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();

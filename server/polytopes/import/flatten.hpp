@@ -20,11 +20,11 @@ struct Flattening {
 };
 
 /// Moves the vertices so that the vertices of each cell lie in one hyperplane, and the vertices of each 2-face in one
-/// plane. They may deviate by 10⁻¹² of `size`, which is halfDiagonal() of the vertices, or by twice their
-/// doubleRounding() if that is larger; if they do not deviate more, nothing is changed. The moves are needed because
-/// coordinates in files are rounded: a slicing hyperplane that nearly contains a rounded cell would cut it into pieces
-/// that do not fit together. The moves are about as small as possible: if the file is a rounded polytope, they are
-/// about as large as the rounding.
+/// plane. After the moves, the distance of a vertex from such a hyperplane or plane is at most 10⁻¹² of `size` or, if
+/// that is larger, twice the doubleRounding() of the vertices. `size` is halfDiagonal() of the vertices. If all
+/// distances are already so small, nothing is changed. The moves are needed because coordinates in files are rounded: a
+/// slicing hyperplane that nearly contains a rounded cell would cut it into pieces that do not fit together. The moves
+/// are about as small as possible: if the file is a rounded polytope, they are about as large as the rounding.
 ///
 /// If a vertex would have to be moved by more than `maxDistance`, or if no places are found at which all cells and
 /// 2-faces are flat, moves no vertex. Instead, splitIntoSimplices() divides the 2-faces that are not flat into

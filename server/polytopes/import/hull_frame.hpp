@@ -17,8 +17,8 @@ namespace oval4d::polytopes {
 class HullFrame {
   public:
     /// Fits the frame to the points, of which there must be at least one. `rounding` is the maximum rounding error of a
-    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if the rounding
-    /// may be the only reason why they do.
+    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if they may do so
+    /// only because of the rounding.
     HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& rounding);
 
     /// Converts a point to the coordinates of the frame.

@@ -37,8 +37,9 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-// Looks for the reason why no valid polytope can be built from a file: throws a FileError if a 2-face has fewer than
-// three different vertices. repair() has left it out, and the polytope has probably become invalid because of that.
+// Looks for the reason why no valid polytope can be built from a file: throws a FileError if a 2-face in the file has
+// fewer than three different vertices. repair() has left such a 2-face out, and without it the polytope is probably
+// invalid.
 void checkCorners(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {

@@ -38,8 +38,8 @@ struct Header {
     int numbersPerVertex = 4;  // how many numbers each vertex has, coordinates included
 };
 
-// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow it in the same word. Returns how many
-// numbers each vertex has, coordinates included.
+// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow the keyword in the same word. Returns how
+// many numbers each vertex has, coordinates included.
 int readKeyword(Tokenizer& file) {
     const std::string_view word = file.next();
     const std::string keyword = text::normalizedName(word);

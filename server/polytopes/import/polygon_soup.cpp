@@ -17,7 +17,7 @@ namespace {
 constexpr double kThin = 1e-6;  // relative to the size: the minimum extent of a polytope in any direction
 
 // Returns the deviation of the points from a flat (a plane or hyperplane) of this dimension, 2 or 3: their largest
-// distance from the flat through some of them, which are chosen greedily to be far apart.
+// distance from the flat through some of the points, chosen greedily to be far apart.
 double deviation(std::vector<glm::dvec4> points, int dimension) {
     if (points.empty()) return 0;  // a cell whose 2-faces were all removed; build() refuses it
     const glm::dvec4 origin = points.front();

@@ -212,7 +212,8 @@ class Repairer {
                 sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
-        // If more than two 2-faces meet at an edge, several pieces share it, so it does not connect 2-faces.
+        // If more than two 2-faces meet at an edge, several pieces share the edge, so the edge does not connect
+        // 2-faces.
         for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
             while (end < sides.size() && sides[end].first == sides[i].first) ++end;
             if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);

@@ -11,8 +11,8 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
-constexpr int kMinSingleExponent = -149;     // the least exponent of two of the last bit of such a number
-constexpr double kSingleRounding = 0x1p-24;  // the maximum rounding error of such a number, relative to the number
+constexpr int kMinSingleExponent = -149;     // the least exponent of two of the last bit of a single-precision number
+constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding error of a single-precision number
 // The least sufficient singleEvidence_: other numbers are taken for single-precision numbers with a probability of at
 // most 2 to the power of −this.
 constexpr double kSingleEvidence = 10;

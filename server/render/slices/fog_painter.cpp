@@ -39,16 +39,16 @@ uniform sampler3D blocks;    // per block of 4 × 4 × 4 cells of the lattice: 0
 uniform sampler2D table;     // per value: the color, and the absorption per circumradius
 uniform sampler2D frameDepths, surfaceDepths;
 uniform vec2 toDepth;        // the depth of a point, from -1 to 1, is toDepth.x + toDepth.y / distance
-uniform bool isBehind;       // whether the fog behind balls and bars is drawn, or that in front of them
+uniform bool isBehind;       // true: draws the fog behind balls and bars; false: the fog in front of them
 uniform vec3 eye;            // in slice coordinates, like walls and low
 uniform vec4 walls[8];
 uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
-uniform vec3 size;           // the number of its points
+uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 uniform float circumradius;
 out vec4 pixel;
-// The distance along the view axis of the nearest thing in a depth texture; 1e30 if there is none.
+// Returns the distance, along the view axis, of the nearest shape at this pixel of a depth texture; 1e30 if none.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;

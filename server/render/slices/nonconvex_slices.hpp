@@ -17,7 +17,7 @@ class NonconvexShapeCollector {
   public:
     /// The layers, in drawing order. `faces` has the opaque faces, from near to far. `skeleton` has the opaque balls
     /// and bars, from far to near, so that their antialiased edges blend with the shapes behind them. `faded` has the
-    /// faded shapes, from far to near; they do not hide other shapes.
+    /// faded shapes, from far to near; faded shapes do not hide other shapes.
     struct Layers {
         ShapeBatch faces, skeleton, faded;
         DepthRange depths;  ///< contains the depths of all shapes

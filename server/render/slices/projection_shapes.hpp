@@ -18,7 +18,7 @@ class ProjectionShapeCollector {
   public:
     /// The layers, in drawing order, each from far to near. `solid` has the opaque balls and bars of the object;
     /// because of the order, their antialiased edges blend with the shapes behind them. `translucent` has faces,
-    /// sections and faded shapes, which do not hide other shapes.
+    /// sections and faded shapes; none of these hides other shapes.
     struct Layers {
         ShapeBatch solid, translucent;
         DepthRange depths;  ///< contains the depths of all shapes

@@ -176,7 +176,8 @@ layout(location = 2) in vec3 diffuseIn;
 layout(location = 3) in vec3 specularIn;
 layout(location = 4) in vec4 colorIn;
 uniform vec3 toDepth;
-// Not perspective-correct: patches are so narrow that it makes no difference, and it is faster.
+// `place` is interpolated without a correction for perspective. This is faster, and patches are so narrow that the
+// result is almost the same.
 noperspective out vec3 place;
 flat out vec3 diffuse, specular;
 flat out vec4 color;

@@ -83,7 +83,7 @@ struct SkeletonStyle {
     bool balls, bars;
     float ballRadius, barRadius;
     scene::Color ballColor, barColor;
-    float hiddenEndLength;  ///< the length of a bar's end that is inside a ball
+    float hiddenEndLength;  ///< the length of the part of a bar that is inside the ball at one end
 
     explicit SkeletonStyle(const scene::Scene& scene)
         : balls(scene.look.parts.balls || scene.look.parts.bars),

@@ -71,7 +71,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
     }
 }
 
-// Removes the slices of the other half from order_.
+// Removes the slices that do not belong to `half` from order_.
 void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
     const auto triangles = [&](std::uint32_t slice) {
         return scene.placements[slice].drawn ? scene.slices->surfaces[slice].triangles.size() : 0;

@@ -116,7 +116,7 @@ using Numbers = std::array<std::int32_t, kLanes>;
 // first.
 struct alignas(32) SetUp {
     Lanes baseP, baseQ;        // the first row whose center is not below p, or q
-    Numbers rowP, rowQ, rowR;  // the same for p, q and r, clamped to the drawn rows: beginRow … endRow
+    Numbers rowP, rowQ, rowR;  // such first rows for p, q and r, clamped to beginRow … endRow
     // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
     Lanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
     // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has

@@ -172,8 +172,9 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
     if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = RunStatus::too_large;
 }
 
-// All simplices with the same edge compute its crossing from the same numbers. The value is clamped to those of the
-// ends, so that in spite of rounding no crossing is inside if all corners of the cell are outside, or the reverse.
+// All simplices with the same edge compute its crossing from the same numbers. The value is clamped to the range
+// between the values of the ends. Therefore, in spite of rounding, no crossing is inside if both ends are outside, and
+// none is outside if both ends are inside.
 void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = i + 1; j < 5; ++j) {
@@ -204,8 +205,8 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
     }
 }
 
-// Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to it if the pentatope on the
-// other side of this facet has values at all of its corners.
+// Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to this corner if the pentatope
+// on the other side of the facet has values at all of its corners.
 void ClosedSurfaceSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))

@@ -82,7 +82,7 @@ class ClosedSurfaceSlicer {
     struct EdgeCrossing {
         double t = 0;         // the position along the edge: 0 at its first end, 1 at its second
         double value = 0;     // the interpolated value of the function there; negated if sign_ is −1
-        bool inside = false;  // whether this value is inside the level
+        bool inside = false;  // whether the crossing is inside the body
     };
     // A pentatope that the hyperplane meets.
     struct CutPentatope {

@@ -1,5 +1,5 @@
 #pragma once
-// The lattice on which a field is sampled for exact slicing.
+// The lattice on which a ClosedSurfaceSlicer samples a field.
 
 #include <array>
 #include <cstddef>

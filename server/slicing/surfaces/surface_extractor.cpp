@@ -206,7 +206,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // positions are rounded
         const fields::Bounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // all of it is inside
+            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // all of the cube is inside
             return bounds.mayCross(level) || (walls != 0 && full);
         });
     };
@@ -466,9 +466,9 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
     cubes_.push_back(cube);
 }
 
-// Appends the points of a cube through which no wall passes, one for each patch: the mean of the places where those
-// edges of the cube that belong to the patch meet the level set. Returns false, and appends nothing, if the value of
-// the function at one of the corners is not finite.
+// Appends the points of a cube through which no wall passes, one for each patch: the mean of the places where the level
+// set crosses those edges of the cube that belong to the patch. Returns false, and appends nothing, if the value of the
+// function at one of the corners is not finite.
 bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {

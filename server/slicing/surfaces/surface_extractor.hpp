@@ -143,7 +143,7 @@ class SurfaceExtractor {
     std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
-    // Per wall: points up to this far beyond it are moved onto it.
+    // Per wall: points beyond the wall are moved onto it if their distance from it is at most this.
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps

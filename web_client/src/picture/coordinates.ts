@@ -28,7 +28,7 @@ export function drawCoordinates(
     else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
-/** The vertex in whose column the pixel (x, y) lies; undefined if there is none, or a density or histogram is drawn. */
+/** The vertex whose lines are drawn at the pixel (x, y); undefined if there is none, or if no lines are drawn. */
 export function vertexInColumnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
     const { columns, per_row: perRow, rows, ...layout } = scene.coordinates;

@@ -225,7 +225,7 @@ export class ElementSources {
         const [x, y, z] = slice.vertices.subarray(p, p + 3);
         const offset = a * x! + b * y! + c * z!;
         // All vertices satisfy a · x + b · y + c · z + m · (w − slice.w) ≤ offset. So each vertex with w > slice.w
-        // gives an upper bound of m. The least bound is m itself, because such a vertex of this cell attains equality.
+        // gives an upper bound of m. The least bound is m itself, which such a vertex of this cell attains.
         let m = Infinity;
         for (let v = 0; v < coordinates.length; v += 4) {
             const level = coordinates[v + 3]! - slice.w;

@@ -35,16 +35,16 @@ uniform sampler3D blocks;    // per block of 4 × 4 × 4 cells of the lattice: 0
 uniform sampler2D table;     // per value: the color, and the absorption per circumradius
 uniform sampler2D frameDepths, surfaceDepths;
 uniform vec2 toDepth;        // the depth of a point, from -1 to 1, is toDepth.x + toDepth.y / distance
-uniform bool isBehind;       // whether the fog behind balls and bars is drawn, or that in front of them
+uniform bool isBehind;       // true: draws the fog behind balls and bars; false: the fog in front of them
 uniform vec3 eye;            // in slice coordinates, like walls and low
 uniform vec4 walls[8];
 uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
-uniform vec3 size;           // the number of its points
+uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 uniform float circumradius;
 out vec4 pixel;
-// The distance along the view axis of the nearest thing in a depth texture; 1e30 if there is none.
+// Returns the distance, along the view axis, of the nearest shape at this pixel of a depth texture; 1e30 if none.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
@@ -125,9 +125,9 @@ interface Resources {
 type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
-    private picture: Slices | undefined; // undefined if it has no fog
+    private picture: Slices | undefined; // the newest picture; undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // likewise; hold the occluders' depths
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // created when needed; the occluders' depths
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -196,7 +196,10 @@ export class FogPainter {
         this.renderer.resetState();
     }
 
-    /** Finds the depths of what hides fog: calls `draw`, which must draw all occluders of this kind. */
+    /**
+     * Stores the depths of the occluders of one kind for later calls of draw(). Calls `draw`, which must draw all
+     * occluders of the kind `occluders`, and nothing else.
+     */
     drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
         const target = this.targets[occluders];
@@ -222,9 +225,10 @@ export class FogPainter {
     }
 
     /**
-     * Blends a part of the fog of one slice with the picture. `behind`: the fog behind the nearest ball or bar. It is
-     * drawn before the balls and bars, and is seen through their edges. `inFront`: the fog in front of them. The caller
-     * draws the slices from far to near.
+     * Blends a part of the fog of one slice with the picture. `behind` is the fog behind the nearest ball or bar. The
+     * caller draws this fog before the balls and bars, so that it is seen through their edges. `inFront` is the rest:
+     * the fog in front of the nearest ball or bar, or all of the fog where there is none. The caller draws the slices
+     * from far to near.
      */
     draw(slice: Slice, viewCamera: ViewCamera, part: "behind" | "inFront"): void {
         const { gl, picture, resources, targets } = this;

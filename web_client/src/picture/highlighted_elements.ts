@@ -13,7 +13,7 @@ export interface HighlightedElements {
     edges: ReadonlySet<number>;
     /** Vertices of the polytope, numbered as in `coordinates`. */
     ownVertices: ReadonlySet<number>;
-    /** The cell under the pointer, whose faces are highlighted. For the kept cell, the server's colors do this. */
+    /** The cell under the pointer, whose faces are highlighted. Those of the kept cell are colored by the server. */
     cell?: number;
 }
 

@@ -43,7 +43,7 @@ export class PaintersOrder {
         this.rank = ensureCapacity(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices into `out`, and returns their number. Sets `fartherIndexCount` for this point. */
+    /** Writes the mesh's indices to `out`, and returns their number. Sets `fartherIndexCount` for the point `point`. */
     writeIndices(viewCamera: ViewCamera, out: Uint32Array<ArrayBuffer>, point: Vector): number {
         this.out = out;
         this.used = this.fartherIndexCount = 0;

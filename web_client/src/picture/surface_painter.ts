@@ -159,7 +159,7 @@ export class SurfacePainter {
         this.renderer.resetState();
     }
 
-    /** Whether the points of level sets (0) or those of caps (1) have colors of their own. */
+    /** Whether the points of level sets (`cap` is 0) or those of caps (`cap` is 1) have colors of their own. */
     private hasColors(cap: number): boolean {
         const surface = this.parts[0]?.surface;
         return (cap === 1 ? surface?.cap_colors : surface?.colors) !== undefined;
@@ -237,7 +237,7 @@ export class SurfacePainter {
         }
     }
 
-    /** Draws the triangles of a level, except those of the side `hidden` (gl.FRONT or gl.BACK), if it is given. */
+    /** Draws the triangles of a level. If `hidden` is given, leaves out those of this side (gl.FRONT or gl.BACK). */
     private drawSides(
         { groups, firstByte, firstPoint }: SliceSurfaces,
         { level, caps }: SurfaceLevel,
