@@ -126,7 +126,7 @@ void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camer
 }
 
 // Returns a box that contains the axes symbol and the names of the axes, in whatever direction the axes point.
-Box boxOf(const AxesLayout& axes) {
+Box boxOf(const AxesSymbolLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
 }

@@ -67,9 +67,9 @@ inline constexpr std::size_t kMaxVerticesAsLines = 300;
 
 /// The layout of the symbol in the upper left corner that shows the directions of the axes: the distances of its center
 /// from the left (`x`) and top (`y`) edges, and the length of each axis. All are fractions of the viewport's height.
-struct AxesLayout {
+struct AxesSymbolLayout {
     double x = 0, y = 0, length = 0;
-    bool operator==(const AxesLayout&) const = default;
+    bool operator==(const AxesSymbolLayout&) const = default;
 };
 
 /// The placement of the projection of the whole object. Radii are in world units.
@@ -120,7 +120,7 @@ struct Layout {
     std::vector<SlicePlacement> placements;
     ProjectionPlacement projectionPlacement;
     CoordinatesLayout coordinates;
-    AxesLayout axes;
+    AxesSymbolLayout axes;
     MatrixLayout matrix;
 };
 

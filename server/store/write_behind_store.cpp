@@ -151,7 +151,7 @@ void WriteBehindStore::discardFetched(const std::string& id) {
     cached_.remove(id);
 }
 
-std::size_t WriteBehindStore::count() const {
+std::size_t WriteBehindStore::sessionCount() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
     return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : storedCount_ + neverSaved_;
@@ -338,7 +338,8 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(job.id)) {
             cached->inFlight = false;
-            if (!std::exchange(cached->everSaved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
+            if (!std::exchange(cached->everSaved, true))
+                pollAt_ = Clock::time_point();  // poll now, to update sessionCount()
             if (cached->closed && !cached->queued) {
                 cached_.remove(job.id);
                 objects_.forget(job.id);

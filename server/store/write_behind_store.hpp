@@ -105,7 +105,7 @@ class WriteBehindStore {
 
     /// Returns the approximate number of sessions in the store and in memory. If several servers share the store,
     /// returns only the number of sessions in this server's memory.
-    std::size_t count() const;
+    std::size_t sessionCount() const;
     /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
     /// Returns the text of the last error of the store; an empty string while the store is available.

@@ -33,7 +33,7 @@ class SlicesMessageWriter {
         scene::Camera camera;
         /// `ball`, `bar` and `opacity` are Scene::ballRadius, Scene::barRadius and Scene::faceOpacity.
         double scale = 0, circumradius = 0, ball = 0, bar = 0, opacity = 0;
-        scene::AxesLayout axes;
+        scene::AxesSymbolLayout axes;
         scene::CoordinatesLayout coordinates;
         bool operator==(const StaticScene&) const = default;
     };

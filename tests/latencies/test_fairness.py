@@ -38,7 +38,7 @@ async def frames_of_one_session(server, address, polytope, side=2048):
 
 
 async def turning_stream(server, address, polytope, kind, side=2048):
-    async with Client(server, stream=kind, width=side, height=side, address=address) as client:
+    async with Client(server, stream=kind, width=side, height=side, address=address, compares=False) as client:
         await client.request("set", polytope=polytope)
         while True:
             done = await client.request("key", key="r")
@@ -84,7 +84,7 @@ HEAVY_FORMULA = "x" + "*y/z*w/x" * 249 + "*y/z*w"  # nearly as long, and as many
 
 
 async def turning_field(server, address, slices, kind, side=720):
-    async with Client(server, stream=kind, width=side, height=side, address=address) as client:
+    async with Client(server, stream=kind, width=side, height=side, address=address, compares=False) as client:
         await client.request("load", name="heavy", format="formula", data=HEAVY_FORMULA)
         await client.request("set", slices={"count": slices})
         while True:
@@ -108,7 +108,7 @@ def write_huge_array(folder):
 @contextlib.asynccontextmanager
 async def huge_field(server, address, **hello):
     """A client whose session shows all that there is of the huge array: levels, fog, and values on surfaces and caps."""
-    async with Client(server, address=address, **hello) as client:
+    async with Client(server, address=address, compares=False, **hello) as client:
         await client.request("load", name="huge", path=HUGE, values=HEAVY_FORMULA.removesuffix("*y/z*w"))
         await client.request("set", levels=[-0.5, -0.1, 0.3, 0.7], caps="value", slices={"count": 201},
                              fog=[{"value": -1.5, "opacity": 0.5}, {"value": 1.5, "opacity": 0.9}])

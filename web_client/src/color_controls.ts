@@ -5,6 +5,7 @@ import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/pr
 import { element } from "./element";
 import { isField } from "./fields";
 import { capitalize, formatCount } from "./format";
+import { cssColor } from "./picture/pen";
 import type { ToolSection } from "./tools";
 
 interface LabelAndTooltip {
@@ -216,10 +217,6 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
         element("small", {}, formatCount(cells)),
         element("div", { class: "visibility" }, ...radios),
     );
-}
-
-function cssColor(color: number): string {
-    return `#${color.toString(16).padStart(6, "0")}`;
 }
 
 function withMinus(text: string): string {

@@ -261,7 +261,7 @@ Reply Routes::readiness() const {
 
 Reply Routes::metrics() {
     Metrics& shown = services_.metrics;
-    shown.sessions.Set(static_cast<double>(sessions_.writeBehind().count()));
+    shown.sessions.Set(static_cast<double>(sessions_.writeBehind().sessionCount()));
     shown.openSessions.Set(static_cast<double>(sessions_.openCount()));
     shown.unsaved.Set(static_cast<double>(sessions_.writeBehind().unsaved()));
     shown.storeUp.Set(sessions_.writeBehind().lastError().empty() ? 1 : 0);

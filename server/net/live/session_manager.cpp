@@ -89,7 +89,7 @@ std::optional<Error> SessionManager::admitSession(AddressAccount& client) {
         return Error{ErrorCode::too_many,
                      "one address may open at most " + std::to_string(most) + " sessions per minute; try again soon"};
     }
-    if (writeBehind_.count() >= options.maxSessions) {
+    if (writeBehind_.sessionCount() >= options.maxSessions) {
         const auto unmodified = byClient_.oldestUnmodified(now);
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +

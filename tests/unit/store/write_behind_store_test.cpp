@@ -131,7 +131,7 @@ class WriteBehindStoreTest : public testing::Test {
 
 TEST_F(WriteBehindStoreTest, SavedSessionsAreInTheStore) {
     const SessionCredentials credentials = writeBehind.create();
-    EXPECT_EQ(writeBehind.count(), 1U);
+    EXPECT_EQ(writeBehind.sessionCount(), 1U);
     EXPECT_TRUE(save(credentials.id, at(5)));
     EXPECT_EQ(writeBehind.unsaved(), 0U);
     EXPECT_EQ(kept(credentials.id), 5U);
@@ -266,7 +266,7 @@ TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     writeBehind.close(writeBehind.create().id, Session{});
     EXPECT_LT(writeBehind.unsaved(), 300U);
     EXPECT_GT(writeBehind.unsaved(), 10U);
-    EXPECT_EQ(writeBehind.count(), writeBehind.unsaved());
+    EXPECT_EQ(writeBehind.sessionCount(), writeBehind.unsaved());
     control->fails = false;
     eventually([&] { return writeBehind.unsaved() == 0; });
     const std::lock_guard lock(control->mutex);
