@@ -12,11 +12,13 @@ struct Hyperplanes {
     int count = 21;
     double spacing = 0.1;  ///< greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
-    /// The values of w of `count` hyperplanes in any order, in the units of the object; usually empty. If it is not
-    /// empty, `spacing` is only the thickness of the slices of a point cloud.
+    /// The values of w of the hyperplanes in any order, in the units of the object: `count` values, or, if the
+    /// hyperplanes are evenly spaced, none. If there are values, `offset` is not used, and `spacing` is only the
+    /// thickness of the slices of a point cloud.
     std::vector<double> listed = {};
 
-    /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1. Its n is first + i.
+    /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1: that of the hyperplane
+    /// n = first + i.
     double w(int i) const {
         return listed.empty() ? offset + (first + i) * spacing : listed[static_cast<std::size_t>(i)];
     }

@@ -20,10 +20,11 @@ struct CellType {
 struct ObjectInfo {
     std::string name;
     std::uint64_t serial = 0;    ///< unique among the objects in this process; the key of an object in caches
-    double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin
-    glm::dvec4 originInFile{0};  ///< what to add to the object's coordinates to get those of its file (in the
-                                 ///< frame of the object, see transformedTo()); not 0 if the object was moved when
-                                 ///< it was loaded (see Centering)
+    double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin; for a point cloud
+                                 ///< without extent, see makePointCloud()
+    glm::dvec4 originInFile{0};  ///< the object's origin in the coordinates of its file; after transformedTo(), in
+                                 ///< these coordinates mapped by the frame of reference. 0 unless loading moved the
+                                 ///< object (see Centering)
     bool convex = true;          ///< false for a polytope that is not the boundary of a convex body: the faces of
                                  ///< its slices may cross each other; true for every point cloud and field
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again

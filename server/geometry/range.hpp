@@ -7,7 +7,7 @@ namespace oval4d::geometry {
 struct Range {
     double least, most;
 
-    /// Returns whether a number is in the range. NaN is in none.
+    /// Returns whether a number is in the range. NaN is in no range.
     constexpr bool contains(double value) const { return value >= least && value <= most; }
 };
 

@@ -32,7 +32,7 @@ struct ReferenceFrame {
 
     double pace = 1;
     glm::dvec3 follow{0};  ///< in units of x, y and z per unit of w, before `pace` scales w
-    glm::dvec3 boost{0};   ///< the speed of light is 1, after `pace` has scaled w
+    glm::dvec3 boost{0};   ///< as a fraction of the speed of light, which is 1 after `pace` has scaled w
 
     /// Returns the linear map M from the object's own coordinates to those of this frame. Its determinant is `pace`.
     glm::dmat4 matrix() const;
@@ -41,7 +41,7 @@ struct ReferenceFrame {
     bool operator==(const ReferenceFrame&) const = default;
 };
 
-/// Applies the linear map to each point. Returns the largest distance of a mapped point from the origin.
+/// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.
 double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points);
 
 }  // namespace oval4d::geometry

@@ -96,7 +96,8 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 // by θ, and the plane (w, u) by θ from w toward u; multiplication from the right rotates the first plane by −θ and the
 // second by θ. So for the rotation by A in the plane without w (counted i→j, j→k, k→i) and by B from u toward w, θ is
 // (A − B) / 2 on the left and −(A + B) / 2 on the right. Multiplications from the left commute with those from the
-// right, so the logarithms of l and of r are the sums of u θ over the three units u.
+// right, so the exponential of the sum over all planes is l times r, where the logarithms of l and of r are the sums of
+// u θ over the three units u.
 Rotation::Rotation(const Turn& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {

@@ -15,18 +15,18 @@ namespace oval4d::geometry {
 
 /// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The
 /// enumerators are in the order of the number keys 2 … 7 that select the planes. Stored sessions contain the numbers of
-/// the enumerators.
+/// the enumerators, so these numbers must not change.
 enum class Plane : std::uint8_t { xy = 0, xz = 1, xw = 2, yz = 3, yw = 4, zw = 5 };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
 
-/// Returns the plane of the other two axes. The pairs are xy and zw, xz and yw, xw and yz.
+/// Returns the plane of the two axes that are not in `plane`. The pairs are xy and zw, xz and yw, xw and yz.
 constexpr Plane perpendicular(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
 
-/// Returns "xy" … "zw".
+/// Returns the name of a plane, from "xy" to "zw".
 std::string_view name(Plane plane);
 
-/// Returns the plane with this name ("xy" … "zw"), or std::nullopt if there is none.
+/// Returns the plane with this name, or std::nullopt if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
 
 /// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time:
@@ -86,11 +86,12 @@ class Rotation {
 
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
-    /// Returns this rotation with both of its angles multiplied by `fraction`: 0 gives the identity, and 1 this
-    /// rotation. Of the possible pairs of angles, uses the one with the smallest angles, which are from −π to π.
-    /// Returns the rotation v ↦ −v, whose planes are not determined, unchanged for every `fraction`.
+    /// Returns this rotation with the angles in its two invariant planes multiplied by `fraction`: 0 gives the
+    /// identity, and 1 this rotation. Of the possible pairs of angles, uses the one with the smallest angles, which are
+    /// from −π to π. Exception: the planes of the rotation v ↦ −v are not determined, so every `fraction`, even 0,
+    /// gives v ↦ −v.
     Rotation power(double fraction) const;
-    /// Returns the larger of the two rotation angles, in radians from 0 to π.
+    /// Returns the larger of the angles in the two invariant planes, without signs: in radians, from 0 to π.
     double angle() const;
     /// Returns the turn with the smallest angles that gives this rotation. It has no angle in planes whose angle would
     /// be 0 except for rounding errors; for the identity, it has none at all. Several turns give the rotation v ↦ −v;

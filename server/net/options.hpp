@@ -55,7 +55,7 @@ struct Options {
     int maxRequestsPerSecond = 2000;                ///< maximum messages per second from one connection
     parallel::FairQueue::Limits jobs;               ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;                    ///< limits on the size of pictures
-    pipeline::PictureLimits picture;                ///< limits on what a picture shows
+    pipeline::PictureWorkLimits picture;            ///< limits on what a picture shows
     exports::ExportLimits file;                     ///< limits on the files that clients request
     session::Limits session;                        ///< limits of each session
     std::string store = "memory";                   ///< location of the sessions: see store::StoreOptions::url

@@ -11,7 +11,7 @@ namespace oval4d::pipeline {
 
 namespace {
 
-double elements(const slicing::Object& object) {
+double elementTotal(const slicing::Object& object) {
     const auto counts = slicing::elementCounts(object);
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
@@ -21,8 +21,9 @@ double elements(const slicing::Object& object) {
 double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
 
 /// Returns the estimated time, in seconds, to extract the surfaces of a field, and to draw or write them; 0 for other
-/// objects. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
-double surfaces(const session::State& state, double slices, double cubes, slicing::Quality quality) {
+/// objects, and if faces are hidden. `slices`: number of slices. `cubes`: number of lattice cubes across the field's
+/// diameter.
+double surfaceSeconds(const session::State& state, double slices, double cubes, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || !state.look.parts.faces) return 0;
     const slicing::SurfaceLimits limits = slicing::surfaceLimits(quality);
@@ -38,7 +39,7 @@ double surfaces(const session::State& state, double slices, double cubes, slicin
 
 /// Returns the estimated time, in seconds, to sample the fog of a field, and to draw it in this many pixels or to write
 /// it; 0 without fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
-double fog(const session::State& state, double slices, double cubes, double pixels, slicing::Quality quality) {
+double fogSeconds(const session::State& state, double slices, double cubes, double pixels, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || state.look.field.fog.empty()) return 0;
     // The lattice in a slice is assumed to fill a third of the cube around the circumscribed sphere of the field.
@@ -50,27 +51,28 @@ double fog(const session::State& state, double slices, double cubes, double pixe
 }  // namespace
 
 EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality) {
-    const double n = elements(state.object);
+    const double n = elementTotal(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = state.slices.count * (2e-5 + 1.2e-6 * elementsCut(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
     // The focus slice takes up to half the picture's height. The other slices of the oval are smaller, and together
-    // have a few times as many pixels. So all slices count as kSlices slices of the size of the focus slice.
+    // have a few times as many pixels as the focus slice. So all slices count as kSlices slices of the size of the
+    // focus slice.
     constexpr double kSlices = 4;
     const double cubes = state.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
-    // In full quality, lattices have at least cubesAcross() cubes across the diameter of the field, also in small
+    // In full quality, lattices have at least cubesAcross() cubes across the diameter of the field, even in small
     // slices.
-    const double field = std::max(surfaces(state, kSlices, cubes, quality),
-                                  surfaces(state, state.slices.count, slicing::cubesAcross(quality), quality)) +
-                         fog(state, kSlices, cubes, pixels / kSlices, quality);
+    const double field = std::max(surfaceSeconds(state, kSlices, cubes, quality),
+                                  surfaceSeconds(state, state.slices.count, slicing::cubesAcross(quality), quality)) +
+                         fogSeconds(state, kSlices, cubes, pixels / kSlices, quality);
     return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers + field);
 }
 
 EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality) {
-    const double n = elements(state.object);
+    const double n = elementTotal(state.object);
     const double cubes = slicing::cubesAcross(quality);
-    const double field =
-        surfaces(state, state.slices.count, cubes, quality) + fog(state, state.slices.count, 2 * cubes, 0, quality);
+    const double field = surfaceSeconds(state, state.slices.count, cubes, quality) +
+                         fogSeconds(state, state.slices.count, 2 * cubes, 0, quality);
     return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n) + field);
 }
 
@@ -78,8 +80,8 @@ EstimatedSeconds exportCost(const session::State& state, const exports::ExportRe
     constexpr slicing::Quality kQuality = slicing::Quality::file;
     const int chosen = request.fittedSlices.value_or(static_cast<int>(request.chosenW.size()));
     const int slices = request.choosesSlices() ? chosen : state.slices.count;
-    const double field = surfaces(state, slices, slicing::cubesAcross(kQuality), kQuality);
-    return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elements(state.object)) + field);
+    const double field = surfaceSeconds(state, slices, slicing::cubesAcross(kQuality), kQuality);
+    return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elementTotal(state.object)) + field);
 }
 
 }  // namespace oval4d::pipeline

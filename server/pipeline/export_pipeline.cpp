@@ -79,8 +79,8 @@ Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::opti
     return std::monostate{};
 }
 
-// Returns the hyperplanes at the values of w in ExportRequest::chosenW. These are values in the coordinates of the
-// object's file, as in the labels of slices.
+// Returns the hyperplanes at the values of w in `at`, which is ExportRequest::chosenW. These values are coordinates in
+// the object's file, as in the labels of slices.
 Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
     const double origin = slicing::infoOf(state.object).originInFile.w;
     const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
@@ -113,7 +113,8 @@ geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state)
 }
 
 // Returns the hyperplanes of the slices in the file. Errors: `bad_message` if the options contradict each other;
-// `out_of_range` for too many slices, or for values of w that are too far away or equal.
+// `out_of_range` for too many slices, for a number of slices less than 1, or for values of w that are too far away or
+// equal.
 Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const session::State& state,
                                             int maxSlices) {
     const bool all = request.contents == exports::ExportContents::oval;
@@ -141,8 +142,8 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.chosenW, state);
 }
 
-// Returns the projection of the whole object in the form of a slice, which replaces the focus slice. Uses the
-// perspective projection if the picture shows no projection.
+// Returns a set whose only slice is the projection of the whole object; it replaces `slices`. Uses the orthogonal
+// projection if the picture shows it, else the perspective projection.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
     const scene::ProjectionSettings& settings = state.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
@@ -211,7 +212,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     scene::Look look;
     if (drawing) {
         look = state.look;
-        look.background = scene::Background::white;  // as paper
+        look.background = scene::Background::white;  // drawings are for white paper
         if (request.contents == exports::ExportContents::matrix) {
             look.view = scene::View::matrix;
         } else if (request.contents != exports::ExportContents::oval) {
@@ -226,12 +227,12 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
         }
     }
     look.coloring = state.look.coloring;
-    look.parts.coordinates = false;  // drawings have their own layout of the coordinates
+    look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
     look.field = state.look.field;
     if (!drawing) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
     scene::Scene scene;
     scene::Composer composer;
-    composer.limitFill(PictureLimits().fillSteps);
+    composer.limitFill(PictureWorkLimits().fillSteps);
     // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size; a
     // drawing of a tall view has them in portrait format.
     const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;

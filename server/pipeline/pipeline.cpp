@@ -10,7 +10,8 @@ namespace oval4d::pipeline {
 
 using raster::measureSeconds;
 
-Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, PictureLimits limits)
+Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
+                   PictureWorkLimits limits)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), limits_(limits), workspace_(forkJoin) {}
 
 slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {

@@ -28,7 +28,7 @@ struct PictureTimes : raster::DrawTimes {
 };
 
 /// Limits on the time and the memory that a picture takes.
-struct PictureLimits {
+struct PictureWorkLimits {
     std::size_t fillSteps = 20'000'000;  ///< steps to fill self-intersecting faces (see slicing::FaceFiller::fill())
     std::size_t sliceEdges = 5'000'000;  ///< edges of all slices together (see slicing::checkSliceEdges())
 };
@@ -38,17 +38,20 @@ struct PictureLimits {
 /// pipeline may be used by one thread at a time.
 class Pipeline {
   public:
-    /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores; if it is
-    /// null, one core is used. PictureLimits::fillSteps limits only messages; the rasterizer has a limit of its own.
-    Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, PictureLimits limits = {});
+    /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores, and must
+    /// outlive this object; if it is null, one core is used. PictureWorkLimits::fillSteps limits only messages; the
+    /// rasterizer has a limit of its own.
+    Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
+             PictureWorkLimits limits = {});
 
     /// Returns the names of the section in the focus slice, for the `state` message. There are two, because the slice
     /// may have a name, such as "icosahedron", and so may the convex hull of those of its vertices that are vertices of
-    /// the object (see slicing::SectionNames). A name is empty if there is none.
+    /// the object (see slicing::SectionNames). Each of them is empty if there is no such name.
     slicing::SectionNames nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the
-    /// slices exceed PictureLimits::sliceEdges.
+    /// slices exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that
+    /// can no longer be read.
     void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
 
     /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `revision` is
@@ -77,8 +80,8 @@ class Pipeline {
     /// is idle, because allocating the memory again takes a few milliseconds.
     void freeMemory();
 
-    /// Returns the times of the last calls. slice() and drawPng() reset all times; writeSlices() replaces only those of
-    /// its own steps.
+    /// Returns the times of the last calls. slice() and drawPng() first set all times to 0; writeSlices() replaces
+    /// only `compose` and `write`.
     const PictureTimes& times() const { return times_; }
 
   private:
@@ -96,7 +99,7 @@ class Pipeline {
 
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;
-    const PictureLimits limits_;
+    const PictureWorkLimits limits_;
     Workspace workspace_;
     PictureTimes times_;
     parallel::ExclusiveUseAssertion inUse_;

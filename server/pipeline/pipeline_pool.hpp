@@ -21,7 +21,7 @@ class PipelinePool {
     struct Options {
         std::size_t threads = 1;                   ///< number of workers
         parallel::WorkerPool::Limits limits = {};  ///< maximum numbers of waiting jobs
-        PictureLimits pictures = {};
+        PictureWorkLimits pictures = {};
         /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken().
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
         Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job
@@ -31,7 +31,7 @@ class PipelinePool {
     /// `forkJoin` and `heap` must outlive the pool.
     PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
-    /// See WorkerPool::post().
+    /// Queues a job; returns false, and drops the job, if the queue is full. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);
 
     const parallel::WorkerPool& workers() const { return workers_; }

@@ -19,11 +19,11 @@ double relativeBallRadius(const geometry::PointCloud& cloud);
 /// is half the spacing of the hyperplanes; a distance greater than 1 counts as 1.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
-/// Slices point clouds. Each point belongs to the nearest hyperplane, or to none if the nearest one is more than half a
-/// spacing away; a point halfway between two hyperplanes belongs to the upper one. But if the hyperplanes are listed
-/// (see Hyperplanes::listed), a point belongs to every hyperplane within half a spacing. The slice shows the point as a
-/// ball, whose opacity decreases linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. Only
-/// one thread at a time may use a slicer.
+/// Slices point clouds. A slice contains the points from half a spacing below its hyperplane, included, to half a
+/// spacing above it, not included. Therefore a point is in at most one slice if the hyperplanes are evenly spaced, but
+/// may be in several slices if the hyperplanes are listed (see Hyperplanes::listed). A slice shows a point as a ball,
+/// whose opacity decreases linearly with the distance of the point from the hyperplane, from 1 to 0.2 at half a
+/// spacing. Only one thread at a time may use a slicer.
 class CloudSlicer {
   public:
     /// Slices `cloud` rotated by `orientation`. Overwrites `out`, except its surfaces and fogs, and reuses its memory.

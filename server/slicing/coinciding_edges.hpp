@@ -13,7 +13,7 @@ namespace oval4d::slicing {
 /// then removes the face and replaces the two edges by one, so that the surface stays closed. Reuses its memory.
 class CoincidingEdges {
   public:
-    /// Begins with edges 0 … edges − 1, all of which are different.
+    /// Begins with edges 0 … edges − 1, none of which coincide.
     void begin(std::uint32_t edges) {
         edges_ = edges;
         any_ = false;

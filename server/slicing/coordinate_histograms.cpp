@@ -58,7 +58,8 @@ void CoordinateHistograms::sample(const fields::Field& field) {
     }
     function_ = field.function;
     box_ = field.box;
-    range_ = {std::numeric_limits<double>::quiet_NaN(), 0};  // so that the rows are assigned again
+    // NaN equals nothing, so that chooseRange() assigns the rows again.
+    range_ = {std::numeric_limits<double>::quiet_NaN(), 0};
 
     const fields::FullAndTypicalRange ranges = fields::rangesOf(values_);
     fullRange_ = ranges.full;

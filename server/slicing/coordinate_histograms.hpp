@@ -77,7 +77,7 @@ class CoordinateHistograms {
 
     std::weak_ptr<const fields::ScalarFunction> function_;  // the function that was sampled on box_
     fields::Box box_;
-    std::vector<float> values_;       // per point: the value; NaN if there is none
+    std::vector<float> values_;       // per point: the function's value; NaN where it has none
     Range fullRange_, typicalRange_;  // the ranges of all values, and of the values without outliers
     Range range_;
     std::vector<std::uint8_t> rowOf_;  // per point: the row of its value; 255 outside range_

@@ -36,7 +36,7 @@ class DegeneracyCollapse {
 
     /// Moves a slice from just above the hyperplane with the index `plane` down into it, in place. The slice begins at
     /// position `at` in `out` and has this `size`. All of its vertices must have been cut from edges, its edges from
-    /// 2-faces, and its faces from cells. Returns its new size.
+    /// 2-faces, and its faces from cells. Returns the new size of the slice.
     SliceCounts collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at, SliceCounts size,
                          SliceSet& out);
 
@@ -56,7 +56,7 @@ class DegeneracyCollapse {
     PlanesBelowVertices planesBelow_;
     int plane_ = 0;
     // Per vertex or edge of the polytope: its index in the slice by the hyperplane in which it lies; kNone if it lies
-    // in no hyperplane, or as long as it has no index.
+    // in no hyperplane, or if that slice has not been collapsed yet.
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;
     // Per vertex or edge of the slice before the collapse: its index afterward; kNone for an edge that was removed.
     std::vector<std::uint32_t> newVertex_, newEdge_;

@@ -111,7 +111,7 @@ class Span {
     }
 
     /// Returns the coordinates, in this basis, of the component of v within the span. If the basis has fewer than three
-    /// vectors, the other coordinates are 0.
+    /// vectors, the remaining coordinates are 0.
     glm::dvec3 coordinates(const glm::dvec4& v) const {
         return {glm::dot(v, basis_[0]), glm::dot(v, basis_[1]), glm::dot(v, basis_[2])};
     }
@@ -215,7 +215,8 @@ void measureSize(const Polytope& p, const Element& element, const glm::dmat4& to
             break;
         }
         case ElementKind::cell: {
-            // The sum of the tetrahedra from `base` to the triangles into which the 2-faces are divided.
+            // The sum of the signed volumes of the tetrahedra from `base` to the triangles into which the 2-faces are
+            // divided.
             double volume = 0;
             for (std::uint32_t item = p.cells.begin[index]; item < p.cells.begin[index + 1]; ++item) {
                 const auto loop = p.faces[p.cells.items[item]];

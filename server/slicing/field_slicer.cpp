@@ -35,7 +35,8 @@ std::array<glm::dvec4, 3> stepsOf(const FieldSection& section, double step) {
     return {step * section.axes[0], step * section.axes[1], step * section.axes[2]};
 }
 
-/// Returns a number proportional to the number of points that a surface has on a lattice with this step.
+/// Returns a number proportional to the number of points that a surface has on a lattice with this step; 0 for the step
+/// 0, which stands for no surface.
 double pointWeight(double step) { return step > 0 ? 1 / (step * step) : 0; }
 
 /// Returns the axis-parallel bounding box of the domain's slice, which must have vertices.

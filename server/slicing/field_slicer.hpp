@@ -45,7 +45,7 @@ class FieldSlicer {
 
     parallel::ForkJoin* forkJoin_;
     PolytopeSlicer domains_;
-    std::array<SurfaceExtractor, 2> extractors_;  // one per core, and likewise sections_
+    std::array<SurfaceExtractor, 2> extractors_;  // one for each of two threads, like sections_
     std::array<FieldSection, 2> sections_;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
 // The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new kind
 // needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
-// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions.
-// Some of this code also asks whether an object is a point cloud or a field (fieldIn()); only fields have levels and
-// fog.
+// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions;
+// some of the other code also asks whether an object is a point cloud or a field (fieldIn()), because only fields have
+// levels and fog.
 
 #include <array>
 #include <cstddef>
@@ -83,14 +83,14 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
 /// Takes time linear in the number of edges.
 double relativeBallRadius(const Object& object);
 
-/// Sets `out` to the center of each cell: the mean of its vertices, weighted by the number of 2-faces of the cell that
-/// contain the vertex. Clears `out` for a point cloud.
+/// Sets `out` to the center of each cell: the mean of its vertices, each weighted by the number of the cell's 2-faces
+/// that contain the vertex. Clears `out` for a point cloud.
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
 /// Finds the hyperplane of each cell, before any rotation: sets normals[c] to the outward normal of cell c, and
 /// offsets[c] to the dot product of this normal and any point of the cell. The length of a normal is six times the
-/// volume of the cell. If a cell encloses no volume, as some self-intersecting cells do, the normal and the offset are
-/// 0. Clears both lists for a point cloud.
+/// volume of the cell. If the signed volume of a cell is 0, as for some self-intersecting cells, the normal and the
+/// offset are 0. Clears both lists for a point cloud.
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets);
 
 /// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the data exists;

@@ -36,7 +36,8 @@ glm::dvec4 unitVector(int axis) {
 }  // namespace
 
 // A plane is the intersection of two hyperplanes. The object is cut by the first hyperplane, and the resulting slice by
-// the second. If the plane lies in a hyperplane w = const, this hyperplane is the first one.
+// the second. If the plane lies in a hyperplane w = const, that hyperplane is the first one, because `slices` already
+// contains the slice in it.
 void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                          const glm::dvec4& point, PlanarSections& out) {
     // For a first hyperplane z = const or y = const, the object is cut after z or y has been rotated to w.
@@ -56,9 +57,10 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // The first axis in kFirstAxis that is not one of the plane's axes.
-            const auto fixed = std::ranges::find_if_not(kFirstAxis, contains);
-            if (*fixed != first) continue;
+            // Two axes are perpendicular to the plane. The one that comes first in kFirstAxis is the axis of its first
+            // hyperplane, so that each plane is cut once.
+            const auto firstAxis = std::ranges::find_if_not(kFirstAxis, contains);
+            if (*firstAxis != first) continue;
             out[i].axes = axes;
             cut(object, *set, number, toObject, remainingAxis(axes, first), point, out[i]);
         }
@@ -66,7 +68,7 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
 }
 
 // Cuts a slice by the hyperplane in which the coordinate along `axis` equals that of `point`. `toObject` rotates the
-// slice, if it was cut from a turned object, back to the coordinates of `point`.
+// slice to the coordinates of `point`; it is the identity unless the object was turned before the slice was cut.
 void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, const glm::dmat4& toObject, int axis,
                        const glm::dvec4& point, PlanarSection& out) {
     clear(out);
@@ -88,8 +90,8 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
         copyCloudPoints(slices, slice, axis, point[axis], out);
         return;
     }
-    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. So a slice that only
-    // touches the hyperplane has a section, too, on whichever side of the hyperplane the slice lies.
+    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. So even a slice that
+    // only touches the hyperplane has a section, on whichever side of the hyperplane the slice lies.
     zeroIsAbove_ = anyBelow;
     cutEdges(slices, slice, static_cast<std::uint32_t>(elementCounts(object)[2]), axis, point[axis], out);
     cutFaces(slices, slice, out);
@@ -127,7 +129,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
         if (isAbove(a) == isAbove(b)) continue;
         if (distance_[a] == 0 || distance_[b] == 0) {
             const std::uint32_t v = distance_[a] == 0 ? a : b;
-            // The slice vertex was cut from an edge of the polytope, or is a vertex of the polytope: see SliceSet.
+            // A source number e or E + v of the slice vertex (see SliceSet) becomes F + e or F + E + v (see
+            // PlanarSection).
             if (pointOfVertex_[v] == kNone)
                 pointOfVertex_[v] = add(vertices_[v], faces + slices.vertexSource[firstVertex + v]);
             pointOfEdge_[e] = pointOfVertex_[v];

@@ -1,7 +1,7 @@
 #pragma once
 // The sections of an object by six planes through a given point, one parallel to each pair of coordinate axes: the
 // panels of a HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of
-// many variables", 1993). They are computed exactly, by cutting a slice with a second hyperplane.
+// many variables", 1993). The sections are exact: a slice is cut by a second hyperplane.
 
 #include <array>
 #include <cstdint>
@@ -46,11 +46,11 @@ using PlanarSections = std::array<PlanarSection, kPlaneAxes.size()>;
 /// Cuts objects by planes. Reuses its memory. Only one thread at a time may use a slicer.
 class PlanarSlicer {
   public:
-    /// Cuts `object`, rotated by `orientation`, by the six planes through `point`. `slices` must have been cut from the
-    /// rotated object, and the hyperplane of slice number `slice` must contain `point`. Each plane is the intersection
-    /// of two hyperplanes: the first cuts the object, and the second cuts the resulting slice. The section of a point
-    /// cloud contains the points whose distance from each of the two hyperplanes is at most half the spacing of
-    /// `slices`. Overwrites `out` and reuses its memory.
+    /// Cuts `object`, rotated by `orientation`, by the six planes through `point`, whose coordinates are those after
+    /// the rotation. `slices` must have been cut from the rotated object, and the hyperplane of slice number `slice`
+    /// must contain `point`. Each plane is the intersection of two hyperplanes: the first cuts the object, and the
+    /// second cuts the resulting slice. The section of a point cloud contains the points whose distance from each of
+    /// the two hyperplanes is at most half the spacing of `slices`. Overwrites `out` and reuses its memory.
     void slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                const glm::dvec4& point, PlanarSections& out);
 
@@ -72,7 +72,8 @@ class PlanarSlicer {
     Slicer slicer_;
     SliceSet slice_;                    // the slice by a hyperplane z = const or y = const
     std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is cut
-    std::vector<double> distance_;      // per vertex: its signed distance from the second hyperplane; 0 within rounding
+    // Per vertex: its signed distance from the second hyperplane; 0 if it is within kOnPlaneTolerance.
+    std::vector<double> distance_;
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
     std::vector<LoopCrossing> crossings_;  // the crossings of the loops of one face

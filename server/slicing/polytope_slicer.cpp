@@ -97,7 +97,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     }
 }
 
-// Finds the slice vertices: the polytope's vertices in the hyperplane, and the points where edges cross it.
+// Finds the slice vertices: the polytope's vertices in hyperplanes, and the points where edges cross hyperplanes.
 void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
@@ -151,9 +151,11 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     }
 }
 
-// Finds the slice edges: the polytope's edges in the hyperplane, and the segments in which 2-faces cross it.
+// Finds the slice edges: the polytope's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
 void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    // upTo_ is equal to below_ or one greater. Therefore half of below_ + upTo_ is below_ if rounded down, and upTo_ if
+    // rounded up, and one pass over the sums finds the extremes of both.
     rankSum_.resize(below_.size());
     for (std::size_t v = 0; v < below_.size(); ++v) rankSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
@@ -299,7 +301,7 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
     }
 }
 
-// Finds the slice faces: the 2-faces in the hyperplane, and the polygons in which cells cross it.
+// Finds the slice faces: 2-faces in hyperplanes, and the polygons in which cells cross hyperplanes.
 void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     cellSpan_.resize(cells);
@@ -351,7 +353,8 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
         const bool outward = polytope.cellSigns[at] > 0;
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
             const FaceCrossing& crossing = faceCrossings_[i];
-            if (crossing.plane < span.from && lowestSectionCollapses_[cell]) continue;  // see addLyingFaces()
+            if (crossing.plane < span.from && lowestSectionCollapses_[cell])
+                continue;  // the cell only touches this hyperplane: see addLyingFaces()
             const std::uint32_t from = outward ? crossing.up : crossing.down;
             next_[from] = outward ? crossing.down : crossing.up;
             nextEdge_[from] = crossing.edge;
@@ -384,7 +387,7 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
     for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
         const std::int32_t plane = lyingIn_[f];
         if (plane == kNoPlane) continue;
-        std::array<bool, 2> placements{};
+        std::array<bool, 2> standsOnFace{};
         std::array<bool, 2> bounds{};
         std::array<bool, 2> outward{};
         for (std::size_t i = 0; i < 2; ++i) {
@@ -393,11 +396,11 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
             const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
             outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
             const Span span = cellSpan_[cell];
-            placements.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
+            standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) =
-                placements.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
+                standsOnFace.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
         }
-        if ((placements[0] && placements[1]) || (!bounds[0] && !bounds[1])) {
+        if ((standsOnFace[0] && standsOnFace[1]) || (!bounds[0] && !bounds[1])) {
             touchingFaces_.push_back(f);
             continue;
         }

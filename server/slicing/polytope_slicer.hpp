@@ -36,22 +36,23 @@ class PolytopeSlicer {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see FaceCrossing
 
-    // The hyperplanes with the indices in [from, to). None if to ≤ from.
+    // The hyperplanes with the indices in [from, to); no hyperplane if to ≤ from.
     struct Span {
         std::int32_t from, to;
     };
     // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
     // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
-    // down into the hyperplane. Until numberEdges() runs, `edge` is instead kNewEdge or, if the segment moves to an
-    // edge of the polytope in the hyperplane, the index of this polytope edge.
+    // down into the hyperplane. Until numberEdges() runs, the slice edge of a segment that does not shrink is not
+    // known: `edge` is the index of the polytope edge in the hyperplane to which the segment moves, or kNewEdge if the
+    // segment moves to no polytope edge.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
         std::uint32_t edge;
     };
-    // A slice face: a closed loop with `size` corners, of which loopCorners_[begin] is the first. For `source`, see
-    // SliceSet.
+    // A slice face: a closed loop with `size` corners, of which loopCorners_[begin] is the first. `source` is its
+    // source number (see SliceSet).
     struct Loop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
@@ -59,14 +60,15 @@ class PolytopeSlicer {
     // A point where the vertex loop of a 2-face crosses a hyperplane.
     struct LoopCrossing {
         std::uint32_t slot;
-        double along;  // its position along the line where the hyperplane cuts the 2-face's plane, in any unit
+        double along;  // its position on the line where the hyperplane cuts the 2-face's plane, in arbitrary units
     };
 
     // Rotates the vertices and counts the hyperplanes below each vertex.
     void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
     // Cuts all slices by the general method, which also handles nonconvex polytopes.
     void cutGeneral(const polytopes::Polytope& polytope, SliceSet& out);
-    // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
+    // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false, and leaves `out` unusable, if
+    // more than two hyperplanes touch the polytope or if rounding errors prevent the cut.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out);
     // Cuts one slice, in the hyperplane with the index `plane` in `all.planes`, and writes it to `single`. Borrows
@@ -87,8 +89,8 @@ class PolytopeSlicer {
     void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
     // Considers the hyperplane through a cell's lowest vertices, and the section of the cell just above it. Returns
     // whether each segment of this section, when it is moved down into the hyperplane, moves to an edge of the polytope
-    // or shrinks to a point. If not, the cell itself nearly lies in the hyperplane. Returns true if no hyperplane
-    // contains the cell's lowest vertices.
+    // or shrinks to a point. If a segment does neither, the cell itself nearly lies in the hyperplane. Returns true if
+    // no hyperplane contains the cell's lowest vertices.
     bool lowestSectionCollapses(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
     void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
@@ -103,7 +105,7 @@ class PolytopeSlicer {
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTangentPlanes()
     // Per vertex: the number of hyperplanes strictly below it, and the number of hyperplanes below or through it. The
     // numbers differ if the vertex lies in a hyperplane; the index of this hyperplane is below_.
-    std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_
+    std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_ (see cutFaces())
     bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
     std::vector<std::uint32_t> vertexPoint_;            // per vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
@@ -113,7 +115,8 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> sliceEdgeOf_;   // per edge that lies in a hyperplane: its slice edge
     std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
     std::vector<std::uint32_t> faceCrossingBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;     // per 2-face or cell: the hyperplanes between two of its vertices
+    // Per 2-face or cell: the hyperplanes strictly between its lowest and its highest vertex.
+    std::vector<Span> faceSpan_, cellSpan_;
     std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
     CoincidingEdges coinciding_;                // per slice edge
@@ -126,8 +129,9 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be the whole slice in it
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<Loop> loops_;
-    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // per corner: its slice vertex; the edge to the next
-    std::vector<std::uint32_t> cursor_, cornerCursor_;       // per hyperplane: where to write the next element
+    // Per corner: its slice vertex, and the slice edge to the next corner.
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;
+    std::vector<std::uint32_t> cursor_, cornerCursor_;  // per hyperplane: the index at which to write the next element
     std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
     std::vector<LoopCrossing> ups_, downs_;  // in one hyperplane: where a nonconvex 2-face's loop rises and descends
 };

@@ -18,7 +18,7 @@ namespace {
 
 using geometry::kNone;
 
-// The elements of a polytope that part 0 contains.
+// Which elements of a polytope part 0 of the output contains: those of the selected cells.
 struct Selection {
     const std::vector<bool>* facing;  // per cell: whether it is selected; null if all cells are selected
     bool cell(std::uint32_t c) const { return facing == nullptr || (*facing)[c]; }

@@ -19,7 +19,8 @@ namespace oval4d::slicing {
 struct ProjectionToHyperplane {
     double inverseDistance = 0;  ///< 1 / (the w coordinate of the eye); 0 for the orthogonal projection
 
-    /// Returns the factor by which the projection magnifies the hyperplane with this w, which must be below the eye.
+    /// Returns the factor by which the projection magnifies the hyperplane with this w. The hyperplane must be below
+    /// the eye.
     double magnification(double w) const { return 1 / (1 - w * inverseDistance); }
     /// Returns the projection of a point.
     glm::dvec3 operator()(const glm::dvec4& p) const { return glm::dvec3(p) * magnification(p.w); }
@@ -32,7 +33,7 @@ class Projector {
     struct Options {
         ProjectionToHyperplane projection;
         /// Whether to write the 2-faces of the object, which bound the projected cells. If the object has a nonconvex
-        /// 2-face, none is written.
+        /// 2-face, no 2-face is written.
         bool cells = false;
         /// Whether to leave out the elements that the 4-D eye cannot see. The eye sees an element if it sees the outer
         /// side of at least one cell that contains the element.

@@ -16,19 +16,20 @@
 
 namespace oval4d::slicing {
 
-/// The two names of the section of an object by a hyperplane. They may differ, because the slice also has vertices
-/// where edges of the object cross the hyperplane.
+/// The two names of the section of an object by a hyperplane. They may differ: the slice also has vertices at the
+/// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
 struct SectionNames {
     std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
     std::string_view vertices;  ///< the result of SectionNamer::nameOfVertices()
     bool operator==(const SectionNames&) const = default;
 };
 
-/// Names slices, and the vertices of an object that lie in a hyperplane. Names only shapes that are geometrically
-/// similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the point, the
-/// segment, the regular polygons with up to 20 sides, the Platonic and Archimedean solids, the uniform prisms and
-/// antiprisms of these polygons, and the rhombic dodecahedron, which is the middle section of the vertex-first 24-cell.
-/// All other shapes have no name, including slices that are not convex or have several components.
+/// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
+/// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the
+/// point, the segment, the regular polygons with up to 20 sides, the Platonic and Archimedean solids, the uniform
+/// prisms and antiprisms of these polygons, and the rhombic dodecahedron, which is the middle section of the
+/// vertex-first 24-cell. All other shapes have no name, including slices that are not convex or have several
+/// components.
 ///
 /// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes 0.1
 /// µs, regardless of the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2 µs for

@@ -22,7 +22,8 @@ struct PlanesAtVertex {
     std::size_t below, upTo;
 };
 
-// Vertices that are nearer to a hyperplane than `tolerance` lie in it, as in PolytopeSlicer.
+// Counts the hyperplanes at a vertex with this w. `sorted` has the values of planes.listed in ascending order. A vertex
+// at a distance of at most `tolerance` from a hyperplane lies in it, as in PolytopeSlicer.
 PlanesAtVertex planesAt(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
                         double w) {
     if (!sorted.empty()) {
@@ -45,8 +46,8 @@ std::size_t countInPolytope(const polytopes::Polytope& polytope, const geometry:
     const double tolerance = kOnPlaneTolerance * polytope.circumradius;
     for (const glm::dvec4& vertex : polytope.vertices)
         at.push_back(planesAt(planes, sorted, tolerance, (turned * vertex).w));
-    std::size_t crossings =
-        0;  // of the edges of all 2-faces with hyperplanes; two of them are the ends of a slice edge
+    // The crossings of the edges of all 2-faces with hyperplanes. A slice edge has two of them as its ends.
+    std::size_t crossings = 0;
     for (std::size_t f = 0; f < polytope.faces.size(); ++f) {
         const auto loop = polytope.faces[f];
         std::uint32_t previous = loop.back();

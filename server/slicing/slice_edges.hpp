@@ -24,8 +24,9 @@ class TooManySliceEdges : public std::runtime_error {
 std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
                             const geometry::Hyperplanes& planes);
 
-/// Throws TooManySliceEdges if the slices could have more than `allowed` edges according to countSliceEdges(). Takes
-/// constant time if the number of 2-faces times the number of hyperplanes is not above the limit.
+/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. But if the number of 2-faces times the
+/// number of hyperplanes is at most `allowed`, returns in constant time without counting; a nonconvex 2-face, which a
+/// hyperplane may cut in several slice edges, then counts as one edge.
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed);
 

@@ -70,8 +70,9 @@ inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& plan
     out.quality = quality;
 }
 
-/// Sets the lattice step of the fog in all slices, for messages: half the step of the surfaces. Surfaces are accurate
-/// even with the larger step, because their points are moved onto the level after sampling.
+/// Sets the lattice step of the fog in all slices, for messages: half the step that setEvenDetail() sets for the
+/// surfaces in the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
+/// moved onto the level after sampling.
 inline void addEvenFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
     out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
 }

@@ -59,7 +59,7 @@ SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
 bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes) {
     planesBelow_ = planesBelow;
     findStructureChanges(polytope, planes);
-    return findElements(polytope, planes);
+    return tryFindCutElements(polytope, planes);
 }
 
 bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
@@ -108,7 +108,7 @@ void Sweep::findStructureChanges(const polytopes::Polytope& polytope, int planes
 
 // Finds the hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane cuts a
 // 2-face in several segments.
-bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
+bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) {
     const std::int32_t* below = planesBelow_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
@@ -173,7 +173,7 @@ void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::
     cells_.advance(plane);
 }
 
-// Makes an edge active: computes its line, and links the sections of the 2-faces and cells around it.
+// Makes an edge active: computes its line, and links the half-edges that meet on this edge (see edgeOfEnd_).
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
                              const std::vector<glm::dvec4>& rotatedVertices) {
     const std::int32_t* below = planesBelow_.below.data();
@@ -266,7 +266,9 @@ bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
         cornerBegin[i] = corner;
         const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
-        // If the 2-face of this half-edge is no longer cut, rounding errors have made the cell nonconvex.
+        // `start` lies on the edge of the cell that became active last. In a convex cell, this edge is cut as long as
+        // the cell is. If the hyperplane does not cut the 2-face of `start`, rounding errors have made the cell
+        // nonconvex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;
         std::uint32_t end = start;
         do {

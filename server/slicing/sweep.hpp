@@ -19,10 +19,11 @@ namespace oval4d::slicing {
 
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
 /// elements that it currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut
-/// cell a face. The section of a 2-face runs from the edge where the vertex loop of the 2-face rises through the
-/// hyperplane to the edge where the loop descends. The boundary of the section of a cell continues, at an edge, with
-/// the next 2-face around this edge. This combinatorial structure changes only when the hyperplane passes a vertex;
-/// between two vertices, only the coordinates of the slice change. Reuses its memory between calls.
+/// cell a face. The slice edge in a 2-face runs from the polytope edge on which the vertex loop of the 2-face rises
+/// through the hyperplane to the polytope edge on which the loop descends. At a polytope edge, the boundary of a slice
+/// face passes from one 2-face of the cell to the other 2-face of the same cell that contains this edge. This
+/// combinatorial structure changes only when the hyperplane passes a vertex; between two vertices, only the coordinates
+/// of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts.
@@ -31,13 +32,13 @@ class Sweep {
     /// then not be called.
     bool begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes);
 
-    /// Returns an upper bound of the total size of the slices, without those in `touching` (see cut()). The bound is
-    /// exact unless vertices lie in hyperplanes; slices through vertices are smaller (see DegeneracyCollapse).
+    /// Returns an upper bound of the total size of the slices, except those in `touching` (see cut()). The bound is
+    /// exact if no vertex lies in a hyperplane; slices through vertices may be smaller (see DegeneracyCollapse).
     SliceCounts maxSize() const { return size_; }
 
-    /// Writes the slices to `out`, which must contain the rotated vertices and have arrays that are large enough. The
-    /// first slice becomes slice number `first` of `out`, and its elements begin at position `at`; sets `at` to the
-    /// position after the last slice.
+    /// Writes the slices to `out`, which must contain the planes and the rotated vertices, and whose arrays must have
+    /// room for maxSize() and the slices in `touching`. The first slice becomes slice number `first` of `out`, and its
+    /// elements begin at position `at`; sets `at` to the position after the last slice.
     ///
     /// `touching` has an entry for each hyperplane. If the polytope touches the hyperplane from one side, the entry is
     /// a set that contains only the slice in this hyperplane; otherwise it is null. `touching` may be empty if all
@@ -56,11 +57,11 @@ class Sweep {
     struct Span {
         std::int32_t from, to;
     };
-    // Which vertices the rising hyperplane meets on its way from the next lower hyperplane to this one: vertices in
-    // this hyperplane (inside); otherwise, vertices between the two hyperplanes (between) or no vertices (none).
+    // For a hyperplane: `inside` if vertices lie in it; otherwise `between` if vertices lie between the next lower
+    // hyperplane and this one (for the lowest hyperplane: below it), and `none` if there are no such vertices.
     enum class VerticesMet : std::uint8_t { none, between, inside };
     void findStructureChanges(const polytopes::Polytope& polytope, int planes);
-    bool findElements(const polytopes::Polytope& polytope, int planes);
+    bool tryFindCutElements(const polytopes::Polytope& polytope, int planes);
     void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
     void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge,
                    const std::vector<glm::dvec4>& rotatedVertices);
@@ -74,7 +75,7 @@ class Sweep {
     SliceCounts size_;  // see maxSize()
     int first_ = 0;     // the slice number in `out` of hyperplane 0
     ActiveList edges_, faces_, cells_;
-    std::vector<Span> faceSpan_;            // per 2-face
+    std::vector<Span> faceSpan_;            // per 2-face: the hyperplanes that cut it
     std::vector<VerticesMet> verticesMet_;  // per hyperplane
     // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
     // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
@@ -83,11 +84,12 @@ class Sweep {
     std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex
     std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: its slice edge
     // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on edge edgeOfEnd_[2 f], where the vertex
-    // loop of f rises through the hyperplane; end 2 f + 1 lies on edge edgeOfEnd_[2 f + 1], where the loop descends. An
-    // end also stands for the half-edge that runs along the segment toward it: half-edge 2 f + i belongs to the
-    // boundary loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next half-edge of this loop.
+    // loop of f rises through the hyperplane; end 2 f + 1 lies on edge edgeOfEnd_[2 f + 1], where the loop descends.
+    // The number of an end is also the number of the half-edge that runs along the segment toward this end: half-edge
+    // 2 f + i belongs to the boundary loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next
+    // half-edge of this loop.
     std::vector<std::uint32_t> edgeOfEnd_, nextEnd_;
-    std::vector<std::uint32_t> firstEnd_;  // per active cell: a half-edge of its section
+    std::vector<std::uint32_t> firstEnd_;  // per active cell: a half-edge of its section (see writeFaces())
     DegeneracyCollapse collapse_;
 };
 

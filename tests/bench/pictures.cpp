@@ -109,7 +109,7 @@ class Bench {
 
     static std::unique_ptr<raster::Rasterizer> makeRasterizer(parallel::ForkJoin& forkJoin) {
         auto rasterizer = std::make_unique<raster::LocalRasterizer>(&forkJoin);
-        rasterizer->limitFill(pipeline::PictureLimits().fillSteps);
+        rasterizer->limitFill(pipeline::PictureWorkLimits().fillSteps);
         return rasterizer;
     }
 

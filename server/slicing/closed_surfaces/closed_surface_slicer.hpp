@@ -30,11 +30,12 @@ namespace oval4d::slicing {
 /// domain become caps.
 ///
 /// The surface is closed in spite of rounding errors, for two reasons. First, each of its points is the intersection of
-/// a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second, each decision
-/// depends only on a simplex: whether a lattice point lies above the hyperplane, and whether the point where a lattice
-/// edge crosses the hyperplane is inside the body. Lattice points in the hyperplane count as above it, and points whose
-/// value equals the level as outside. If all samples have values, the surface is a 2-manifold, because it separates the
-/// inside points of a triangulated 3-manifold from the others. Triangles may have zero area.
+/// a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second, all decisions
+/// are made for a lattice point (whether it lies above the hyperplane) or a lattice edge (whether the point where it
+/// crosses the hyperplane is inside the body), so that they agree in all pentatopes with this point or edge. Lattice
+/// points in the hyperplane count as above it, and points whose value equals the level as outside. If all samples have
+/// values, the surface is a 2-manifold, because it separates the inside points of a triangulated 3-manifold from the
+/// others. Triangles may have zero area.
 ///
 /// Samples that are NaN or infinite have no value. Pentatopes with such a corner do not belong to the body; they form
 /// holes, and the body has caps there. Parts of the body that touch along an edge of a hole share this edge.
@@ -68,8 +69,8 @@ class ClosedSurfaceSlicer {
     const FieldLattice& lattice() const { return lattice_; }
 
   private:
-    static constexpr int kBrick = 4;  // cells along each side of a brick, which is sampled as a whole
-    static constexpr std::size_t kBrickPoints = 625;
+    static constexpr int kBrick = 4;                  // cells along each side of a brick, which is sampled as a whole
+    static constexpr std::size_t kBrickPoints = 625;  // (kBrick + 1)⁴
 
     enum class RunStatus : std::uint8_t { working, too_large, stopped };
     using Triangle = std::array<std::uint32_t, 3>;
@@ -114,7 +115,8 @@ class ClosedSurfaceSlicer {
     // always below the level.
     Options options_;
     double level_ = 0, sign_ = 1;
-    std::array<std::vector<double>, 4> heights_;  // per axis and index: its contribution to a lattice point's height
+    // Per axis and index along it: the term that it adds to the height of a lattice point above the hyperplane.
+    std::array<std::vector<double>, 4> heights_;
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;
     KeyNumbering numbers_;

@@ -70,7 +70,7 @@ using CriticalPtr = std::shared_ptr<const CriticalSections>;
 
 /// Limits on one search.
 struct CriticalOptions {
-    /// The time limit of the search, in seconds. When it is reached, the search for further sections ends, and
+    /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
     /// CriticalSections::tolerance is greater than otherwise. Finding the SectionChange of each critical w may take
     /// half of this time more; after that, the remaining changes are derived from the numbers of components and
     /// cavities alone.
@@ -100,7 +100,7 @@ inline constexpr double kCriticalTolerance = 1e-4;   // of the range of w
 inline constexpr double kCriticalResolution = 1e-3;  // of the range of w
 
 /// Returns the next critical w above `w` or, if `upward` is false, below it. Values that differ by at most `same` count
-/// as equal. Returns std::nullopt if there is none.
+/// as equal. Returns std::nullopt if there is no such critical w.
 std::optional<double> nextCriticalW(const CriticalSections& sections, double w, bool upward, double same);
 
 }  // namespace oval4d::slicing

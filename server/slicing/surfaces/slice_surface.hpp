@@ -22,8 +22,10 @@ struct SliceSurface {
     /// Per point: the distance by which the level set moves along its outward normal per unit of w. Positive where the
     /// body grows with w, negative where it shrinks, and infinite where the level set is tangent to the hyperplane.
     std::vector<float> growth;
-    std::vector<float> values;        ///< per point: the value of the function
-    std::vector<float> secondValues;  ///< per point: the second function's value; empty if not needed
+    std::vector<float> values;  ///< per point: the value of the function
+    /// Per point: the value of the second function. Empty unless the field has one and SurfaceDetail::secondValues is
+    /// true.
+    std::vector<float> secondValues;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise, seen from outside the body
     /// Per triangle: the index of its level, plus kCap if it belongs to a cap. The triangles are sorted by level;
     /// within each level, those of the caps are last.

@@ -570,8 +570,8 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
     return {inner.position + first * way, constraint};
 }
 
-// Moves each point of the current level onto the level set and the walls on which it must lie (see
-// constraints_), and appends the points to `out`.
+// Moves each point of the current level onto the level set and the walls in its constraint mask (see constraints_), and
+// appends the points to `out`.
 void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, const FieldSection& section,
                                     SliceSurface& out) {
     constexpr int kRimSteps = 2;  // Newton steps of points on rims, whose first positions may be far off

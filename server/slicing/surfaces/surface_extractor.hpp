@@ -159,8 +159,8 @@ class SurfaceExtractor {
     std::vector<Cube> cubes_;                     // of the current level
     std::vector<glm::dvec3> positions_, starts_;  // of the points of the current level, now and before they were moved
     std::vector<std::uint32_t> moving_;           // the points that are being moved onto the level set
-    std::vector<std::array<std::uint32_t, 3>>
-        caps_;                                // of the current level; in the result, they follow its other triangles
+    // The triangles of the caps of the current level. In the result, they follow the other triangles of this level.
+    std::vector<std::array<std::uint32_t, 3>> caps_;
     std::vector<std::uint16_t> constraints_;  // per point of the current level: a constraint mask
 };
 
