@@ -26,8 +26,9 @@ struct ExportLimits {
     int slices = 201;
 };
 
-/// The reason why an export produces no file. `message` is its text for the user.
-struct ExportError {
+/// Why an export produces no file: the cause, and a text for the user. ExportRefused carries it to exportScene(), which
+/// returns it.
+struct ExportRefusal {
     enum class Cause : std::uint8_t {
         no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
         too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
@@ -38,9 +39,10 @@ struct ExportError {
     std::string message;
 };
 
-/// The exception by which functions in this folder refuse an export. exportScene() catches it and returns `error`.
+/// The exception by which functions in this folder refuse an export. exportScene() catches the exception and returns
+/// `error`.
 struct ExportRefused {
-    ExportError error;
+    ExportRefusal error;
 };
 
 /// Checks one export against its limits. The time of the export counts from the construction of this object.
@@ -56,12 +58,12 @@ class Budget {
     void checkTime() const {
         if (stop_.stop_requested())
             throw ExportRefused{
-                {ExportError::Cause::too_long, "the export was canceled because the server is stopping"}};
+                {ExportRefusal::Cause::too_long, "the export was canceled because the server is stopping"}};
         if (mustStop()) {
             throw ExportRefused{
-                {ExportError::Cause::too_long, "the export takes longer than the allowed " +
-                                                   std::to_string(static_cast<int>(limits_.time.count())) +
-                                                   " s; export only the focus slice, or a solid body"}};
+                {ExportRefusal::Cause::too_long, "the export takes longer than the allowed " +
+                                                     std::to_string(static_cast<int>(limits_.time.count())) +
+                                                     " s; export only the focus slice, or a solid body"}};
         }
     }
     /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
@@ -69,9 +71,9 @@ class Budget {
     void checkTrianglesAndMemory(std::size_t total) const {
         if (total > limits_.triangles) {
             throw ExportRefused{
-                {ExportError::Cause::too_large, "the file would have about " + std::to_string(total) +
-                                                    " triangles; at most " + std::to_string(limits_.triangles) +
-                                                    " are allowed; export only the focus slice, or a solid body"}};
+                {ExportRefusal::Cause::too_large, "the file would have about " + std::to_string(total) +
+                                                      " triangles; at most " + std::to_string(limits_.triangles) +
+                                                      " are allowed; export only the focus slice, or a solid body"}};
         }
         checkRoom(kBytesOfTriangle * total);
     }
@@ -79,7 +81,7 @@ class Budget {
     /// ExportLimits::grantTotalBytes refuses this number of bytes.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
-            throw ExportRefused{{ExportError::Cause::too_large,
+            throw ExportRefused{{ExportRefusal::Cause::too_large,
                                  "the file would exceed the allowed " + std::to_string(limits_.bytes) + " bytes"}};
         }
         checkRoom(count);
@@ -92,7 +94,7 @@ class Budget {
 
     void checkRoom(std::size_t bytes) const {
         if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))
-            throw ExportRefused{{ExportError::Cause::no_room, "the memory limit leaves no room for the file"}};
+            throw ExportRefused{{ExportRefusal::Cause::no_room, "the memory limit leaves no room for the file"}};
     }
 
     const ExportLimits limits_;

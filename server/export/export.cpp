@@ -143,8 +143,8 @@ class Exporter {
         return slices_.vertexCount(i) == 0;
     }
 
-    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. If they are for a 3-D
-    /// printer, returns only the outermost, which contains the others.
+    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. For a 3-D printer,
+    /// returns only the body of the outermost level, which contains the others. Omits levels without a body.
     std::vector<PlacedMesh> surfaceBodies(int i) const {
         const auto& levels = scene_.surfaces.levels;
         const bool single = request_.format->arrangement == Format::Arrangement::plate;
@@ -162,7 +162,7 @@ class Exporter {
 
     void label(std::vector<SliceBodies>& groups) {
         if (hasSurfaces_ && request_.label == Label::engraved) {
-            throw ExportRefused{{ExportError::Cause::no_body,
+            throw ExportRefused{{ExportRefusal::Cause::no_body,
                                  "the surface of a field has no face to engrave; choose a separate label"}};
         }
         std::size_t done = 0;
@@ -181,7 +181,7 @@ class Exporter {
         }
         if (done == 0) {
             throw ExportRefused{
-                {ExportError::Cause::no_body,
+                {ExportRefusal::Cause::no_body,
                  request_.body == Body::skeleton
                      ? "balls and bars have no face to engrave; choose a separate label"
                      : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
@@ -202,7 +202,7 @@ class Exporter {
         const double largest = kCoarseCube * radii_.bar;
         if (largest < kLeastFieldStep * grid_.step()) {
             throw ExportRefused{
-                {ExportError::Cause::no_body,
+                {ExportRefusal::Cause::no_body,
                  "the bars of this object are too thin for a file; export a larger body, or a solid one "
                  "(body=solid)"}};
         }
@@ -230,31 +230,31 @@ class Exporter {
             if (format.canContain(request_.contents)) formatsWithIt.emplace_back(format.name);
         }
         const std::string asked(text::nameOf(kExportContents, request_.contents));
-        throw ExportRefused{{ExportError::Cause::no_body, request_.format->name + " files contain " +
-                                                              text::alternatives(own) + ", not " + asked + "; " +
-                                                              text::alternatives(formatsWithIt) + " files do"}};
+        throw ExportRefused{{ExportRefusal::Cause::no_body, request_.format->name + " files contain " +
+                                                                text::alternatives(own) + ", not " + asked + "; " +
+                                                                text::alternatives(formatsWithIt) + " files do"}};
     }
 
     void refuseOtherObjects() const {
         const Format& format = *request_.format;
         const bool isField = slicing::fieldIn(object_) != nullptr;
         if (isField && format.objects == Format::Objects::polytopes_and_points) {
-            throw ExportRefused{{ExportError::Cause::no_body, format.name +
-                                                                  " files contain polytopes or points, and a field has "
-                                                                  "none; choose another format, such as stl or vtp"}};
+            throw ExportRefused{
+                {ExportRefusal::Cause::no_body, format.name + " files contain polytopes or points, and a field has "
+                                                              "none; choose another format, such as stl or vtp"}};
         }
         if (!isField && format.objects == Format::Objects::fields) {
             throw ExportRefused{
-                {ExportError::Cause::no_body, format.name + " files contain the values of a field; choose another "
-                                                            "format, such as stl or vtp"}};
+                {ExportRefusal::Cause::no_body, format.name + " files contain the values of a field; choose another "
+                                                              "format, such as stl or vtp"}};
         }
     }
 
     [[noreturn]] void refuseFlatElement() const {
         const bool isCell = element_->kind == slicing::ElementKind::cell;
-        throw ExportRefused{{ExportError::Cause::no_body, nameOfElement() + " has no volume" +
-                                                              (isCell ? ", or too little for this size" : "") +
-                                                              "; choose body=skeleton, its balls and bars"}};
+        throw ExportRefused{{ExportRefusal::Cause::no_body, nameOfElement() + " has no volume" +
+                                                                (isCell ? ", or too little for this size" : "") +
+                                                                "; choose body=skeleton, its balls and bars"}};
     }
     /// Throws ExportRefused if the whole polytope is only a few grid steps large, because it is far from its origin.
     void refuseTiny(const std::string& message) const {
@@ -264,7 +264,7 @@ class Exporter {
         const glm::dvec3 size = box.size();
         const double largest = std::max({size.x, size.y, size.z});
         if (isCloud() || slices_.vertices.empty() || largest > kFewSteps * grid_.step()) return;
-        throw ExportRefused{{ExportError::Cause::no_body,
+        throw ExportRefused{{ExportRefusal::Cause::no_body,
                              message + ": the polytope is too small in comparison with its distance from the origin; "
                                        "load it with center=object"}};
     }
@@ -277,7 +277,7 @@ class Exporter {
             most = std::max(most, v.w);
         }
         if (isCloud() && request_.body == Body::solid) {
-            throw ExportRefused{{ExportError::Cause::no_body,
+            throw ExportRefused{{ExportRefusal::Cause::no_body,
                                  "points have no volume; choose body=skeleton, whose balls are the points"}};
         }
         const std::string reach =
@@ -292,7 +292,7 @@ class Exporter {
         }
         refuseTiny(message);
         const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
-        throw ExportRefused{{ExportError::Cause::no_body,
+        throw ExportRefused{{ExportRefusal::Cause::no_body,
                              message + ": the " + (isField ? "box of the field" : kind) +
                                  (isCloud() ? " extend" : " extends") + " from w = " + reach + "; " +
                                  (isField ? "change the levels, " : "") + advice + " or turn the " + kind}};
@@ -306,7 +306,7 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
-    std::optional<slicing::Element> element_;  // the element that is exported alone
+    std::optional<slicing::Element> element_;  // the element that is exported alone; absent for other contents
     SkeletonRadii radii_;
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the bodies are those inside the surfaces of a field
@@ -315,9 +315,10 @@ class Exporter {
 
 }  // namespace
 
-std::variant<ExportedFile, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
-                                                    const geometry::Rotation& orientation, const ExportRequest& request,
-                                                    const ExportLimits& limits, std::stop_token stop) {
+std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene, const slicing::Object& object,
+                                                      const geometry::Rotation& orientation,
+                                                      const ExportRequest& request, const ExportLimits& limits,
+                                                      std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
     try {
         return Exporter(scene, object, orientation, request, budget).run();

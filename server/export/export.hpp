@@ -34,14 +34,15 @@ struct ExportedFile {
 /// The slice set must contain the surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the
 /// solid bodies of a field, unless an element of the field's box is exported.
 ///
-/// Bodies are in millimeters, unless the format requires meters, closed and 2-manifold: every edge belongs to exactly
-/// two triangles that traverse it in opposite directions, and normals point outward.
+/// Bodies are closed and 2-manifold: every edge belongs to exactly two triangles, which traverse it in opposite
+/// directions. Their normals point outward. They are in millimeters, unless the format requires meters.
 ///
 /// Returns an error if a limit is exceeded, if there is nothing to export, if the format cannot contain what is asked,
 /// or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font of a label
 /// cannot be read, or if the plate of a label cannot be made.
-std::variant<ExportedFile, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
-                                                    const geometry::Rotation& orientation, const ExportRequest& request,
-                                                    const ExportLimits& limits, std::stop_token stop = {});
+std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene, const slicing::Object& object,
+                                                      const geometry::Rotation& orientation,
+                                                      const ExportRequest& request, const ExportLimits& limits,
+                                                      std::stop_token stop = {});
 
 }  // namespace oval4d::exports

@@ -28,7 +28,8 @@ inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
 inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
 
-/// The options of an export. `body` and `label` apply only to formats with bodies, `size` to these and to drawings.
+/// The options of an export. `body` and `label` apply only to formats with bodies; `size` applies to formats with
+/// bodies and to drawings.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
     ExportContents contents = ExportContents::focus;

@@ -243,8 +243,8 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
     if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
-    if (auto* error = std::get_if<exports::ExportError>(&made)) {
-        using Cause = exports::ExportError::Cause;
+    if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {
+        using Cause = exports::ExportRefusal::Cause;
         const ErrorCode code = error->cause == Cause::no_body   ? ErrorCode::no_body
                                : error->cause == Cause::no_room ? ErrorCode::too_many
                                                                 : ErrorCode::too_large;

@@ -113,8 +113,8 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
     return radii;
 }
 
-// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex; the edges of both have one
-// length; and all other edges of the cell have one length, which may be another.
+// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex; all edges of the two are
+// equally long; and all other edges of the cell are equally long. The two lengths may differ.
 bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
@@ -137,7 +137,8 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     wanted[n] += 2;
     wanted[3] += 2 * n;
     if (n < 3 || tally.faces != wanted || !tally.has(n, 4, n, 4)) return {};
-    // The vertices of an antiprism lie on a sphere. A base with equally long edges is regular if its vertices do.
+    // The vertices of a right antiprism lie on a sphere. Therefore the vertices of a base lie on a circle, and a base
+    // with equally long edges is regular.
     if (!areAllEqual(radiiOf(p, tally))) return {};
     std::vector<std::uint32_t> bases;  // two; or, if n = 3, all eight triangles
     for (const std::uint32_t f : p.cells[cell]) {

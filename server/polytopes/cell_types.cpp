@@ -108,9 +108,9 @@ class Numbering {
 }  // namespace
 
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
-    // `polygons` assigns a number to each combination of a cell's vertex count and the side counts of its 2-faces. By
-    // this number, `seen` lists the types found so far, with their metric invariants. `sizes` assigns a number to each
-    // combination of a vertex count and a 2-face count.
+    // `polygons` assigns a number to each combination of a cell's vertex count and the side counts of its 2-faces. For
+    // each such number, `seen` lists the types found so far, with their metric invariants. `sizes` assigns a number to
+    // each combination of a vertex count and a 2-face count.
     Numbering<std::vector<std::uint32_t>> polygons;
     Numbering<std::array<std::uint32_t, 2>> sizes;
     struct Seen {

@@ -11,8 +11,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;                // relative to the extent
-constexpr double kMaxTurn = 3 * std::numbers::pi;  // the angles around an edge or vertex add up to 2π or to at least 4π
+constexpr double kTolerance = 1e-9;  // relative to the extent
+// The angles around an edge or vertex add up to 2π or to at least 4π. This number distinguishes the two cases.
+constexpr double kMaxTurn = 3 * std::numbers::pi;
 
 // Returns the component of v perpendicular to a unit vector.
 glm::dvec4 rejection(const glm::dvec4& v, const glm::dvec4& unit) { return v - glm::dot(v, unit) * unit; }

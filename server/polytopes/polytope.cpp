@@ -129,8 +129,9 @@ class Orienter {
         }
     }
 
-    // Sets the signs of all 2-faces of the cell to agree with the sign of one of them, which must be set already.
-    // Returns false if the cell was oriented before.
+    // Sets the signs of all 2-faces of the cell to agree with the sign of one of them, which the caller must have set.
+    // Returns false, without changing anything, if the cell was oriented before. Throws InvalidPolytope if the cell is
+    // not a connected closed orientable surface.
     bool orientCell(std::uint32_t cell) {
         if (done_[cell]) return false;
         done_[cell] = true;

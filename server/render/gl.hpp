@@ -1,8 +1,8 @@
 #pragma once
-// The functions of OpenGL and OSMesa that the renderer calls, as pointers. The first Context loads the OSMesa library
-// and sets the pointers. The program is not linked with this library, because most processes draw nothing, and loading
-// the library takes several times as long as starting the rest of the program: the library also loads LLVM, which
-// compiles shaders.
+// The functions of OpenGL and OSMesa that the renderer calls, as pointers. The first OffscreenGlContext loads the
+// OSMesa library and sets the pointers. The program is not linked with this library, because most processes draw
+// nothing, and loading the library takes several times as long as starting the rest of the program: the library also
+// loads LLVM, which compiles shaders.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

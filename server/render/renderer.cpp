@@ -14,7 +14,7 @@
 #include <glm/vec2.hpp>
 
 #include "parallel/ownership.hpp"
-#include "render/context.hpp"
+#include "render/offscreen_gl_context.hpp"
 #include "render/overlay/annotations.hpp"
 #include "render/overlay/coordinates_plot.hpp"
 #include "render/overlay/matrix_panels.hpp"
@@ -130,7 +130,7 @@ struct Renderer::Impl {
     };
 
     parallel::ThreadOwnerAssertion owner;
-    Context context;                     // declared before the members that need a current context
+    OffscreenGlContext context;          // declared before the members that need a current context
     const bool shapesInMemory;           // whether shapes are drawn without OpenGL where possible
     parallel::ForkJoin* const forkJoin;  // null if pictures are drawn with one thread
     ShapeRasterizer shapeRasterizer;

@@ -31,7 +31,7 @@ struct Arrangement {
     /// the curve. With a longer vector, labels would cover the next slice; with a shorter one, labels at the sides
     /// would leave less room for the slices.
     double labelDrop = 0.54;
-    double focusLabelDrop = 0;  ///< how much farther away the label of the focus slice is, in heights of text
+    double focusLabelDrop = 0;  ///< how much farther the label of the focus slice is from its slice, in heights of text
     /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
     bool labelsAreBeside = false;
     /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
@@ -57,7 +57,7 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
 
 /// Places the projection of the whole object beside the slices of a view. `aspect`: that of the room for the slices and
 /// the projection, without the part of the width that labels beside the slices take. If the view has the projection
-/// between its slices, which projectionInside() places, the result is not shown.
+/// between its slices, returns a placement that is not `shown`; the caller must then call projectionInside().
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
 /// Places the projection in the middle of the oval, on the axis of the parabola: at the point where the largest circle

@@ -53,7 +53,8 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
     const double unit = scene.camera.sizeAtUnitDepth() * viewport.height * scene.sliceRadius / scene.circumradius;
-    // On coarser lattices than those of messages, thin bodies in small slices would fall apart.
+    // On a lattice that is coarser than the one for messages (evenStep()), thin bodies in small slices would fall
+    // apart.
     const double coarsest = quality == slicing::Quality::full ? slicing::evenStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {

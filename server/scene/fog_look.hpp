@@ -27,7 +27,7 @@ inline constexpr std::size_t kFogEntries = 256;
 /// Between two points, sRGB colors and opacities are interpolated linearly. Overwrites `out`.
 void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
-/// findFogBlocks() divides a lattice into blocks. This is the number of lattice cubes along each side of a block.
+/// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a lattice.
 inline constexpr int kFogBlock = 4;
 
 /// Finds the blocks of a lattice that contain fog. Overwrites `out` with one byte per block; x varies fastest. The byte

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLabelGap = 0.014;  // between a slice and its label, as a fraction of the viewport's height
 
-// The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
-// margins are those of the plates behind the labels.
+// The sizes of characters and of the plates behind labels, as fractions of the font size. The widths of characters are
+// those of DejaVu Sans, rounded up.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
 constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a section's name, rounded up
 constexpr double kDigitHeight = 0.73;

@@ -29,7 +29,8 @@ struct Circle {
     double radius;
 };
 
-// Returns the circle that a sphere appears as, as if the sphere were on the optical axis.
+// Returns a circle that approximates the outline of a sphere. The approximation is good for spheres that are small and
+// near the optical axis.
 Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
     const double depth = space.depth(position);
     return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};

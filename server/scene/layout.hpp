@@ -42,13 +42,13 @@ struct SlicePlacement {
 ///   `panel`, and from `zero` − `amplitude` up to `zero` + `amplitude`.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
-    double left = 0;        ///< the left edge of the first column
-    double zero = 0;        ///< the height of the top row's zero line above the bottom of the viewport
+    double left = 0;        ///< the left edge of the first column, axis or panel
+    double zero = 0;        ///< the height of the top row's zero line, or of the middle of the axes or panels
     double rowStep = 0;     ///< the distance from a row's zero line down to that of the next row
     double columnStep = 0;  ///< lines: the distance from one vertex to the next in its row
     double lineStep = 0;    ///< the distance from one of the four lines, axes or panels to the next
     double lineWidth = 0;
-    double amplitude = 0;  ///< the length of a line whose value is the circumradius
+    double amplitude = 0;  ///< lines: the length that represents the circumradius; else half the plot's height
     bool named = true;     ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
     /// Whether a density strip is drawn.
     bool isDensityStrip = false;

@@ -96,7 +96,7 @@ constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKin
 
 /// How the whole object is projected.
 struct ProjectionSettings {
-    static constexpr geometry::Range kEyeRange{1.05, 1000};  ///< greater than 1
+    static constexpr geometry::Range kEyeRange{1.05, 1000};  ///< greater than 1, so the eye is outside the object
 
     ProjectionKind kind = ProjectionKind::off;
     double eye = 3;  ///< perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange

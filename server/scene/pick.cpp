@@ -187,8 +187,9 @@ class Picker {
         return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
     }
 
-    // Returns the depth at which the ray through the pixel meets the polygon, or an empty optional if the ray misses
-    // the polygon. A point is inside if the winding number is not 0.
+    // Returns the depth at which the ray through the pixel meets the polygon. Returns an empty optional if the ray
+    // misses the polygon, or if a corner is behind the eye. A point is inside the polygon if the winding number is not
+    // 0.
     std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t f) const {
         const std::uint32_t begin = set.cornerBegin[f], end = set.cornerBegin[f + 1];
         int winding = 0;

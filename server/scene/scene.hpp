@@ -103,7 +103,7 @@ struct Scene : Layout {
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
-    /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. They
+    /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. Slices
     /// extend into this part only if the viewer has moved the camera.
     bool clearsCoordinates() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }
     /// Returns the cell that determines the color of a face of `slices`.

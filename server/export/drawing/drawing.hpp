@@ -56,7 +56,7 @@ struct TextLine {
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> tones;   ///< opacities from 0 to 255, row by row from the top
-    int columns = 1;                   ///< at least 2 in a drawing
+    int columns = 1;                   ///< must be at least 2, and so must rows()
     std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, and
                                        ///< interpolated between these positions
 

@@ -73,11 +73,11 @@ class SectionDrawer {
                                            .roundEnds = true,
                                            .opacity = opacity});
         }
-        const bool differ = !from.ballScale.empty();  // true for points of a cloud with different radii or opacities
+        const bool isCloud = !from.ballScale.empty();  // each point of a cloud has its own radius and opacity
         for (std::size_t i = 0; i < from.points.size(); ++i) {
-            const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
+            const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
-            group.shapes.emplace_back(Disk{place(from.points[i]), (differ ? 1.5 * from.ballScale[i] : 0.6) * width,
+            group.shapes.emplace_back(Disk{place(from.points[i]), (isCloud ? 1.5 * from.ballScale[i] : 0.6) * width,
                                            styles.highlighted[i] ? scene_.style().highlight : kPoint, opacity});
         }
         return group;

@@ -33,7 +33,7 @@ constexpr double kThickness = 0.8;  // the width of lines, as a fraction of the 
 class ProjectionDrawer {
   public:
     explicit ProjectionDrawer(const scene::Scene& scene) : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
-        // The projection lies in a sphere with the radius of its placement, in world units.
+        // The projection lies in a sphere with the radius ProjectionPlacement::radius, in world units.
         scale_ = (kDrawingWidth / 2 - kDrawingMargin) / scene.projectionPlacement.radius;
     }
 

@@ -194,8 +194,9 @@ class SliceDrawer {
         return toward ? toward_frame : away_frame;
     }
 
-    // A bar has the depth of its far end, and shapes of equal depth keep their order. Balls are added before bars, so
-    // that a bar covers the ball at its far end. The ball at the near end covers the bar.
+    // A bar has the depth of its far end, and shapes of equal depth are drawn in the order in which they are added.
+    // Balls are added before bars, so that a bar covers the ball at its far end. The ball at the near end covers the
+    // bar.
     void addBalls() {
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             const std::uint32_t v = set_.vertexBegin[slice_] + i;
@@ -305,7 +306,7 @@ ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement
 
 Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const Budget& budget) {
     if (slicing::fieldIn(object) != nullptr) {
-        throw ExportRefused{{ExportError::Cause::no_body,
+        throw ExportRefused{{ExportRefusal::Cause::no_body,
                              "the surfaces of a field are too fine for a drawing; save a picture (png) instead"}};
     }
     const Paper paper(scene);

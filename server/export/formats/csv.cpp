@@ -68,7 +68,7 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
             options.level = level;
             const auto done = slicer.slice(planes.w(i), options, surface);
             source.budget.checkTime();
-            if (!done) throw ExportRefused{{ExportError::Cause::too_large, done.error().message}};
+            if (!done) throw ExportRefused{{ExportRefusal::Cause::too_large, done.error().message}};
             source.budget.checkTrianglesAndMemory(surface.triangles.size());
             out += std::to_string(planes.first + i) + ',';
             append(out, planes.w(i));
@@ -90,10 +90,10 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
 // Returns a table of the values of w at which there are vertices, with the number of vertices at each.
 std::string criticalCsv(const SceneInput& source) {
     std::string out = "w,vertices\n";
-    std::vector<double> levels;
-    for (const glm::dvec4& v : source.scene.slices->rotatedVertices) levels.push_back(v.w);
+    std::vector<double> heights;
+    for (const glm::dvec4& v : source.scene.slices->rotatedVertices) heights.push_back(v.w);
     const double same = slicing::kOnPlaneTolerance * source.scene.circumradius;
-    for (const auto& [w, vertexCount] : slicing::groupHeights(std::move(levels), same)) {
+    for (const auto& [w, vertexCount] : slicing::groupHeights(std::move(heights), same)) {
         append(out, slicing::infoOf(source.object).originInFile.w + w);
         out += ',' + std::to_string(vertexCount) + '\n';
     }
@@ -106,7 +106,7 @@ std::string measurementsCsv(const SceneInput& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
     if (source.contents == ExportContents::critical) {
         if (field == nullptr) return criticalCsv(source);
-        throw ExportRefused{{ExportError::Cause::no_body,
+        throw ExportRefused{{ExportRefusal::Cause::no_body,
                              "the critical w of a field are searched for; get them with the message get critical"}};
     }
     if (field != nullptr) return fieldCsv(source, *field);

@@ -17,8 +17,8 @@
 
 namespace oval4d::exports {
 
-/// The input of the writers of mesh formats (STL, PLY, …). The meshes already have their positions in the file,
-/// PlacedMesh::at (see arrangement.hpp).
+/// The input of the writers of mesh formats (STL, PLY, …). PlacedMesh::at is the final position of each mesh in the
+/// file (see arrangement.hpp).
 struct MeshesToWrite {
     std::span<const PlacedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell

@@ -34,8 +34,8 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. `bounded` says whether
-    /// the accessor has the minimum and maximum of the values.
+    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. If `bounded` is true,
+    /// the accessor states the minimum and maximum of the values, as glTF requires for positions.
     int store(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;

@@ -66,7 +66,8 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // Draws an image of the mixed colors. Its soft mask, which determines the opacity of each pixel, has the tones.
+    // Draws an image whose colors are interpolated between DensityImage::colors. Its soft mask, which determines the
+    // opacity of each pixel, has the tones.
     void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
@@ -127,8 +128,8 @@ class PageWriter {
     std::map<int, HPDF_ExtGState> states_;
 };
 
-// Returns a text string of the document information as a hexadecimal string: UTF-16BE with a byte order mark
-// (PDF 1.4, section 3.8.1).
+// Returns the text as PDF writes it in the document information: UTF-16BE with a byte order mark, as a hexadecimal
+// string (PDF 1.4, section 3.8.1).
 std::string textString(const std::string& text) {
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     std::string out = "<FEFF";

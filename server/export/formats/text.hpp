@@ -20,8 +20,9 @@ void append(std::string& out, const glm::dvec3& point);
 /// distinguish the hyperplanes. `origin`, the w of ObjectInfo::originInFile, is added to w.
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin = 0);
 
-/// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters, U+FFFE and
-/// U+FFFF. Tabs and line ends are removed, too, so the result is one line in any text format. The text must be UTF-8.
+/// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters below U+0020,
+/// U+FFFE and U+FFFF. Also removes tabs and line ends, which XML allows, so that the result is one line in any text
+/// format. The text must be UTF-8.
 std::string xmlCharacters(std::string_view text);
 
 /// Returns xmlCharacters(text) escaped for XML content and attributes: & < > and quotes become entities.

@@ -82,7 +82,7 @@ std::string vti(const SceneInput& source) {
     constexpr int kCells = 128;  // across the diameter of the circumscribed sphere
     const slicing::SliceSet& slices = *source.scene.slices;
     const auto refuse = [](std::string message) {
-        throw ExportRefused{{ExportError::Cause::no_body, std::move(message)}};
+        throw ExportRefused{{ExportRefusal::Cause::no_body, std::move(message)}};
     };
     if (slices.vertices.empty()) {
         refuse("the slice at " + labelOfW(slices.planes, 0) + " is empty: move the focus or turn the field");

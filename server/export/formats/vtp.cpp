@@ -20,7 +20,7 @@ namespace {
 struct PolyData {
     std::vector<float> points, normals;               // three numbers for each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
-    std::vector<std::int64_t> corners, ends;
+    std::vector<std::int64_t> corners, ends;          // the points of the polygons; where the corners of each end
     std::vector<std::int32_t> n, cell;
     std::vector<double> w, level;
     std::vector<std::uint8_t> cap;

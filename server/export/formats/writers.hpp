@@ -1,5 +1,6 @@
 #pragma once
-// The writers of the file formats. The source of each has the name of its format, and formats.cpp lists them all.
+// The writers of the file formats. The source file of each writer is named after its format; formats.cpp lists all
+// writers.
 
 #include <string>
 

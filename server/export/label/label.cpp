@@ -69,7 +69,8 @@ std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
 }
 
 /// Returns the placement with the largest letters that leave the margin free on this face. The text runs along `right`
-/// or, if it would then be upside down, in the opposite direction.
+/// or, if it would then be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
+/// result.
 TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
@@ -107,14 +108,14 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Fac
 
 /// Returns whether the mesh is convex and consists of these faces, without holes.
 bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const RoundingGrid& grid) {
-    std::size_t corners = 0;
+    std::size_t triangles = 0;
     for (const auto& [cell, face] : faces) {
-        corners += face.loop.size() - 2;
+        triangles += face.loop.size() - 2;
         for (const glm::dvec3& p : mesh.points) {
             if (glm::dot(p - face.middle, face.normal) > 4 * grid.step()) return false;
         }
     }
-    return corners == mesh.triangles.size();
+    return triangles == mesh.triangles.size();
 }
 
 /// Engraves the text: replaces the face by a face with holes for the letters, and adds the letters' walls and floors.

@@ -125,7 +125,7 @@ class HalfEdges {
         struct HalfEdge {
             std::uint64_t ends;  // two points, the one with the smaller index first
             std::uint32_t edge;
-            bool upward;
+            bool upward;  // whether it starts at the point with the smaller index
         };
         std::vector<HalfEdge> halfEdges;
         halfEdges.reserve(origins_.size());
@@ -269,7 +269,7 @@ class HalfEdges {
     std::vector<bool> removed_;                   // per triangle
     std::vector<glm::ivec3> at_;                  // per point: its position in grid steps
     std::vector<std::uint32_t> sources_;          // per point: the input point from which it was made
-    std::vector<std::uint32_t> outgoing_;         // per point: a half-edge from it; kNone if it was collapsed
+    std::vector<std::uint32_t> outgoing_;         // per point: a half-edge from it; kNone if merged into another point
     std::vector<std::uint32_t> neighbors_, otherNeighbors_, common_;
 };
 

@@ -14,7 +14,7 @@ namespace oval4d::exports {
 /// The result of snapSurface().
 struct SnappedSurface {
     Mesh mesh;                          ///< all points lie on the grid; all triangles have the cell kNoCell
-    std::vector<std::uint32_t> source;  ///< for each point of the mesh, the index of the point from which it was made
+    std::vector<std::uint32_t> source;  ///< per point of the mesh: the index of the input point from which it was made
 };
 
 /// Rounds a closed surface to the grid, and keeps it closed: the mesh is 2-manifold, and no two of its points are

@@ -71,7 +71,7 @@ struct EdgeCrossing {
 /// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< see marchTetrahedra()
+inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid steps; see marchTetrahedra()
 
 /// Returns a mesh of the surface that separates inside points from outside points. For each cube with an inside corner,
 /// `field` must have the block of the cube's lowest corner (see SampledField::ensureBlock()), and the values that
@@ -82,8 +82,8 @@ inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< see mar
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 
-/// Returns a function that finds crossings by linear interpolation of the values of `field`, with the cell kNoCell.
-/// `field` must outlive the function.
+/// Returns a function that finds crossings by linear interpolation of the values of `field`. The EdgeCrossing::cell of
+/// these crossings is kNoCell. `field` must outlive the function.
 FindCrossing linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

@@ -9,7 +9,7 @@
 
 namespace oval4d::exports {
 
-/// The measurements of a slice, in the polytope's units. A region that the faces of a star enclose n times counts n
+/// The measurements of a slice, in the object's units. A region that the faces of a star enclose n times counts n
 /// times, as is usual for the volume of star polytopes.
 struct SliceMeasurements {
     std::size_t faces = 0;     ///< the number of faces; all loops that were cut from one cell count as one face

@@ -66,9 +66,10 @@ class OuterSurface {
         std::uint32_t cell;
     };
 
-    // Projects the edge from a to b onto the yz-plane. Returns −1 if it crosses the ray y = row.y, z > row.z toward +y;
-    // 1 if it crosses the ray toward −y; else 0. For the edge from b to a, the result is exactly the negative.
-    // Therefore, despite rounding, a closed surface crosses every line along x equally often in both directions.
+    // Projects the edge from a to b onto the yz-plane. Consider the ray at y = row.y on which z > row.z. Returns −1 if
+    // the projected edge crosses this ray in the direction +y; 1 if the edge crosses the ray in the direction −y; else
+    // 0. The results for (a, b) and (b, a) are exactly opposite. Therefore, despite rounding, a closed surface crosses
+    // every line along x equally often in both directions.
     int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
         if (a > b) return -signedCrossing(b, a, row);
         const glm::dvec3& p = points_[a];
@@ -149,7 +150,8 @@ class OuterSurface {
         }
     }
 
-    /// Returns the crossing at which the winding number first becomes nonzero on the way from `outside` to `inside`.
+    /// Returns the crossing at which the winding number first becomes nonzero on the way from `outside` to `inside`. If
+    /// rounding errors hide all crossings, returns the middle of the way, without a cell.
     EdgeCrossing cross(const glm::dvec3& inside, const glm::dvec3& outside) const {
         std::vector<std::uint32_t> near;
         const glm::ivec3 least = boxAt(glm::min(inside, outside));

@@ -28,7 +28,7 @@ struct Capsule {
 };
 
 /// Adds a capsule to a field of distances: lowers the values of the points near the capsule to their distances from the
-/// capsule, where these are less. The points near it include all that share a cube with a point inside the capsule.
+/// capsule, where these are less. These points include all that share a cube with a point inside the capsule.
 void include(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);

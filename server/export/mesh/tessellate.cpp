@@ -33,7 +33,7 @@ void vertex(void* data, void* to) {
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
 
-// Does nothing. But if GLU has this callback, it outputs only independent triangles, no strips or fans.
+// Does nothing, but must be registered: with this callback, GLU outputs only independent triangles, no strips or fans.
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {

@@ -147,7 +147,7 @@ std::vector<NearMatch> nearest(std::string_view text) {
     return best;
 }
 
-constexpr std::size_t kMaxNameBytes = 256;  // the maximum length of a canonical name; names are stored and shown
+constexpr std::size_t kMaxNameBytes = 256;  // of a canonical name; limited because names are stored and shown
 
 // Returns the reason why a polytope is too large to be built; std::nullopt if it is not too large.
 std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
@@ -163,7 +163,8 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
     return {};
 }
 
-// Returns the result of designNamed() for a name within another name. Adds a message to an error that has none.
+// Returns the result of designNamed() for `text`, a name within another name. If the result is an error without a
+// message, adds a message.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {

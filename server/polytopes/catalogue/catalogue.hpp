@@ -54,8 +54,8 @@ std::string_view nearestName(std::string_view text);
 /// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names after normalizedName(). Ignores everything after the first 64
-/// bytes.
+/// Returns the edit distance (Levenshtein) of two names after normalizedName(). Ignores what follows the first 64 bytes
+/// of a name.
 std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

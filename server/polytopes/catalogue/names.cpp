@@ -23,7 +23,8 @@ namespace {
 
 using Rings = std::array<bool, 4>;
 
-// An operation on a regular polychoron: the diagram of the result is the same, but with rings around these nodes.
+// An operation on a regular polychoron. The diagram of the result is the diagram of the polychoron with other rings:
+// around the nodes that `rings` selects.
 struct Operation {
     std::string_view name;
     Rings rings;
@@ -215,8 +216,8 @@ std::size_t constructionsIn(const std::vector<std::string>& words) {
     return count;
 }
 
-// Returns the reason why a text in none of the notations names no polytope; an empty string if no particular reason is
-// known.
+// Returns why a text that is in none of the notations names no polytope: because it names a polyhedron, or because it
+// has the form of a construction, but begins with an unknown word. Returns an empty string for other texts.
 std::string reasonFor(const std::vector<std::string>& words) {
     if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
         const std::string name = nameOf(std::get<Solid>(*solid));
@@ -255,8 +256,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // Skips operations that leave the first node without a ring, because their results also have names as
-            // operations on the dual. Rectification and bitruncation are not skipped.
+            // Skips operations that leave the first node without a ring, except rectification and bitruncation: each
+            // result has another name as an operation on the dual.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

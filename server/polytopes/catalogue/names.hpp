@@ -17,7 +17,8 @@ struct NotationRow {
     std::string_view polytopes;  ///< the polytopes with names in the notation: "a duoprism"
     std::string_view examples;   ///< names in backquotes: "`5,7-duoprism`, `5/2,5-duoprism`"
     std::string_view edges;      ///< the lengths of edges; "2" if all edges of all these polytopes have the length 2
-    /// The words, separated by commas, that begin constructions, which are names such as "hull of X and Y".
+    /// The words with which constructions begin, separated by commas. A construction is a name such as "hull of X and
+    /// Y".
     std::string_view constructions = {};
     Notation parse;
 };

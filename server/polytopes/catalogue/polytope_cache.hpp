@@ -47,7 +47,7 @@ class PolytopeCache {
         std::weak_ptr<const Polytope> polytope;
     };
 
-    // Like find(), but does not mark the polytope as used.
+    // Like find() for polytopes other than the 5-cell, but does not mark the polytope as used.
     Shared peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<Slot> slotOf(const std::string& name);

@@ -17,8 +17,8 @@ namespace oval4d::polytopes {
 /// The maximum total number of points of all convex hulls that are computed to build one polytope.
 inline constexpr std::uint64_t kMaxHullPoints = 20'000;
 
-/// The maximum number of sides of a 2-face of a polytope from which a hull is constructed. In larger polygons, the
-/// vertices deviate so little from the lines through their neighbors that rounding errors become significant.
+/// The maximum number of sides of a 2-face of a polytope from which a hull is constructed. In polygons with more sides,
+/// the vertices deviate so little from the lines through their neighbors that rounding errors become significant.
 inline constexpr std::size_t kMaxHullSides = 1000;
 
 /// The maximum number of cells of a hull.

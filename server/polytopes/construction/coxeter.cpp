@@ -103,14 +103,15 @@ Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) 
 }
 
 // Orbits of sets under the reflections in the mirrors. The sets are 2-faces, whose members are vertices, or cells,
-// whose members are 2-faces. Each set is stored as a list of the numbers of its members; its image has the images of
-// the members in the same order.
+// whose members are 2-faces. Each set is stored as a list of the numbers of its members. The image of a set lists the
+// images of its members in the same order.
 class SetOrbits {
   public:
     geometry::JaggedArray lists;
     Images images;
 
     /// Adds the orbit of `seed` and returns the number of the seed; std::nullopt if an earlier orbit contains the seed.
+    /// `memberImages` is the action of the mirrors on the members of the sets.
     std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
         const auto first = static_cast<std::uint32_t>(lists.size());
         if (add(seed) != first) return std::nullopt;

@@ -36,8 +36,8 @@ class Wythoffian : public Recipe {
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // In the coordinates in common use (even permutations), the 120-cell is the mirror image of the one that these
-        // mirrors generate.
+        // The coordinates in common use for the 120-cell contain the even permutations of some quadruples. These
+        // mirrors generate its mirror image, with the odd permutations.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -70,7 +70,7 @@ class SnubPrism : public Recipe {
     // because the antiprism also has symmetries that are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
-        // The chain of mirrors of an antiprism begins with the right angle (the branch 2).
+        // The linear notation of an antiprism begins with the branch 2, the right angle, as in "s2s5s x".
         const bool antiprism = q_.numerator == 2;
         return "s" + textOf(antiprism ? q_ : p_) + "s" + textOf(antiprism ? p_ : q_) + "s x";
     }
@@ -107,8 +107,8 @@ const std::map<Diagram, Design>& namedDesigns() {
                             base.name == "cube" ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
-        // The tetrahedral group is contained in the octahedral group. Therefore the polytopes of these diagrams also
-        // have a diagram of the octahedral group.
+        // The tetrahedral group is a subgroup of the octahedral group. The bases of these prisms have the full
+        // octahedral symmetry, so each of these prisms also has a diagram of the octahedral group.
         for (const auto& [half, whole] :
              {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
             designs.emplace(canonical(parseValidDiagram(half)), designs.at(canonical(parseValidDiagram(whole))));

@@ -127,8 +127,8 @@ Polytope buildGrandAntiprism(std::string name) {
     return diminished(std::move(name), whole, removed);
 }
 
-/// A diminished 600-cell. The constructor takes the element counts, which follow from the counts of the removed
-/// elements.
+/// A diminished 600-cell. The constructor takes the element counts, because nothing computes them without building the
+/// polytope.
 class Diminished600CellRecipe : public Recipe {
   public:
     using Builder = Polytope (*)(std::string name);

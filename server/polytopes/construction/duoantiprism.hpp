@@ -13,8 +13,8 @@ namespace oval4d::polytopes {
 ///
 /// The duoantiprism of a p-gon and a q-gon is the convex hull of every other vertex of the duoprism of a 2p-gon and a
 /// 2q-gon. Its cells are 2p q-gonal antiprisms, 2q p-gonal antiprisms and, in place of the removed vertices, 2pq
-/// disphenoids. A polygon may have two sides: this digon is a single edge, and an antiprism over it is a disphenoid,
-/// too. The design for p = q = 2 is that of the 16-cell.
+/// disphenoids. A polygon may have two sides: this digon is a single edge, and an antiprism over it is a disphenoid.
+/// The design for p = q = 2 is that of the 16-cell.
 ///
 /// The sides of all p-gons and q-gons have length 2, because with equal sides, the ratio of the longest edge to the
 /// shortest one is least. The other edges, which join these polygons, are equally long; their length is greater than √2

@@ -48,8 +48,9 @@ class OverPolyhedron : public Recipe {
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
         if (over_ == Over::prism) {
-            // Here the base is the dual of a uniform polyhedron, because uniformPrismOver() makes the other prisms. The
-            // symmetry group of such a dual is transitive on faces, so all faces are in one orbit.
+            // The base is the dual of a uniform polyhedron, because overPolyhedron() makes prisms over uniform
+            // polyhedra by uniformPrismOver(). The symmetry group of such a dual is transitive on faces, so all faces
+            // are in one orbit.
             const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }

@@ -162,7 +162,7 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word) {
 }
 
 std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words) {
-    // "5,7" and "5x7" are single words, and so is "hexagonal", which also contains an x.
+    // Splits "5,7" and "5x7" into two words, but not "hexagonal", which contains an x and names one polygon.
     if (words.size() == 1 && !polygonNamed(words[0])) {
         std::string pair = words[0];
         for (const std::string_view times : {"×", "*"}) {

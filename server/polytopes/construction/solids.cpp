@@ -114,18 +114,18 @@ SolidMesh baseOf(const NamedPolyhedron& polyhedron) {
     return base;
 }
 
-// Returns the dual of a convex polyhedron, with the same circumradius. Its vertices are the poles of the planes of the
-// faces; its faces are the loops of the faces around each vertex.
+// Returns the dual of a convex polyhedron, with the same circumradius. The vertices of the dual are the poles of the
+// planes of the base's faces; each face of the dual is the loop of the base's faces around a vertex.
 SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
     // All loops are made counterclockwise, seen from outside. For each directed edge: the face whose loop then contains
     // the edge in this direction, and the vertex before the edge in this loop.
-    struct Corner {
+    struct FaceCorner {
         std::uint32_t face, before;
     };
-    std::map<std::array<std::uint32_t, 2>, Corner> corners;
+    std::map<std::array<std::uint32_t, 2>, FaceCorner> corners;
     for (std::uint32_t f = 0; f < base.faces.size(); ++f) {
         std::vector<std::uint32_t> loop(base.faces[f].begin(), base.faces[f].end());
         const auto at = [&](std::size_t i) { return base.vertices[loop[i % loop.size()]]; };
@@ -145,7 +145,7 @@ SolidMesh dualOf(const SolidMesh& base) {
         const std::uint32_t v = start->first[0];
         loop.clear();
         for (std::uint32_t next = start->first[1]; loop.empty() || next != start->first[1];) {
-            const Corner& corner = corners.at({v, next});
+            const FaceCorner& corner = corners.at({v, next});
             loop.push_back(corner.face);
             next = corner.before;
         }

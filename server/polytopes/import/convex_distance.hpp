@@ -12,7 +12,7 @@ namespace oval4d::polytopes {
 /// Returns whether the distance of `point` from the convex hull of `others` is at most twice HullFrame::errorBound():
 /// the error bound of the point plus the error bound of the hull. `point` and `others` are in the coordinates of
 /// `frame`. Finds the nearest point of the hull by Wolfe's method (Finding the nearest point in a polytope, 1976).
-/// Returns false if `others` is empty.
+/// Returns false if `others` is empty, or if rounding errors keep the method from converging.
 bool liesInHull(const glm::dvec4& point, std::span<const glm::dvec4> others, const HullFrame& frame);
 
 }  // namespace oval4d::polytopes

@@ -230,9 +230,9 @@ class Merger {
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
         struct RelativeHeight {
-            glm::dvec3 normal;
-            // For the third corner of the other triangle: its height above the plane of this triangle (outward is
-            // positive), the uncertainty of the height, and its distance from the common edge.
+            glm::dvec3 normal;  // of the triangle `from` (see heightFrom()), outward
+            // For the corner of `to` that is not on the common edge: its height above the plane of `from` (outward is
+            // positive), the uncertainty of the height, and the distance of the corner from the line of the edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto heightFrom = [&](const BoundaryTriangle& from, const BoundaryTriangle& to) {

@@ -1,5 +1,5 @@
 #pragma once
-// Merges those simplices of a convex hull that lie in one hyperplane into one cell.
+// Merges the simplices of a convex hull into cells: simplices that lie in one hyperplane become one cell.
 
 #include <array>
 #include <cstddef>

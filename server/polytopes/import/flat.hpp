@@ -121,7 +121,7 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
 
 /// Grows a group of simplices that lie in one flat. At first, `flat` is the flat through the corners `own` of one of
 /// the simplices. A larger simplex determines a flat more precisely. Therefore, if vertices of the group span a larger
-/// simplex, and the flat through it still contains `own`, replaces `flat` by that flat and grows the group again;
+/// simplex whose flat still contains `own`, replaces `flat` by the flat of this simplex and grows the group again;
 /// repeats this a few times. grow(flat) returns the group in a flat, and verticesOf(group) returns the vertices of a
 /// group. Returns the final group; `flat` is then its flat.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>

@@ -119,7 +119,7 @@ class Flattener {
     }
 
     double deviation() const { return farthest_ == kNone ? 0 : flats_[farthest_].deviation; }
-    /// The cell of the flat with the largest deviation.
+    /// Returns the cell of the flat with the largest deviation; 0 if there are no flats.
     std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : flats_[farthest_].cell; }
     bool isFlat() const { return deviation() <= maxDeviation_; }
 
@@ -293,8 +293,9 @@ class Flattener {
         }
     }
 
-    // Returns the least change of the unknowns that makes all distances 0, to the first order. Adds its work (see
-    // kMaxWork) to `work`.
+    // Returns the least change of the unknowns that makes all distances 0, to the first order. `tolerance` says how
+    // precisely the equations are solved (see kFirstTolerance). Adds the work of the solution to `work`, which counts
+    // up to kMaxWork.
     Unknowns solve(double tolerance, std::size_t& work) const {
         Unknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());

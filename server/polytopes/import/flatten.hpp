@@ -10,13 +10,14 @@ namespace oval4d::polytopes {
 
 /// What flatten() has changed.
 struct Flattening {
-    double deviation = 0;  ///< the largest distance of a vertex from the best-fitting hyperplane of its cell or
-                           ///< 2-face before any change
-    std::uint32_t leastFlatCell = 0;  ///< the cell, or a cell of the 2-face, with this deviation: its number in the
-                                      ///< file, if known, else its index
-    std::size_t moved = 0;            ///< the number of vertices that were moved by more than `rounding`
-    double distance = 0;              ///< the largest distance by which a vertex was moved
-    std::size_t split = 0;            ///< the number of cells that were divided into tetrahedra
+    /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face before any change.
+    double deviation = 0;
+    /// The cell with this deviation or, if a 2-face has this deviation, one of its two cells: the number of the cell in
+    /// the file or, if the polytope is not from a 4OFF file, its index.
+    std::uint32_t leastFlatCell = 0;
+    std::size_t moved = 0;  ///< the number of vertices that were moved by more than the argument `rounding`
+    double distance = 0;    ///< the largest distance by which a vertex was moved
+    std::size_t split = 0;  ///< the number of cells that were divided into tetrahedra
 };
 
 /// Moves the vertices so that the vertices of each cell lie in one hyperplane, and the vertices of each 2-face in one

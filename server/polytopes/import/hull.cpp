@@ -36,8 +36,8 @@ constexpr std::size_t kMessageBytes = 4096;      // the size of the stream that 
 
 using Points = std::vector<glm::dvec4>;
 
-// A run of Qhull on randomly perturbed ("joggled") points. The perturbation makes all facets of the hull simplices, so
-// that Qhull need not merge facets. In four dimensions, Qhull does not guarantee that a hull with merged facets is
+// A run of Qhull on randomly perturbed ("joggled") points. With the perturbation, all facets of the hull are simplices,
+// so Qhull need not merge facets. In four dimensions, Qhull does not guarantee that a hull with merged facets is
 // closed.
 class QhullRun {
   public:
@@ -113,8 +113,8 @@ class QhullRun {
 }
 
 // Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
-// square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull is too
-// large, a sample reveals this before memory is exhausted.
+// square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull of a
+// sample is too large, throws a FileError before memory is exhausted.
 std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {

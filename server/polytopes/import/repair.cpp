@@ -22,8 +22,9 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// Groups the points that lie within `distance` of each other, and returns, for each point, the first point of its
-// group. Sorts the points by their projections onto a line, so that only points with close projections are compared.
+// Groups the points that lie within `distance` of each other, and returns, for each point, the point with the least
+// index in its group. Sorts the points by their projections onto a line, so that only points with close projections are
+// compared.
 std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -246,7 +247,7 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    std::size_t doubled_ = 0, joined_ = 0;
+    std::size_t doubled_ = 0, joined_ = 0;  // merged vertices and merged 2-faces; no warning calls them unused
 };
 
 }  // namespace

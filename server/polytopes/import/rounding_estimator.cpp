@@ -13,8 +13,8 @@ namespace {
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
 constexpr int kMinSingleExponent = -149;     // the least exponent of two of the last bit of a single-precision number
 constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding error of a single-precision number
-// The least sufficient singleEvidence_: other numbers are taken for single-precision numbers with a probability of at
-// most 2 to the power of −this.
+// The least singleEvidence_ at which the coordinates count as single-precision numbers: other numbers reach it with a
+// probability of at most 2 to the power of −kSingleEvidence.
 constexpr double kSingleEvidence = 10;
 constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of the last digit
 

@@ -16,8 +16,8 @@ namespace oval4d::render {
 /// The bitmap of a glyph in the texture, in texels, and its metrics in pixels.
 struct Glyph {
     int x = 0, y = 0, width = 0, height = 0;
-    int left = 0, top = 0;  ///< how far the left edge of the bitmap is to the right of the pen position, and the top
-                            ///< edge above it
+    int left = 0, top = 0;  ///< how far the left edge of the bitmap is to the right of the pen position, and how far
+                            ///< the top edge is above the baseline
     int advance = 0;        ///< the distance to the pen position of the next glyph
 };
 

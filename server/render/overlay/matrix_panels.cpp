@@ -104,11 +104,11 @@ class SectionPainter {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
         const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
         const scene::Style& style = scene_.style();
-        const bool differ = !from.ballScale.empty();
+        const bool isCloud = !from.ballScale.empty();
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
+            const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
-            const double scale = differ ? from.ballScale[i] : 1;
+            const double scale = isCloud ? from.ballScale[i] : 1;
             const auto radius = static_cast<float>(std::max(1.0, scene_.matrix.pointRadius * height_ * scale));
             const glm::vec2 at = points_[i];
             overlay_.box({at.x - radius, at.y - radius, at.x + radius, at.y + radius},

@@ -47,7 +47,7 @@ class Overlay {
     /// Adds a straight line with round ends, `width` pixels wide.
     void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
-    /// Adds a convex polygon. Its edges are not antialiased; the caller draws lines over the edges, which hide this.
+    /// Adds a convex polygon. Its edges are not antialiased; lines over the edges hide this.
     void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
     /// Adds a line of UTF-8 text, centered at x, with its baseline at y. `size` is the height of the em square in

@@ -10,7 +10,7 @@
 
 namespace oval4d::render {
 
-/// Returns base^exponent. `exponent` is at least 1.
+/// Returns base^exponent. `exponent` must be at least 1.
 OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
     __m256 result = _mm256_set1_ps(1);
     for (; exponent > 1; exponent >>= 1) {

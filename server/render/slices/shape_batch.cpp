@@ -190,8 +190,8 @@ void main() {
 }
 )";
 
-/// Returns shader code that replaces h by pow(h, shininess). It squares repeatedly if shininess is a power of two,
-/// because pow would take longer than the rest of the shader.
+/// Returns shader code that replaces h by pow(h, shininess). The code squares h repeatedly if shininess is a power of
+/// two, because pow would take longer than the rest of the shader.
 std::string highlight(double shininess) {
     int squarings = 0;
     while (std::exp2(squarings) < shininess) ++squarings;

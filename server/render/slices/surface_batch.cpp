@@ -188,7 +188,8 @@ void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
             if (touchesBack_[from] != 0 && touchesBack_[to] != 0) silhouette_.push_back({from, to, t});
         }
     }
-    // An edge between two triangles that face the eye is in the list twice, once in each direction. It is removed.
+    // An edge between two triangles that face the eye is in the list twice, once in each direction. Such edges are
+    // removed.
     const auto ends = [](const RimEdge& edge) {
         return std::pair(std::min(edge.from, edge.to), std::max(edge.from, edge.to));
     };

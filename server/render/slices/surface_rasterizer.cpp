@@ -256,7 +256,7 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
     // Each quantity is clamped to the range of its values at the corners, because gradients of narrow triangles are
-    // inexact. This also replaces the NaN of triangles without an area.
+    // inexact. Clamping also replaces the NaN of triangles without an area.
     const __m256 least = _mm256_min_ps(_mm256_min_ps(a, b), c), most = _mm256_max_ps(_mm256_max_ps(a, b), c);
     const __m256 toB = _mm256_sub_ps(b, a), toC = _mm256_sub_ps(c, a);
     const auto gradient = [&](const Lanes& ofB, const Lanes& ofC) OVAL4D_AVX2 {

@@ -34,8 +34,8 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     std::stop_source stop;
     stop.request_stop();
     const auto given = exported(p, none, oval, skeleton, limits, stop.get_token());
-    ASSERT_TRUE(std::holds_alternative<ExportError>(given));
-    EXPECT_EQ(std::get<ExportError>(given).cause, ExportError::Cause::too_long);
+    ASSERT_TRUE(std::holds_alternative<ExportRefusal>(given));
+    EXPECT_EQ(std::get<ExportRefusal>(given).cause, ExportRefusal::Cause::too_long);
 }
 
 // The bars of this slice, three long edges, are much thinner than it is long.
@@ -53,7 +53,7 @@ TEST(File, ofAFieldIsBounded) {
     const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
         const ExportRequest request{.format = formatNamed(format), .contents = ExportContents::oval};
         const auto made = ball.exported(request, limits, std::move(stop));
-        return std::holds_alternative<ExportedFile>(made) ? "none" : std::get<ExportError>(made).message;
+        return std::holds_alternative<ExportedFile>(made) ? "none" : std::get<ExportRefusal>(made).message;
     };
     std::stop_source stop;
     stop.request_stop();

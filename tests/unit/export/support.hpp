@@ -96,7 +96,7 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
 }
 
 /// Slices a polytope and exports the slices.
-inline std::variant<ExportedFile, ExportError> exported(
+inline std::variant<ExportedFile, ExportRefusal> exported(
     const polytopes::Polytope& polytope, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
     const ExportRequest& request, const ExportLimits& limits = kUnhurried, std::stop_token stop = {}) {
     slicing::SliceSet slices;
@@ -123,16 +123,16 @@ struct SlicedBall {
     SlicedBall(const SlicedBall&) = delete;
     SlicedBall& operator=(const SlicedBall&) = delete;
 
-    std::variant<ExportedFile, ExportError> exported(const ExportRequest& request,
-                                                     const ExportLimits& limits = kUnhurried,
-                                                     std::stop_token stop = {}) const {
+    std::variant<ExportedFile, ExportRefusal> exported(const ExportRequest& request,
+                                                       const ExportLimits& limits = kUnhurried,
+                                                       std::stop_token stop = {}) const {
         return exports::exportScene(scene, object, {}, request, limits, std::move(stop));
     }
 };
 
 /// Returns the bytes of the file, or "refused: " and the reason.
-inline std::string bytesOf(std::variant<ExportedFile, ExportError> made) {
-    if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
+inline std::string bytesOf(std::variant<ExportedFile, ExportRefusal> made) {
+    if (auto* refusal = std::get_if<ExportRefusal>(&made)) return "refused: " + refusal->message;
     return std::get<ExportedFile>(std::move(made)).bytes;
 }
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "render/context.hpp"
 #include "render/gl.hpp"
+#include "render/offscreen_gl_context.hpp"
 #include "unit/render/pictures.hpp"
 
 namespace oval4d::render {
@@ -280,8 +280,8 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     EXPECT_EQ(pixelAt(empty, xOf(20), yOf(5)), rgbOf(style.background));
 }
 
-TEST(ContextTest, LeavesTheRestOfMemoryAlone) {
-    Context context;
+TEST(OffscreenGlContextTest, LeavesTheRestOfMemoryAlone) {
+    OffscreenGlContext context;
     constexpr int kWidth = 37, kHeight = 21;
     constexpr std::size_t kGuard = 4096, kSize = kWidth * kHeight * 4;
     std::vector<std::uint8_t> memory(kSize + 2 * kGuard, 0xa5);
@@ -296,8 +296,8 @@ TEST(ContextTest, LeavesTheRestOfMemoryAlone) {
     }
 }
 
-TEST(ContextTest, RefusesAPictureThatIsTooLarge) {
-    Context context;
+TEST(OffscreenGlContextTest, RefusesAPictureThatIsTooLarge) {
+    OffscreenGlContext context;
     std::uint8_t pixel[4];
     EXPECT_GE(context.maxSize(), 8192);
     EXPECT_THROW(context.begin(context.maxSize() + 1, 1, pixel), std::runtime_error);

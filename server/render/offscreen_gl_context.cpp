@@ -1,4 +1,4 @@
-#include "render/context.hpp"
+#include "render/offscreen_gl_context.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace oval4d::render {
 
-struct Context::Native {
+struct OffscreenGlContext::Native {
     OSMesaContext context = nullptr;
     std::uint8_t pixel[4]{};  // the default framebuffer, to which nothing is drawn
     GLuint framebuffer = 0, color = 0, depth = 0;
@@ -20,7 +20,7 @@ struct Context::Native {
 
 // Pictures are drawn to a framebuffer object, because OSMesa (of Mesa 22) leaks most of the memory of its default
 // framebuffer each time the size changes.
-Context::Context() : native_(std::make_unique<Native>()) {
+OffscreenGlContext::OffscreenGlContext() : native_(std::make_unique<Native>()) {
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
                               OSMESA_PROFILE,
@@ -44,14 +44,14 @@ Context::Context() : native_(std::make_unique<Native>()) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, native_->depth);
 }
 
-Context::~Context() = default;
+OffscreenGlContext::~OffscreenGlContext() = default;
 
-void Context::makeCurrent() {
+void OffscreenGlContext::makeCurrent() {
     if (OSMesaMakeCurrent(native_->context, native_->pixel, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE)
         throw std::runtime_error("OSMesa cannot make its context current");
 }
 
-void Context::resize(int width, int height) {
+void OffscreenGlContext::resize(int width, int height) {
     width_ = width;
     height_ = height;
     glBindTexture(GL_TEXTURE_2D, native_->color);
@@ -61,7 +61,7 @@ void Context::resize(int width, int height) {
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
 }
 
-void Context::begin(int width, int height, std::uint8_t* pixels) {
+void OffscreenGlContext::begin(int width, int height, std::uint8_t* pixels) {
     if (width > maxSize_ || height > maxSize_)
         throw std::runtime_error("a picture of " + std::to_string(width) + " × " + std::to_string(height) +
                                  " pixels is too large: the driver allows at most " + std::to_string(maxSize_) +
@@ -77,15 +77,15 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     glViewport(0, 0, width, height);
 }
 
-void Context::replacePicture(const std::uint8_t* pixels) {
+void OffscreenGlContext::replacePicture(const std::uint8_t* pixels) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, native_->color);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
 // Creating a fence flushes the commands without waiting.
-void Context::flush() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
+void OffscreenGlContext::flush() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
-void Context::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
+void OffscreenGlContext::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
 
 }  // namespace oval4d::render

@@ -8,13 +8,13 @@ namespace oval4d::render {
 
 /// An OpenGL 3.3 core context that draws into memory. Only the thread that created it may use it. Only this class calls
 /// functions of OSMesa; the rest of the renderer calls only OpenGL.
-class Context {
+class OffscreenGlContext {
   public:
     /// Creates the context and makes it current. Throws std::runtime_error if this is not possible.
-    Context();
-    ~Context();
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
+    OffscreenGlContext();
+    ~OffscreenGlContext();
+    OffscreenGlContext(const OffscreenGlContext&) = delete;
+    OffscreenGlContext& operator=(const OffscreenGlContext&) = delete;
 
     /// Makes the context current and starts a picture of width × height pixels. finish() writes the picture to
     /// `pixels`, which must remain valid until then: RGBA with 8 bits per channel, the bottom row first. Throws
