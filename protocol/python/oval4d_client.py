@@ -47,7 +47,7 @@ PNG = b"\x89PNG\r\n\x1a\n"
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
 MAX_DATA = 1 << 20  # bytes: a larger file is uploaded by HTTP instead of sent in a message
-RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the client reconnects; None: it broke
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or without one, the client reconnects
 
 
 class Refused(Exception):
@@ -100,7 +100,8 @@ def connect(url="http://127.0.0.1:8080/", session=None, **options):
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
     session = session or shared.get("session")
     parts = urlsplit(url)
-    access = [part for part in parts.query.split("&") if part.startswith("token=")]  # the server's, not a session's
+    # The token in the query is the one of the server, not of a session.
+    access = [part for part in parts.query.split("&") if part.startswith("token=")]
     has_view = not session and len(access) < len([part for part in parts.query.split("&") if part])
     address = socket_url(urlunsplit(parts._replace(query="&".join(access))), session)
     return Client(address, token=shared.get("token"), view=parts.query if has_view else "", **options)

@@ -1,5 +1,5 @@
-// Memory for the typed arrays of one message; the arrays of the next message take the same memory. Its size is a power
-// of two, so that messages of about the same size need no new memory.
+// Memory for the typed arrays of one message, which the arrays of the next message overwrite. The size of the memory is
+// a power of two, so that messages of about the same size need no new memory.
 
 /** The class of a typed array, such as Float32Array. */
 export type TypedArrayConstructor<T> = {

@@ -45,7 +45,7 @@ export interface Options {
     onSlices?(slices: Slices): void;
     /** Called with each picture of a frame stream, a PNG file. Call `shown` once the picture is presented. */
     onFrame?(png: Uint8Array): unknown;
-    /** Called for each request, also those that the client makes itself, with a promise of the answer. */
+    /** Called for each request, including those that the client makes itself, with a promise of the answer. */
     onRequest?(answer: Promise<unknown>): void;
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
@@ -87,7 +87,7 @@ const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // seconds, the same while a file is requested, because the answer follows the file
+const kFileTestTimeout = 300; // seconds: kTestTimeout while a file is requested, because the answer follows the file
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -200,7 +200,7 @@ export class Client {
         const keep = !this.options.transient || this.isAwaiting("slices");
         const message = decodeBinary(bytes, keep ? undefined : this.arena);
         if (message === "file") {
-            this.heldFile = bytes; // until its `done` arrives
+            this.heldFile = bytes; // until the `done` of the file arrives
         } else if (message !== "frame") {
             this.handle(message);
         } else if (this.isAwaiting("frame")) {

@@ -1,6 +1,6 @@
 // Converts the slices of a binary message to objects. The message has one array (a column) per property, with the
-// values of all slices in turn. It stores the vertices, edges and faces of the projection's parts (see
-// ObjectProjection) likewise.
+// values of all slices in turn. The vertices, edges and faces of the projection's parts (see ObjectProjection) are also
+// in such columns.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";

@@ -150,7 +150,8 @@ export interface Elements {
     /**
      * What each vertex, edge and face of a slice was cut from: the index of an edge, a 2-face or a cell of the 4-D
      * polytope. If a vertex, edge or 2-face of the polytope lies in the hyperplane itself, its number here is its index
-     * plus the polytope's number of edges, 2-faces or cells. So it is in the projection of the whole object.
+     * plus the polytope's number of edges, 2-faces or cells. In the part of the projection that shows the whole object,
+     * all numbers are of this second kind.
      */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The index of the cell that determines the color of each face; if absent, `of.faces` has these indices. */
@@ -172,7 +173,7 @@ export interface Slice extends Elements {
     fill?: Fill;
     /** The surfaces of a field; absent for other objects, or if the hyperplane meets no surface. */
     surface?: Surface;
-    /** The fog of a field; absent if the slice has no fog. */
+    /** The fog of a field; absent for other objects, or if the slice has no fog. */
     fog?: Fog;
     /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
     position: Vector;
@@ -188,9 +189,9 @@ export interface Slice extends Elements {
 }
 
 /**
- * Where the picture shows the highlighted element. Those vertices and edges of the slices and the projection show it
- * whose values of `of.vertices` and `of.edges` are in `vertices` and `edges`. `own_vertices` has the numbers of the
- * element's own vertices, as in `coordinates`.
+ * Where the picture shows the highlighted element: at the vertices and edges of the slices and the projection whose
+ * numbers in `of.vertices` and `of.edges` are in `vertices` and `edges`. `own_vertices` has the indices of the vertices
+ * of the element itself, counted as in `coordinates`.
  */
 export interface Highlight {
     vertices: ArrayLike<number> & Iterable<number>;
@@ -288,8 +289,8 @@ export interface Slices {
     /** x, y, z, w of each vertex of the rotated polytope; empty for fields, or if the coordinates are not shown. */
     coordinates: Float32Array;
     /**
-     * If the parallel coordinates are drawn as a density, or as the histogram of a field: its values 0 … 255, row by
-     * row from the top (protocol/README.md, "slices"). Otherwise empty.
+     * If the parallel coordinates are drawn as a density, or as the histogram of a field: the values 0 … 255 of this
+     * image, row by row from the top (protocol/README.md, "slices"). Otherwise empty.
      */
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */

@@ -14,9 +14,9 @@ constexpr std::size_t kOwnFiles = 16;
 /// pictures within the limits, in bytes. Most of that memory is never touched.
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
-    // kOwn: bytes of llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
-    // sixteen buffers of four bytes per pixel. kEachSliceEdge: bytes of slices, and of what is drawn of them, for each
-    // edge; measured were 260 at most.
+    // In bytes. kOwn: for llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
+    // for sixteen buffers of four bytes per pixel. kEachSliceEdge: for each edge of the slices, including the shapes
+    // that are drawn of it; measurements gave at most 260.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;

@@ -80,8 +80,9 @@ std::string keyOf(const session::LoadObject& load, const std::string& version) {
     return key + '\0' + version;
 }
 
-/// Returns the field with `shared` set, so that sessions do not count its memory, which the data folder counts. Also
-/// sets `source` if the samples are in a mapped file. Returns an error if the object is not an array.
+/// Returns a copy of the loaded field in which Field::shared is true: sessions then do not count its memory, because
+/// the data folder counts it. If the samples are in a mapped file, sets Field::source. Returns an error if the object
+/// is not an array.
 Result<session::ObjectWithWarnings> shared(session::ObjectWithWarnings loaded, const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
     if (field == nullptr || !field->array) return Error{ErrorCode::bad_field, "the file is not an array"};

@@ -36,7 +36,7 @@ class Metrics {
     prometheus::Gauge& polytopes;             ///< bytes of cached polytopes
     prometheus::Gauge& dataFields;            ///< bytes in memory of fields from the data folder
     prometheus::Gauge& fieldFiles;            ///< bytes on the disk of fields from the data folder
-    prometheus::Gauge& critical;              ///< bytes of cached results of searches for critical values of w
+    prometheus::Gauge& critical;              ///< bytes of cached critical values of w
     prometheus::Gauge& bytesHeld;             ///< bytes held for clients (ByteBudget)
     prometheus::Gauge& clients;               ///< known clients (Clients::size())
     prometheus::Counter& messagesReceived;    ///< messages received over WebSockets

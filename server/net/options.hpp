@@ -66,7 +66,7 @@ struct Options {
     std::string fieldCacheFolder;                   ///< folder of the field cache (see SampleFiles); empty: /var/tmp
     std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of the files in the field cache
     std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of the polytopes that the cache keeps
-    std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached searches for critical values of w
+    std::size_t criticalCache = 4U << 20U;            ///< maximum total size of cached critical values of w
 
     process::SandboxMode sandbox = process::SandboxMode::automatic;
     std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from other limits

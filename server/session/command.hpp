@@ -39,12 +39,12 @@ BOOST_DESCRIBE_STRUCT(Key, (), (key, shift, ctrl))
 struct Rotate {
     static constexpr std::string_view kMessageType = "rotate";
     geometry::Turn turn;
-    bool continues = false;  ///< whether it belongs to the undo step of the command before it, as within a gesture
+    bool continues = false;  ///< whether this belongs to the undo step of the previous command, as within a gesture
 };
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
     static constexpr std::string_view kMessageType = "toward";
-    slicing::ElementKind element = slicing::ElementKind::cell;  ///< its kind
+    slicing::ElementKind element = slicing::ElementKind::cell;  ///< the kind of the element
     /// slicing::Element::index. If it is absent, turnToward() (settings.hpp) chooses an element.
     std::optional<std::size_t> number;
     bool immediately = false;  ///< whether to turn the object at once, without a continuous motion
@@ -54,11 +54,12 @@ BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
 /// Loads an object from a file, or makes a field from a formula, and shows it.
 struct LoadObject {
     static constexpr std::string_view kMessageType = "load";
-    std::string name;        ///< the name to give to the object
-    std::string format;      ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
-    std::string data;        ///< the text of the file (of an array: its bytes in Base64), or the formula
-    bool continues = false;  ///< as in Rotate. If true and a field replaces a field, FieldSettings stay the same; if
-                             ///< both fields have the same circumradius, so do the slices and the focus point
+    std::string name;    ///< the name to give to the object
+    std::string format;  ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
+    std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
+    /// As in Rotate. If it is true and a field replaces a field, FieldSettings stay the same, and the slices and the
+    /// focus point stay the same if both fields have the same circumradius.
+    bool continues = false;
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().
     std::optional<fields::Box> box = {};
@@ -85,9 +86,9 @@ struct LoadObject {
 /// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
 class PlainSettings {
   public:
-    /// Returns a reference to the value of a setting, through which the caller may set it; it is an empty optional
-    /// until then. `Value` must be the type that the value has in a State. `name` must be a constant of the program,
-    /// because this object stores only a reference to its characters.
+    /// Returns a reference through which the caller may set the value of a setting; until then, the value is an empty
+    /// optional. `Value` must be the type that the value has in a State. `name` must be a string constant of the
+    /// program, because this object stores only a reference to its characters.
     template <typename Value>
     std::optional<Value>& of(std::string_view name) {
         std::any& value = values_.try_emplace(name, std::optional<Value>()).first->second;

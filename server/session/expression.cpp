@@ -47,9 +47,9 @@ struct ValueWithUnit {
     double plain = 0;               // the sum of those terms that are numbers without a unit
     bool isPlain = false;           // whether `plain` is the whole value
     bool hasUnit = false;           // whether this part contains a unit
-    bool isInDegrees = false;       // whether the unit is degrees, and the value is not converted to radians yet
-    bool hasUnitlessAngle = false;  // whether it contains an angle without a unit, such as pi or atan(2)
-    bool isGroup = false;           // whether parentheses enclose it
+    bool isInDegrees = false;       // whether the unit is degrees, and `value` is not converted to radians yet
+    bool hasUnitlessAngle = false;  // whether this part contains an angle without a unit, such as pi or atan(2)
+    bool isGroup = false;           // whether parentheses enclose this part
     std::size_t unitAt = 0;         // the position of the unit in the text
 };
 
@@ -118,8 +118,8 @@ class Parser {
         const ValueWithUnit exponent = signedPower();
         return joined(base, exponent, std::pow(base.value, exponent.value));
     }
-    // Returns the product, quotient or power of two terms, whose value is `value`. Only one of the terms may have a
-    // unit.
+    // Returns the product, quotient or power of the terms `a` and `b`; `value` is its value. Throws SyntaxError if both
+    // terms have a unit.
     ValueWithUnit joined(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
@@ -288,7 +288,7 @@ Result<double> evaluateAngle(std::string_view text) {
 Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
                                             std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
-    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // the empty name is no plane
+    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // the empty name, to be refused as no plane
     std::vector<geometry::Plane> named;
     for (const std::string_view written : names) {
         const std::string_view name = text::trimmed(written);

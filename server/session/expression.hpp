@@ -26,14 +26,15 @@ Result<std::vector<double>> evaluateList(std::string_view text);
 /// those terms that are numbers without a unit is more than a full turn, because degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
-/// Returns the rotation in these planes by these angles. `planes` names different planes, such as "xw" or "xw,yz" (see
-/// geometry::Turn). `angles` must have one expression for each plane; see evaluateAngle(). `examples` shows how
-/// rotations are written; error messages quote it. Errors: `bad_expression`; those of evaluateAngle().
+/// Returns the rotation in these planes by these angles. `planes` is a list of planes such as "xw" or "xw,yz" (see
+/// geometry::Turn), and `angles` has one expression for each plane; see evaluateAngle(). `examples` shows how rotations
+/// are written; error messages quote it. Errors: `bad_expression` if a name is no plane or occurs twice, or if the
+/// numbers of planes and angles differ; those of evaluateAngle().
 Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
                                             std::string_view examples);
 
-/// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Errors: those of
-/// parsePlanesAndAngles().
+/// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Errors: `bad_expression` if
+/// the text has no colon; those of parsePlanesAndAngles().
 Result<geometry::Turn> parseTurn(std::string_view text);
 
 }  // namespace oval4d::session

@@ -30,16 +30,16 @@ bool isNewStep(State before, const State& next) {
     return !isSameStep(before, next);
 }
 
-// Appends `state` to `steps`. If it differs from the last step at most in the camera, it replaces this step.
+// Appends `state` to `steps`. If the last step differs from `state` at most in the camera, `state` replaces this step.
 template <typename Steps>
 void addStep(Steps& steps, const State& state) {
     if (!steps.empty() && isSameStep(steps.back(), state)) steps.pop_back();
     steps.push_back(state);
 }
 
-// Finds the last step of `from` that differs from the current state. Makes this step the current state, but keeps the
-// camera, and appends the former current state to `to`. Removes from `from` the step and those after it. Returns false
-// and changes nothing if no step differs.
+// Finds the last step of `from` that differs from the current state in more than the camera. Makes this step the
+// current state, but keeps the camera, and appends the former current state to `to`. Removes from `from` the step and
+// those after it. Returns false and changes nothing if there is no such step.
 template <typename From, typename To>
 bool moveToLastStep(Session& session, From& from, To& to) {
     const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };

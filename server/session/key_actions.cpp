@@ -47,7 +47,7 @@ Done showNeighbor(ActionContext& c, int by) {
 const Error kNoRotationYet{ErrorCode::nothing_to_undo,
                            "nothing to repeat: no rotation has been made yet; 2 … 7, r, t and y make one"};
 
-// Shows this view or, if it is shown, the oval.
+// Shows this view or, if it is already shown, the oval.
 void toggleView(State& state, scene::View view) {
     state.look.view = state.look.view == view ? scene::View::oval : view;
 }
@@ -113,7 +113,7 @@ std::vector<Action> ownActions() {
     };
 }
 
-// Adds the actions of keys that step through the numbers of a setting; see KeySteps.
+// Adds the actions that change the number of a setting by a step; see KeySteps.
 template <typename Row>
 void addSteps(const Row& setting, std::vector<Action>& actions) {
     const auto add = [&](const std::string& ending, auto next) {
@@ -151,7 +151,7 @@ std::vector<Action> allActions() {
             {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
     }
     for (const scene::ViewRow& row : scene::kViews) {
-        // The action "view" of ownActions() toggles View::single.
+        // The oval has no action of its own; View::single is toggled by the action "view" of ownActions().
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
         actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> Done {
                                toggleView(c.state, to);

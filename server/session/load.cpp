@@ -57,7 +57,7 @@ Error errorOf(const FileError& error) {
     return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::message(error)};
 }
 
-// Appends a warning if the object was moved because it is far from the origin of its file.
+// Appends a warning if the object was moved to its center because it is far from the origin of its file.
 void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
     if (wanted.choice != geometry::Centering::OriginChoice::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
@@ -86,7 +86,7 @@ Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limit
     };
     try {
         std::string text = text_files::plainText(load.data);
-        // Replace only the keyword by blanks, because the comments above it belong to the table, too.
+        // Replace the keyword by blanks, and keep the comments above it, because they may belong to the table.
         if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
             text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
         auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
@@ -130,7 +130,8 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
     return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
 }
 
-// Returns an error if the box has no extent along an axis with several samples.
+// Returns an error if the box has no extent along an axis with several samples, or if its ends along any axis are in
+// the wrong order.
 std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
     for (int axis = 0; axis < 4; ++axis) {
         const bool wide = shape.at(static_cast<std::size_t>(axis)) > 1;

@@ -44,7 +44,7 @@ struct SecondSource {
 
 /// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
 /// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
-/// options has no extent along an axis with several samples.
+/// options has no extent along an axis with several samples, or if its ends along any axis are in the wrong order.
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
                                      const fields::ReadOptions& options = {}, const SecondSource& second = {});
 
@@ -70,8 +70,8 @@ Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> file
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
                                         const Limits& limits);
 
-/// Returns the format that the first word of a file shows: "off" if this word contains OFF, as in 4OFF; "cloud" if it
-/// is CLOUD; otherwise "points".
+/// Returns the format that the first word of the file `text` shows: "off" if this word contains OFF, as in 4OFF;
+/// "cloud" if it is CLOUD; otherwise "points".
 std::string_view detectFormat(std::string_view text);
 
 /// Checks `load`, but not its data. Returns an empty optional if it is valid, else an error: `bad_message` for a

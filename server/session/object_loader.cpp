@@ -60,7 +60,7 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
 Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // reading it is faster than deferring it
+    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // takes less than a millisecond
     if (mode_ == Mode::deferred) {
         pending_ = &load;
         return kLater;
@@ -143,8 +143,8 @@ std::size_t ObjectLoader::bytesNeeded() const {
     }
     if (const auto* extension = std::get_if<Extension>(&pending_))
         return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
-    // For a field, this is little. It does not contain the memory of the search itself, which takes as much as drawing
-    // a picture.
+    // The memory of the critical values, which is small for a field. The memory of the search itself, which takes as
+    // much as drawing a picture, is not counted.
     if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;

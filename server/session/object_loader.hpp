@@ -65,16 +65,16 @@ class ObjectLoader {
     /// readObject().
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
-    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). Small objects are always transformed at
-    /// once, even with Mode::deferred.
+    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is always
+    /// transformed at once, even with Mode::deferred.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
     /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). If
     /// the search was deferred, the result is for the state at the time of the first call, even if the object has
-    /// turned since. For small polytopes and point clouds, the search is never deferred. Error: `canceled` if the
-    /// search was stopped.
+    /// turned since. The search is never deferred for an object with few elements, unless it is a field. Error:
+    /// `canceled` if the search was stopped.
     Result<slicing::CriticalPtr> criticalSections(const State& state);
 
     /// Returns whether an object or a search is pending: the command failed only because its result is not available
@@ -128,7 +128,7 @@ class ObjectLoader {
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    std::vector<TransformedObject> transformed_;  // two elements if a command changes object and frame
+    std::vector<TransformedObject> transformed_;  // two elements if a command changes the object and the frame
 };
 
 }  // namespace oval4d::session

@@ -21,7 +21,7 @@ std::optional<slicing::Object> loadedOrExample(std::string_view name, const Load
 
 /// Returns the object `by` places after `object` in the cyclic list of catalogue entries, example fields and loaded
 /// objects; `by` is 1 or −1. For an object that is not in the list, returns the first catalogue entry if `by` is 1, and
-/// the last example field if `by` is −1.
+/// the last example field if `by` is −1. Errors: those of ObjectLoader::polytopeOf().
 Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
                                    ObjectLoader& loader);
 

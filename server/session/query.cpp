@@ -181,8 +181,8 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
         query->emplace_back("rotate", rotation);
     State fresh = initialState();
     if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
-    // stateFromQuery() changes the spacing if the query contains the number of slices or the frame of reference. Such a
-    // query must contain the spacing even if it is the initial one.
+    // A query with the number of slices or the frame of reference must contain the spacing, too, even the initial one:
+    // otherwise stateFromQuery() would change the spacing.
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));
     for (auto& setting : settingTexts(settingsOf(state))) {

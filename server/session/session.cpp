@@ -82,7 +82,8 @@ class Applier {
         State next = session_.current;
         rotate(next, command.turn);
         const State* const before = command.continues ? stateBeforeStep(session_) : nullptr;
-        // While the object turns by itself, the orientation does not tell what the rotations of the step are.
+        // While the object turns continuously, that motion changes the orientation, too: the rotations of the step do
+        // not follow from the orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
@@ -186,8 +187,8 @@ class Applier {
         return std::monostate{};
     }
 
-    // Adds time steps to a loaded array. Undo does not remove them: the states of the history show the longer array,
-    // too, so that it is kept in memory only once.
+    // Adds time steps to a loaded array. Undo does not remove them: the longer array replaces the shorter one in the
+    // states of the history, too, so that only one array is in memory.
     Done append(const LoadObject& command) {
         const auto loaded = session_.loaded.find(command.name);
         if (loaded == session_.loaded.end())

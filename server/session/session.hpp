@@ -52,7 +52,7 @@ struct OngoingTurnToward {
 /// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
 struct State {
     static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};  ///< of alpha and beta
-    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};
+    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};                    ///< of step
 
     slicing::Object source;  ///< the object as it was built or loaded; never null
     geometry::ReferenceFrame referenceFrame;

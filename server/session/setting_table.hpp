@@ -27,13 +27,14 @@ inline constexpr std::string_view kRadians = " radians";
 
 /// The rule of a setting for which applySet() accepts every value.
 struct AcceptsAnyValue {};
-/// The steps by which keys change a number, within its range. By default, there are no such keys. For the setting NAME:
+/// The steps by which keys change the number of the setting NAME, within its range. By default, there are no such keys.
 struct KeySteps {
-    /// For positive numbers: if not 0, the action NAME_larger multiplies by 2^(1/perDoubling), and NAME_smaller divides
-    /// by it. Both round the result to a power of this factor, so that each undoes the other exactly, and `perDoubling`
-    /// steps lead from 1 to exactly 2. Any other number is first rounded to the nearest power.
+    /// If this is not 0, the number must be positive. The actions NAME_larger and NAME_smaller round it to the nearest
+    /// power of f = 2^(1/perDoubling), and then multiply or divide it by f. So each action exactly undoes the other,
+    /// and `perDoubling` steps lead from 1 to exactly 2.
     int perDoubling = 0;
-    double State::* amount = nullptr;  ///< the action NAME_up adds this member of the state, NAME_down subtracts it
+    /// If this is not null, the action NAME_up adds this member of the state to the number, and NAME_down subtracts it.
+    double State::* amount = nullptr;
 };
 /// The rule of a number that applySet() accepts within a fixed range.
 struct NumberInRange {
@@ -56,9 +57,9 @@ enum class ResetOccasion : std::uint8_t {
     by_reset_or_another_object,  ///< the replacement of the object, and the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to the setting's value in a Set, which is a std::optional. `ofState` returns
-/// the setting's value in a State: by reference if the value is one member of the State; otherwise by value, and then
-/// the rule must be CheckedByApplySet.
+/// A setting. `ofSet` returns a reference to the setting's value in a Set, a std::optional. `ofState` returns the
+/// setting's value in a State: by reference if the value is one member of the State; otherwise by value, and then the
+/// rule must be CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
@@ -70,9 +71,9 @@ struct Setting {
     OfState ofState;
     Rule rule;
     ResetOccasion setBack;
-    bool forFields;  ///< whether only states with a field have it
+    bool forFields;  ///< whether only states with a field have the setting
 
-    /// Returns whether it is an angle in radians, which may be written with a unit.
+    /// Returns whether the setting is an angle in radians, which may be written with a unit.
     bool isAngle() const {
         if constexpr (kHasRange) return rule.unit == kRadians;
         return false;

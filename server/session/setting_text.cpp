@@ -31,7 +31,7 @@ Error refusal(ErrorCode code, std::string message) { return {code, std::move(mes
 // Parses `text` as the value of the setting `name`.
 struct ValueReader {
     std::string_view name, text;
-    bool isAngle = false;  // whether it is an angle, which may have a unit
+    bool isAngle = false;  // whether the value is an angle, which may have a unit
 
     Result<std::monostate> operator()(std::optional<double>& into) const {
         const auto value = isAngle ? evaluateAngle(text) : evaluate(text);

@@ -36,7 +36,8 @@ Error outOfRange(std::string_view name, const geometry::Range& range, std::strin
     return {ErrorCode::out_of_range, std::string(name) + " must be " + allowed};
 }
 
-// Stores `value`, if there is one, in `into`. Error: `out_of_range`.
+// Stores `value`, if there is one, in `into`. Error: `out_of_range` if it is not in `range`; `name` and `unit` are for
+// the message.
 Result<std::monostate> put(std::string_view name, std::optional<double> value, const geometry::Range& range,
                            double& into, std::string_view unit = "") {
     if (!value) return std::monostate{};
@@ -91,7 +92,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
     const auto around = [&](double middle) { return geometry::Range{middle - reach, middle + reach}; };
     if (set.focusPoint) {
-        // If `focus`, `offset` or `focusW` is set, w of the point is ignored and may be any number.
+        // If `focus`, `offset` or `focusW` is present, the w of the point is ignored, and is not checked.
         const bool placed = set.focus || set.offset || set.focusW;
         glm::dvec4 point = origin;
         for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {

@@ -30,11 +30,12 @@ void returnToInitialOrientation(State& state);
 /// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
 void reset(State& state);
 
-/// Shows the object in another frame of reference; does nothing if it is the same. `frame` must be within the bounds.
-/// If the slices have the spacing spanningSpacing(), as they do initially, they have it afterward, too, and the w of
-/// the focus slice stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point
-/// are clamped to their bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of
-/// `loader`, if it defers the transformation; the state is then unchanged.
+/// Shows the object in another frame of reference; does nothing if it is the same. The caller must ensure that the
+/// members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the spacing
+/// spanningSpacing(), as they do initially, they also have it in the new frame, and the w of the focus slice stays the
+/// same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are clamped to their
+/// bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of `loader`, if it defers the
+/// transformation; the state is then unchanged.
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
@@ -68,7 +69,7 @@ void rotate(State& state, const geometry::Turn& turn);
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
 /// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if
-/// the offset were 0, and the offset to the difference. Requires |w| ≤ kMaxOffset circumradii.
+/// the offset were 0, and the offset to the difference. The caller must ensure |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);
 
 /// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. For a

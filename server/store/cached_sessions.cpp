@@ -77,7 +77,7 @@ std::optional<std::string> CachedSessions::takeQueued() {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
         CachedSession* const cached = find(id);
-        if (cached == nullptr) continue;  // it was removed meanwhile
+        if (cached == nullptr) continue;  // the session was removed after it had been queued
         cached->queued = false;
         cached->inFlight = true;
         return id;

@@ -21,8 +21,8 @@ namespace oval4d::store {
 /// because the store is unavailable; `false` if they will not be stored.
 using Written = std::function<void(bool)>;
 
-/// Changes of a session that are not yet in the store. `head`: the session whose current state must be written.
-/// `whole`: the session that must be written as a whole. Each is null if there is nothing to write.
+/// Changes of a session that are not yet in the store. `head`: the session if its current state must be written, else
+/// null. `whole`: the session if it must be written as a whole, else null.
 struct PendingChanges {
     std::shared_ptr<const session::Session> head, whole;
     std::vector<Written> waiting;  ///< callbacks to call when these changes are written
@@ -44,7 +44,7 @@ struct CachedSession {
     bool queued = false;         ///< whether the session is in the queue
     bool inFlight = false;       ///< whether the session is being written
     bool closed = false;         ///< whether no client has the session open; a closed session is dropped once written
-    Clock::time_point closedAt;  ///< the time at which it was closed, if `closed`
+    Clock::time_point closedAt;  ///< the time at which the session was closed, if `closed`
     std::size_t bytes = 0;       ///< estimated memory of the session in bytes, if `closed`
 };
 
@@ -65,8 +65,8 @@ class CachedSessions {
     /// Removes the closed sessions that were closed before `time`, and returns their ids.
     std::vector<std::string> removeClosedBefore(CachedSession::Clock::time_point time);
     /// Removes closed sessions until the remaining closed ones take at most `quota` bytes, and returns the removed ones
-    /// with their ids. Removes first the sessions that were never changed, in the order in which they were closed, then
-    /// the others in this order. Neither removes nor counts sessions that are being written.
+    /// with their ids. Removes first the sessions that were never changed, then the others; of each kind, first those
+    /// that were closed first. Neither removes nor counts sessions that are being written.
     std::vector<std::pair<std::string, CachedSession>> evictClosed(std::size_t quota);
 
     /// Appends a session to the queue unless it is already queued.

@@ -54,8 +54,8 @@ slicing::Object ObjectListReader::transformedTo(const slicing::Object& source, c
     return images_.back().image;
 }
 
-/// Returns the polytope of the catalogue with this name. Throws UnreadableRecord if there is none, or if it is too
-/// large or cannot be built.
+/// Returns the polytope with this name (see polytopes::designNamed()). Throws UnreadableRecord if there is none, if it
+/// cannot be built, or if it has more vertices than `vertexBudget_`, which it reduces by these vertices.
 slicing::Object ObjectListReader::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
     const auto named = polytopes::designNamed(name, kMaxVertices);

@@ -159,9 +159,8 @@ void RedisStore::connect() {
     updatePlainTokenDeadline();
 }
 
-// Sets the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same
-// Redis. This is the time when such servers were first noticed, plus the expiry period. If there are none, it is in the
-// past.
+// Sets plainUntil_, the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on
+// the same Redis: when such servers were first noticed, plus the expiry period; a time in the past if there are none.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});

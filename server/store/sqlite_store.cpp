@@ -177,8 +177,8 @@ void SqliteStore::setUp() {
     size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
 }
 
-/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests. All changes are
-/// made in one transaction. If the VACUUM after it fails, it is repeated when the file is opened the next time.
+/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests, in one transaction.
+/// A VACUUM follows; if it fails, it is repeated when the file is opened the next time.
 void SqliteStore::migrate() {
     if (database_->number("PRAGMA user_version") < kSchemaVersion) {
         database_->run("PRAGMA foreign_keys = OFF");
@@ -258,8 +258,8 @@ void SqliteStore::logDamagedRecords() {
 }
 
 /// Calls `work` and returns its result. If `work` finds that the file is damaged, this call throws, and the next call
-/// repairs the file first. WriteBehindStore therefore notices the failure and saves all open sessions again, because
-/// the repair may lose some of them.
+/// repairs the file first. The repair may lose sessions, but the exception makes WriteBehindStore save all open
+/// sessions again.
 template <typename Work>
 auto SqliteStore::afterPendingRepair(Work work) {
     if (!database_) {

@@ -45,7 +45,7 @@ concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
 // member gets the next number and is visited with addedMember(), because records of earlier versions lack it. The same
 // rules hold for the numbers of enumerators and for the rows of scene::kParts. The structured bindings name every
 // member of a struct, so that the code does not compile until a new member is added here. The ranges are those that
-// stand beside the members.
+// are declared together with the members.
 
 void visitMembers(Is<scene::CameraOrbit> auto& orbit, auto& visit) {
     auto& [azimuth, elevation, zoom] = orbit;

@@ -140,7 +140,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Forgets the object keys of a session, unless the session is in `cached_` again.
+/// Forgets the object keys of a session that was evicted from memory, unless a client has opened it again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
@@ -317,7 +317,7 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // they were reopened
+        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // these were reopened
         ids.assign(removals_.begin(), removals_.end());
     }
     if (ids.empty()) return;
@@ -408,7 +408,8 @@ void WriteBehindStore::poll() {
         neverSaved_ = cached_.neverSaved();
         waiting = hasPendingChanges();
     }
-    if (!waiting) storeWorked();  // otherwise the next write shows if the store works: even a full one can be polled
+    // While changes wait, only a write shows whether the store works, because even a full store can be polled.
+    if (!waiting) storeWorked();
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.

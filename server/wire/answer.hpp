@@ -1,6 +1,6 @@
 #pragma once
-// Those answers of the server whose members are described with Boost.Describe: a message has them under the same names.
-// `kMessageType` is the type of the message.
+// Those answers of the server whose members are described with Boost.Describe. The message of an answer has members of
+// the same names, and its type is the constant kMessageType of the answer.
 
 #include <boost/describe/class.hpp>
 #include <cstdint>
@@ -43,8 +43,8 @@ struct Pong {
 };
 BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
 
-/// An answer whose members are described. An OpenAddress is also the answer to GetTarget::address: its query is then
-/// that of the session's view.
+/// An answer whose members are described with Boost.Describe. GetTarget::address is answered with an OpenAddress whose
+/// query describes the session's view.
 using Answer = std::variant<Done, Measured, Pong, session::OpenAddress>;
 
 }  // namespace oval4d::wire

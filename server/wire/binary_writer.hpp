@@ -1,5 +1,6 @@
 #pragma once
-// The interface of the writers of binary encodings. It chooses how arrays of numbers are written.
+// The interface of the writers of binary encodings. It chooses the type of each array of numbers, and the writers only
+// write the array.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,8 +37,9 @@ class BinaryWriter {
     void value(int number) { value(std::int64_t{number}); }
     void value(const char* text) { value(std::string_view(text)); }
     void id(double number);  ///< writes an integer within ±2^53 as an integer, other numbers like value()
-    /// Appends the members of an object that another writer of the same class has written.
-    virtual void membersOf(std::string_view object) = 0;
+    /// Appends the members of `object`, a complete object that another writer of the same class has written, to the
+    /// object that is being written.
+    virtual void appendMembersOf(std::string_view object) = 0;
 
     template <typename T>
     void member(std::string_view name, const T& content) {

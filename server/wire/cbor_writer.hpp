@@ -32,7 +32,7 @@ class CborWriter final : public BinaryWriter {
     // As in BinaryWriter, but without a virtual call for each number of a plain array.
     void value(std::uint32_t number) { head(0, number); }
     void value(int number) { value(std::int64_t{number}); }
-    void membersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }
+    void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }
 
   private:
     char* beginTypedArray(ArrayType type, std::size_t bytes) override;

@@ -29,13 +29,14 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice: the number of SliceFog::walls; SliceFog::size
+    std::vector<std::uint32_t> wallCounts_, sizes_;  // of each slice: the number of walls; x, y, z of SliceFog::size
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;
     std::vector<std::uint8_t> values_;
 };
 
-/// Writes the member `fog` of the scene, which holds the transfer function. Writes nothing if there is no fog.
+/// Writes the member `fog` of the object `scene` in the message: the transfer function. Writes nothing if there is no
+/// fog.
 template <typename W>
 void writeFogTable(W& w, const scene::FogTable& table) {
     if (table.empty()) return;

@@ -49,10 +49,11 @@ class JsonWriter {
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
     void null();
-    /// Appends JSON text unchanged: a value.
+    /// Appends a value that is JSON text already.
     void raw(std::string_view text);
-    /// Appends the members of an object that another JsonWriter has written. The object must have members.
-    void membersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
+    /// Appends the members of `object`, a complete object with at least one member that another JsonWriter has written,
+    /// to the object that is being written.
+    void appendMembersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
 
     // Arrays of numbers. Coordinates of vectors are rounded to single precision.
     void vector(const glm::dvec3& v);

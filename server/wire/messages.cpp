@@ -157,7 +157,7 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
 
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded,
                              std::span<const std::string> data) {
-    constexpr Counts kBox{16, 32, 24, 8};  // the elements of a field's domain
+    constexpr Counts kBox{16, 32, 24, 8};  // of a field's domain, a 4-D box
     return message("catalogue", id, [&](JsonWriter& w) {
         w.key("polytopes");
         w.beginArray();

@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-// Thrown for a fault of a message that its schema cannot describe.
+// Thrown for a message with a fault that a JSON schema cannot describe.
 struct InvalidRequest {
     std::string message;
     ErrorCode code = ErrorCode::bad_message;

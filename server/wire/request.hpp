@@ -1,6 +1,6 @@
 #pragma once
-// Parsed messages from clients. `kMessageType` is the type of the messages that are parsed to a struct. If the members
-// of a struct are described with Boost.Describe, a message has them under the same names.
+// Parsed messages from clients. The constant kMessageType of a struct is the type of the messages that it represents.
+// If the members of the struct are described with Boost.Describe, the messages have members of the same names.
 
 #include <array>
 #include <boost/describe/class.hpp>
@@ -69,7 +69,7 @@ struct Get {
 /// Asks for the center and the size of an element.
 struct Measure {
     static constexpr std::string_view kMessageType = "measure";
-    slicing::ElementKind element = slicing::ElementKind::vertex;  ///< its kind
+    slicing::ElementKind element = slicing::ElementKind::vertex;  ///< the kind of the element
     std::size_t number = 0;                                       ///< slicing::Element::index
 };
 BOOST_DESCRIBE_STRUCT(Measure, (), (element, number))

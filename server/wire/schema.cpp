@@ -76,7 +76,7 @@ class SchemaReader {
   private:
     // Replaces references to other files by the schemas to which they refer. (valijson resolves references within a
     // file, "#/…".) Also replaces the keyword unevaluatedProperties, which valijson does not know, by
-    // additionalProperties: without the reference, both mean the same.
+    // additionalProperties: once the reference is replaced, both keywords mean the same.
     void resolveReferences(json& schema) {
         if (!schema.is_structured()) return;
         for (json& part : schema) resolveReferences(part);

@@ -18,8 +18,8 @@ namespace oval4d::wire {
 std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
 
 /// Returns a schema, or a part of one, in which each reference to another file is replaced by the schema to which it
-/// refers, together with the keywords beside the reference. If a keyword is in this schema and beside the reference,
-/// the value beside the reference is used; but `properties`, `items` and `required` are combined. The parameter
+/// refers, together with the keywords beside the reference. If both have a keyword, the value beside the reference is
+/// used, except that `properties`, `items` and `required` are combined. The parameter
 /// `reference` is the name of a file in protocol/schema/, which may be followed by '#' and a JSON pointer (RFC 6901),
 /// as in "settings.schema.json#/properties/view". Throws nlohmann::json::exception if there is no such file or part.
 nlohmann::json readSchema(const std::string& reference);

@@ -167,7 +167,7 @@ void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std:
 void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i, SurfaceWriter& surfaces,
                 FogWriter& fogs) {
     w.beginObject();
-    w.membersOf(placement);
+    w.appendMembersOf(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
     if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
         Fill fill;
@@ -275,7 +275,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
 void SliceListWriter::writeColumns(BinaryWriter& w, std::string_view placements, const Scene& scene) {
     const std::size_t count = scene.placements.size();
     w.beginObject();
-    w.membersOf(placements);
+    w.appendMembersOf(placements);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities);
     if (!scene.fill.empty()) {
         Fill fill;

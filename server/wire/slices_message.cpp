@@ -179,7 +179,7 @@ void SlicesMessageWriter::writeMessage(W&& w, Texts& texts, const Scene& scene, 
     const StaticScene fixed{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
                             scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
                             scene.faceOpacity, scene.axes,         scene.coordinates};
-    w.membersOf(texts.staticScene.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
+    w.appendMembersOf(texts.staticScene.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
     writeColors(w, scene.style(), scene.cellColors);
     SurfaceWriter::writeLook(w, scene.surfaces);
     writeFogTable(w, scene.fog);

@@ -41,7 +41,7 @@ class SlicesMessageWriter {
   private:
     // What stays the same from one message to the next, in one encoding.
     struct Texts {
-        CachedText<StaticScene> staticScene;  // an object
+        CachedText<StaticScene> staticScene;  // an object whose members become members of `scene`
         PlacementTexts placements;
     };
 

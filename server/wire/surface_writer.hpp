@@ -23,7 +23,8 @@ class SurfaceWriter {
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
     /// Writes the member `surface` with the surfaces of all slices, or nothing if the object has no surfaces.
     void write(BinaryWriter& w, const scene::Scene& scene);
-    /// Writes the member `surfaces` of the scene, which says how each level is drawn, or nothing if it has no levels.
+    /// Writes the member `surfaces` of the object `scene` in the message: how each level is drawn. Writes nothing if
+    /// there are no levels.
     template <typename W>
     static void writeLook(W& w, const scene::SurfaceLook& look) {
         if (look.empty()) return;

@@ -88,7 +88,7 @@ export class App {
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
             this.fieldPanel.updatePicture(slices);
-            // The state of a picture arrives before the picture.
+            // The state of a picture arrives before the picture, so `state` is that of this picture.
             if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
@@ -357,7 +357,7 @@ export class App {
         this.client.hello({ scheme: this.colorScheme.current }).catch(() => {}); // applies to later connections, too
     }
 
-    /** In full screen, the picture takes the room of the tools, until the button Tools is pressed. */
+    /** Full screen hides the tools, until the button Tools is pressed. Afterward, they are open if they were before. */
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
@@ -407,7 +407,7 @@ export class App {
 
     /** Loads a formula, then changes settings; resolves to the revision after both. */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
-        // Both are sent at once, so that no picture shows the formula without the settings.
+        // Both requests are sent at once, so that no picture shows the formula without the settings.
         const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
         if (Object.keys(settings).length > 0) {
             answers.push(this.request({ type: "set", continues: true, ...settings }));

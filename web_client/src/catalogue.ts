@@ -11,7 +11,7 @@ export interface Family {
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
 const kMostCompared = 64; // letters that are compared to find similar names
-const kLettersPerMistake = 3; // so many letters allow for one mistake, as in the server's suggestions
+const kLettersPerMistake = 3; // letters of the typed name per allowed mistake, as in the server's suggestions
 
 interface Indexed {
     entry: CatalogueEntry;

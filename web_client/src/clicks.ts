@@ -39,7 +39,7 @@ export class Clicks {
      * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
      * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click near a slice makes that
      * slice the focus slice and keeps the highlight, and a click on the background removes the highlight. The point is
-     * in pixels of the drawing. If `isTap` is true, a finger has touched it; then the element's name is shown, too.
+     * in pixels of the drawing. If `isTap` is true, a finger has made the click; then the element's name is shown, too.
      */
     async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;

@@ -162,7 +162,10 @@ function coloringSeen(state: State): Coloring {
     return kColorings[state.color][isField(state) ? "field" : "polytope"] ? state.color : "plain";
 }
 
-/** The color scale of the coloring that is seen; if it has none and the caps show values, the scale of the values. */
+/**
+ * The color scale of the coloring that is seen or, if this has none and the caps show values, the scale of the values;
+ * undefined if there is neither.
+ */
 function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];

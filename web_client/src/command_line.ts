@@ -13,7 +13,7 @@ export interface CommandLineEvents {
     /** Executes a line; rejects with an Error whose message is shown to the user. */
     run(line: string): Promise<unknown>;
     closed(): void;
-    /** Returns the names that complete a line. */
+    /** Returns the names that can complete a line, such as those of polytopes and keys. */
     names(): Names;
 }
 
@@ -64,7 +64,7 @@ export class CommandLine {
         });
     }
 
-    /** Opens the command line. Tab waits for the names of polytopes while they are `loading`. */
+    /** Opens the command line. Tab waits for `loading`, the request for the names of polytopes, to complete a name. */
     open(loading: Promise<unknown>): void {
         this.loading = loading;
         void loading.finally(() => (this.loading = undefined));
@@ -93,7 +93,7 @@ export class CommandLine {
         else this.complete(-step);
     }
 
-    /** Scrolls the panel by pages of kPage, because it may be too low to show a whole error. */
+    /** Scrolls the panel by pages of kPage: the panel may be too low to show a whole error. */
     private scroll(event: KeyboardEvent, pages: number): void {
         event.preventDefault();
         this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });

@@ -41,7 +41,8 @@ export const kElementKinds = settings.properties.highlight.properties.element.en
 
 /**
  * The settings among the properties of an object in `set`, each with a list of its values. A setting in a nested object
- * has its own name on the command line, except that `slices.count` is called `slices`. `parent` is the nested object.
+ * has its own name on the command line, except that `slices.count` is called `slices`. `parent` is the name of the
+ * object, if it is nested.
  */
 function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {

@@ -13,7 +13,7 @@ const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1 };
 
 export class ElementMenu {
     private readonly menu = byId("element-menu");
-    private at: Point = { x: 0, y: 0 }; // where it was opened
+    private at: Point = { x: 0, y: 0 }; // where the menu was opened
 
     constructor(private readonly drawing: HTMLElement) {
         document.addEventListener("pointerdown", ({ target }) => this.menu.contains(target as Node) || this.hide());

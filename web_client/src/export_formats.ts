@@ -18,7 +18,7 @@ export interface Format {
     of: string[];
     /** Replaces `about` and `of` if the object is a field. */
     forFields: { about: string; of: string[] };
-    /** The only objects that the format can describe; absent if it can describe all. "polytopes" has point clouds. */
+    /** The only objects that the format can describe; absent if there is no limit. "polytopes" includes point clouds. */
     objects?: "fields" | "polytopes";
 }
 

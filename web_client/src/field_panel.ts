@@ -31,7 +31,7 @@ export interface FieldPanelEvents {
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const kSeries = 1500; // milliseconds: changes that follow each other within this time are undone together
-const kMaxTyped = 100; // the number of formulas whose typed text is kept for undo
+const kMaxTyped = 100; // the most formulas whose typed text is kept, for undo
 const kStorageKey = "oval4d.formula";
 const kAxes = ["x", "y", "z", "w"] as const;
 const kOfValues = /^values: /; // the beginning of an error message about the formula of values
@@ -56,7 +56,7 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    private sent: { settings: Settings; revision: number } | undefined; // by the last load(), until its state arrives
+    private sent: { settings: Settings; revision: number } | undefined; // what load() sent, until its state arrives
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
     // state.

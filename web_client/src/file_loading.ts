@@ -20,7 +20,7 @@ export class FileLoading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly dropTarget = byId("drop");
-    private readonly kept = new Map<string, LoadContent | File>(); // loaded from this page, by name; arrays as files
+    private readonly kept = new Map<string, LoadContent | File>(); // what this page loaded, by name; arrays as files
     private queue: Promise<void> = Promise.resolve();
 
     constructor(
@@ -90,8 +90,8 @@ export class FileLoading {
     }
 
     /**
-     * A button that loads an object again so that it turns about the origin of its file. No button if the object turns
-     * about it already, or if another object is shown.
+     * A button that loads an object again so that it turns about the origin of its file; no button if the object turns
+     * about this origin already, or if another object is shown.
      */
     private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });

@@ -28,7 +28,7 @@ export class FogEditor {
     private readonly curve = byId("fog-curve");
     private readonly list = byId("fog-points");
     private readonly error = byId("fog-error");
-    private mistake = ""; // in the text of the fields; "" if there is none
+    private mistake = ""; // what is wrong with the text in the fields; "" if nothing is
     private refusal = ""; // why the server refused the last change; "" if it did not
     private readonly addButton = byId<HTMLButtonElement>("fog-add");
     private readonly showButton = byId<HTMLButtonElement>("fog-show");

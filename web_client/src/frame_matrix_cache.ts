@@ -8,7 +8,8 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    // The layoutKey() of the known or requested matrix, whatever its slices and surfaces; "" if there is none.
+    // The layoutKey() of the known or requested matrix, made without the slices and the surfaces, which do not move the
+    // matrix; "" if there is none.
     private knownFor = "";
 
     constructor(

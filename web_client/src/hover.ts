@@ -6,7 +6,7 @@ export interface Point {
     y: number;
 }
 
-/** Calls `moved` with the pointer's place; with undefined if the pointer leaves, a button is down, or it is a touch. */
+/** Calls `moved` with the pointer's place; with undefined if it leaves, if a button is down, and for touches. */
 export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
         const { left, top } = area.getBoundingClientRect();

@@ -6,7 +6,7 @@ import type { KeyRepeatLimiter } from "./key_repeat_limiter";
 import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
 import { readStored, writeStored } from "./storage";
 
-const kSingleKeysKey = "oval4d.single_keys"; // lasting storage key of whether keys act without Ctrl
+const kSingleKeysKey = "oval4d.single_keys"; // key in localStorage: whether keys act without Ctrl
 
 interface KeyActions {
     send: (command: Command) => void;

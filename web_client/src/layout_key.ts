@@ -1,11 +1,11 @@
-// What the layout of a picture depends on. When it changes, the page asks again where the parts of a picture are that
-// the server draws.
+// What the layout of a picture depends on. When this changes, the page asks the server again where the parts of the
+// server's picture are.
 
 import type { State, Viewport } from "@oval4d/protocol";
 
 /**
- * What the layout of a picture of this size may depend on, as JSON. It is all of the state, so that no setting is
- * forgotten, except what changes during motions and gestures and never moves a part of the picture.
+ * What the layout of a picture of this size may depend on, as JSON: all members of the state, so that no setting is
+ * forgotten, except those that never move a part of the picture, such as what motions and gestures change.
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;

@@ -1,5 +1,5 @@
-// Determines what the page shows at the start: a shared session (URL fragment); the session that this entry of the
-// browser's history or this tab had before, as after a reload or Back; or a view (URL query).
+// Determines what the page shows at the start. In this order: a shared session (URL fragment); the session that this
+// entry of the browser's history or this tab had before, as after a reload or Back; or a view (URL query).
 
 import type { Credentials } from "@oval4d/protocol";
 

@@ -7,7 +7,7 @@ import type { Stage } from "./picture/stage";
 
 export class PrintView {
     private readonly root = byId("print");
-    private frame: ImageBitmap | undefined; // a picture of the server to print
+    private frame: ImageBitmap | undefined; // the picture to print, if the server draws the pictures
     private isPrepared = false;
     private focused: HTMLElement | undefined; // the last element with the focus, which printing takes away
 

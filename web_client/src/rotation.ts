@@ -1,5 +1,6 @@
-// Turns the polytope by gestures. The turns of a gesture are added up and sent once per animation frame, when the
-// previous ones have been answered. All turns of one gesture are one undo step and one rotation, which can be repeated.
+// Turns the polytope by gestures. The turns of a gesture are added up; their sum is sent once per animation frame, when
+// the previous sum has been answered. All turns of one gesture are one undo step and one rotation, which keys can
+// repeat.
 
 import type { Plane, Request } from "@oval4d/protocol";
 

@@ -1,4 +1,5 @@
-// The tools panel: a button for every action of the key table, and further sections of the page.
+// The tools panel: a button for every action of the key table, and sections that other parts of the page add, such as
+// Colors.
 
 import type { KeyBinding, Keymap, Parts, Plane, Projection, State } from "@oval4d/protocol";
 
@@ -12,7 +13,7 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A section of the page. If a group of the key table has the same title, the section is appended to that group. */
+/** A section that a part of the page adds. If a group of the key table has its title, the section is appended there. */
 export interface ToolSection {
     title: string;
     /** The group of the key table after which the section is placed; by default, the section comes last. */

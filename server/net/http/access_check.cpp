@@ -91,7 +91,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
         case AccessControl::Verdict::allowed:
             break;
     }
-    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
+    // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
     if (access.requiresToken() && !client.mayTryToken(now))
         return tooManyReply("too many wrong tokens; try again in a minute\n");
     if (isRestricted(target) && access.isCrossSite(fields))

@@ -101,8 +101,7 @@ AccessControl::Verdict AccessControl::check(const AccessCheckInput& fields) cons
 
 std::string AccessControl::cookieFor(const AccessCheckInput& fields) const {
     if (token_.empty() || !store::equalInConstantTime(fields.token, token_)) return {};
-    // Without a Path attribute, the cookie applies to the page's own folder. It therefore works behind any path prefix
-    // that a proxy adds.
+    // Without a Path attribute, the cookie applies to the page's own folder, whatever path prefix a proxy adds.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
 }
 

@@ -414,7 +414,8 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
             self->drop();
         }
     });
-    // Beast checks only the first of several fields with the same name; their combined value has already been checked.
+    // Beast checks only the first of several fields with the same name. Their combined value is known to be valid, so
+    // replace them by one field with the value that Beast requires.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
     co_await connection->run(std::move(request));

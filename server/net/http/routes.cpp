@@ -245,8 +245,8 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
 Reply Routes::readiness() const {
     if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
-        // The server stays ready while the store is unavailable, because a shared store is then unavailable to the
-        // other servers, too.
+        // The server stays ready while the store is unavailable: the other servers could not serve its clients better,
+        // because a shared store is then unavailable to them, too.
         const std::string error = sessions_.writeBehind().lastError();
         return textReply("text/plain", error.empty()
                                            ? "ready\n"

@@ -98,7 +98,7 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     }
     load.name = rest;
     if (auto error = setMembers(load, target.query)) return std::move(*error);
-    // checkLoad() requires an array only if `file` is set, which it is not yet.
+    // checkLoad() would accept other formats here: it requires an array only once `load.file` is set.
     const bool array = load.format.empty() || session::isArrayFormat(load.format);
     if (!array)
         return Error{

@@ -14,7 +14,8 @@ namespace oval4d::net {
 /// A queued or running search for critical values of w.
 class CriticalSearchHandle {
   public:
-    /// `by`: the connection that requested the search, or null. `workersStop`: its stop request stops the search, too.
+    /// `by`: the connection that requested the search, or null. `workersStop`: the stop token of the workers; the
+    /// search also stops if a stop of the workers is requested.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
@@ -49,7 +50,7 @@ class CriticalSearches {
   private:
     std::vector<std::shared_ptr<CriticalSearchHandle>> running() const;
 
-    std::vector<std::weak_ptr<CriticalSearchHandle>> searches_;  // ended ones are removed when one is added
+    std::vector<std::weak_ptr<CriticalSearchHandle>> searches_;  // ended searches are removed when a search is added
 };
 
 }  // namespace oval4d::net

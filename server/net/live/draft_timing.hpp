@@ -7,8 +7,8 @@
 namespace oval4d::net {
 
 /// Tells whether a session changes in quick succession, so that pictures of a field must be drafts
-/// (slicing::Quality::draft). A period of quick changes begins with a change that follows another one within kBurst. It
-/// ends when the session has not changed for kRest, or with a change that is not quick.
+/// (slicing::Quality::draft). A period of quick changes begins with a change that follows the previous one within
+/// kBurst. It ends when the session has not changed for kRest, or with a change at least kBurst after the previous one.
 class DraftTiming {
   public:
     using Clock = std::chrono::steady_clock;
@@ -23,7 +23,7 @@ class DraftTiming {
         changedBefore_ = true;
         changed_ = now;
     }
-    /// Begins a period of quick changes, which lasts until the session has rested.
+    /// Begins a period of quick changes, even if the last change was not quick. It ends like any other.
     void begin() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has rested for kRest.
     void rest(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }

@@ -16,9 +16,9 @@ namespace oval4d::net {
 /// Sends an `error` message, and counts it. `id`: the id of the request that it answers; empty if it answers none.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Logs that a picture of a state could not be made because of `why`, and returns the error for the client. If the file
-/// of the state's field can no longer be read, which is no fault of the server, this is `bad_field`. If the slices have
-/// too many edges, it is `too_large`, and nothing is logged. Else it is `otherwise`.
+/// Returns the error for a client to whom a picture of a state cannot be sent, because making it has failed with `why`:
+/// `bad_field` if the file of the state's field can no longer be read, `too_large` if the slices have too many edges,
+/// else `otherwise`. Logs the failure unless it returns `too_large`.
 Error pictureError(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                    const std::exception& why, const Error& otherwise);
 

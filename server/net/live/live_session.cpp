@@ -122,8 +122,8 @@ void LiveSession::scheduleSave() {
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
-/// Returns a function that writes the session, or only its head (the state and the revision), to the store. This
-/// function calls its argument when the write is done: see WriteBehindStore::save().
+/// Returns a function that writes the session, or only its head (the state and the revision), to the store. The
+/// returned function calls its argument when the write is done: see WriteBehindStore::save().
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -156,7 +156,8 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Picture
 
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure measure, RequestId id) {
-    // State::object is an image in the frame of reference; State::source has the coordinates of its file.
+    // Measure State::source, which has the coordinates of the object's file. State::object is its image in the frame of
+    // reference.
     const slicing::Object& object = session_.current.source;
     const slicing::Element element{measure.element, measure.number};
     if (const auto exists = session::checkElement(object, element); !exists) {
@@ -205,8 +206,8 @@ std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
 }
 
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
-/// clients. If several servers share the store, a command may be acknowledged only when its result is in the store;
-/// with `awaitStore`, this function waits for that.
+/// clients. If several servers share the store, a command must not be acknowledged before its result is in the store;
+/// if `awaitStore` is true, this function returns only then.
 asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                    const session::Command& command, bool awaitStore) {
     const auto loader = makeLoader();
@@ -225,8 +226,8 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
             std::shared_ptr<CriticalSearchHandle> search;
             if (loader->isSearchPending()) {
                 search = registerSearch(peer);
-                // Without this call, nothing would be read from the client, because its next message waits for this
-                // command.
+                // Without this call, the connection would read nothing for some time, because the client's next message
+                // waits for this command; it would notice too late that the client has left.
                 if (peer) peer->watchWhileExecuting();
             }
             if (auto refused = co_await loadPending(by, loader, std::move(search))) {
@@ -243,7 +244,7 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
     }
     if (!done) co_return done.error();
     Applied applied{revision(), loader->warnings(), true};
-    // The command may have extended a field that is not shown: then the source stays the same.
+    // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(Clock::now());
@@ -334,7 +335,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
             co_await answerWithFile(peer, get.file, id);
             break;
         case wire::GetTarget::critical:
-            // The client's further messages do not wait for this answer.
+            // The search may take long: the client's further messages do not wait for this answer.
             asio::co_spawn(strand_, answerWithCritical(peer, id), KeepAlive{shared_from_this()});
             break;
     }

@@ -50,7 +50,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// and a picture follow.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
-    /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
+    /// Executes a request of a client that was added with welcome(), and returns once the request is answered; if it
+    /// asks for critical values of w, returns at once, and the answer follows.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
     /// The result of a command.

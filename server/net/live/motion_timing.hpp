@@ -12,7 +12,7 @@ namespace oval4d::net {
 class MotionTiming {
   public:
     using Clock = std::chrono::steady_clock;
-    /// The least time between two steps. The first step covers this time, too.
+    /// The least time between two steps, and the time that the first step covers.
     static constexpr auto kInterval = std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / 60;
     /// The longest time that a step covers. This limit prevents a large jump of the object after a pause, or for a
     /// client that shows only one picture per second.

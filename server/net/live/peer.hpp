@@ -20,11 +20,12 @@ class Peer {
     /// socket; it is not called if the connection ends before that.
     virtual void send(Message message, std::function<void()> written = {}) = 0;
 
-    /// Returns the account of the client to whom the connection belongs. The jobs of the connection run in its lanes.
+    /// Returns the account of the client to whom the connection belongs. The worker pools charge the connection's jobs
+    /// to this account.
     virtual const AddressAccountPtr& client() const = 0;
 
-    /// Makes the connection notice at once if its client leaves while a request is being executed, and then call
-    /// LiveSession::stopSearches(). Without this call, the connection may notice that only after the request.
+    /// Makes the connection notice at once if its client leaves while the current request is being executed, and then
+    /// call LiveSession::stopSearches(). Without this call, the connection may notice it only after the request.
     virtual void watchWhileExecuting() = 0;
 
     /// Closes the connection with a WebSocket close code after the queued messages have been written.

@@ -105,7 +105,8 @@ slicing::Quality PictureStreams::wantedQuality() const {
 }
 
 /// Schedules pictures of full quality for the time when the session has rested. Until the timer expires,
-/// wantedQuality() remains `draft`: otherwise a busy server, which makes the draft late, would skip it.
+/// wantedQuality() remains `draft`: otherwise a busy server, which comes to the draft only after that time, would skip
+/// the draft.
 void PictureStreams::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
@@ -133,7 +134,7 @@ void PictureStreams::advanceMotion() {
     }
     const std::uint64_t before = revision();
     session::advance(session_, Seconds(*passed).count());
-    if (revision() == before) return;  // it turns by the angle 0: there is nothing to send until the next command
+    if (revision() == before) return;  // the object turns by the angle 0: nothing changes until the next command
     draftTiming_.change(now);
     moved_();
 }
@@ -216,11 +217,11 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
 /// Called on a worker when the last picture of a job is drawn, but not yet encoded. From then on, the next job may be
 /// queued.
 void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
-    asio::post(strand_, [self = shared_from_this(),
-                         drawn = PicturesInProgress::Encoding{job.number, job.revision, job.quality, key}] {
-        self->inProgress_.recordDrawn(drawn);
-        self->update();
-    });
+    asio::post(strand_,
+               [self = shared_from_this(), drawn = PictureJobs::Encoding{job.number, job.revision, job.quality, key}] {
+                   self->inProgress_.recordDrawn(drawn);
+                   self->update();
+               });
 }
 
 /// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still

@@ -20,7 +20,7 @@
 #include "net/live/motion_timing.hpp"
 #include "net/live/pacing.hpp"
 #include "net/live/peer.hpp"
-#include "net/live/pictures_in_progress.hpp"
+#include "net/live/picture_jobs.hpp"
 #include "net/live/snapshot.hpp"
 #include "net/live/snapshot_picture_cache.hpp"
 #include "net/one_shot_timer.hpp"
@@ -144,7 +144,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     std::map<const Peer*, Subscriber> subscribers_;
     DraftTiming draftTiming_;
     MotionTiming motionTiming_;
-    PicturesInProgress inProgress_;
+    PictureJobs inProgress_;
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
     SharedBytes stateText_;  // the `state` message of stateRevision_ in the dark scheme, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;

@@ -41,7 +41,7 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
     using scene::Background;
     session::State state = snapshot.state;
     if (key.background) state.look.background = *key.background;
-    SharedBytes stateText;  // stored in the PNG file; has the requested background, even if that is automatic
+    SharedBytes stateText;  // for the PNG file, which keeps the setting: an automatic background stays automatic
     if (key.stream == Stream::frames) {
         stateText = key.background ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
                                                                     snapshot.quality, key.scheme))

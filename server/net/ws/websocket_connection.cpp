@@ -118,9 +118,9 @@ void WebSocketConnection::startMessage(Incoming incoming) {
                    });
 }
 
-/// Reads the next message when the current one has been executed. In a session, reads it earlier if the current one has
-/// taken so long that the client's pong may be due, or after watchWhileExecuting(), which is called for long searches.
-/// Otherwise waits, so that a client that closes the connection right after a request still receives the answer.
+/// Reads the next message. Waits until the current one has been executed, so that a client that closes the connection
+/// right after a request still receives the answer. In a session, does not wait longer than until the client's pong may
+/// be due, or until watchWhileExecuting() is called, as it is for long searches.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -293,7 +293,7 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinSession(wir
     if (requestedId_.empty() && hello.token) {
         co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
     }
-    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
+    // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
     if (hello.token && !client_->mayTryToken(AddressAccount::Clock::now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
@@ -334,7 +334,7 @@ void WebSocketConnection::send(Message message, std::function<void()> written) {
                });
 }
 
-/// Closes the connection because the messages that the client has not read exceed the byte limits.
+/// Closes the connection, because the client's byte account has no room for another message that waits to be read.
 void WebSocketConnection::closeForUnreadBytes() {
     services_.metrics.droppedSlowClients.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());

@@ -46,7 +46,7 @@ void expectMembersAsIfWrittenThere() {
         writeMembers(w);
         w.endObject();
     });
-    EXPECT_EQ(objectAround<W>([&](W& w) { w.membersOf(object); }), objectAround<W>(writeMembers));
+    EXPECT_EQ(objectAround<W>([&](W& w) { w.appendMembersOf(object); }), objectAround<W>(writeMembers));
 }
 
 TEST(Writers, MembersOfAnObjectAreAsIfWrittenThere) {

@@ -95,7 +95,7 @@ export class ElementSources {
         return found;
     }
 
-    /** The cells around an edge or a 2-face: their slices meet at its slice. Empty if the picture lacks such slices. */
+    /** The cells around an edge or a 2-face: those whose slices meet where it is cut; empty if nothing cuts it. */
     private cellsAround(element: "edge" | "face", number: number): number[] {
         for (const { vertices, edges, faces, of } of this.slices) {
             const at = (element === "edge" ? of.vertices : of.edges).indexOf(number);

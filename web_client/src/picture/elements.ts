@@ -136,7 +136,7 @@ export class EdgeBuckets {
         begin.fill(0, vertices[0], vertices[1] + 1);
         for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
         for (let v = vertices[0] + 1; v <= vertices[1]; ++v) begin[v]! += begin[v - 1]!;
-        // Each entry is now the end of its edges; filling from the back turns it into their beginning.
+        // begin[v] is now the end of the edges of v. Filling them in from the back turns it into their beginning.
         for (let e = edges[1]; e-- > edges[0]; ) items[--begin[vertexOf(e)]!] = e;
     }
 }

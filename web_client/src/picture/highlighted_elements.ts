@@ -13,7 +13,7 @@ export interface HighlightedElements {
     edges: ReadonlySet<number>;
     /** Vertices of the polytope, numbered as in `coordinates`. */
     ownVertices: ReadonlySet<number>;
-    /** The cell under the pointer, whose faces are highlighted. Those of the kept cell are colored by the server. */
+    /** The cell under the pointer, whose faces are highlighted. The server colors the faces of the kept cell. */
     cell?: number;
 }
 

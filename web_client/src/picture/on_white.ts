@@ -6,7 +6,7 @@ import type { Slices } from "@oval4d/protocol";
 import table from "../../../protocol/colors.json";
 
 const kLeastContrast = 3.6; // the least contrast to white, as in server/scene/color.cpp
-const kMostLuminance = 1.05 / kLeastContrast - 0.05; // the luminance with this contrast, as WCAG 2.2 defines it
+const kMostLuminance = 1.05 / kLeastContrast - 0.05; // the luminance that has this contrast to white (WCAG 2.2)
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;

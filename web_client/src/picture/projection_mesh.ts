@@ -84,7 +84,7 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section's bars shine through faces
+                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section's bars are drawn over the faces beside them
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
             if (part.opacity > 0) this.addFaces(part, point, color, opacities);

@@ -1,8 +1,8 @@
 // Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal of the
 // body at (u, v) is X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye. On a bar, u runs
-// across the bar; v is 0 except at the far end, which is round. On a face, u = v = 0. Directions of light are passed as
-// dot products with X, Y and Z. Edges are antialiased over one pixel. A ball or bar whose radius is below kThinnest is
-// drawn with this radius and reduced opacity.
+// across the bar; v is 0 except at the end that is farther from the eye, which is round. On a face, u = v = 0.
+// Directions of light are passed as dot products with X, Y and Z. Edges are antialiased over one pixel. A ball or bar
+// whose radius is below kThinnest is drawn with the radius kThinnest and reduced opacity.
 
 /** Values of the third component of the attribute `shape`: the kind of patch. */
 export const kBall = 0;

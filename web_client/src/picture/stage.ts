@@ -32,7 +32,7 @@ const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
-const kLeastTextInFullScreen = 0.02; // the least height in full screen, as a fraction of the screen's
+const kLeastTextInFullScreen = 0.02; // the same in full screen, as a fraction of the screen's height
 
 /** Returns the largest factor by which a picture can be enlarged within the limits. */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
@@ -52,7 +52,7 @@ export class Stage {
     private readonly frames: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private isDraft = false; // whether a finer picture will follow the newest one
-    private unpresentedRevision: number | undefined; // of the picture that the next drawing presents
+    private unpresentedRevision: number | undefined; // of the new picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
     private readonly afterRendering = new MessageChannel(); // its message arrives after the browser has rendered
     private scheduled = false;

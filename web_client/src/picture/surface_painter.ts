@@ -77,13 +77,13 @@ interface SliceSurfaces {
     groups: TriangleGroups;
     depth: number; // of the slice's origin, along the camera's axis
     firstPoint: number;
-    firstByte: number; // the offset of its indices in the buffer
+    firstByte: number; // the offset of the slice's indices in the buffer, in bytes
 }
 
 export class SurfacePainter {
     private readonly parts: SliceSurfaces[] = []; // sorted from far to near when they are drawn
     private readonly spare: SliceSurfaces[] = [];
-    private picture: Slices | undefined; // undefined if it has no surfaces
+    private picture: Slices | undefined; // the newest picture; undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
     private resources: Resources | undefined; // created when they are needed
     private readonly gl: WebGL2RenderingContext;

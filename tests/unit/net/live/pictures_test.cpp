@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "net/live/pictures_in_progress.hpp"
+#include "net/live/picture_jobs.hpp"
 #include "net/live/snapshot_picture_cache.hpp"
 
 namespace oval4d::net {
@@ -57,8 +57,8 @@ TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {
     EXPECT_EQ(pictures.snapshot(), nullptr);
 }
 
-TEST(PicturesInProgress, TheNextJobMayBeginOnceThePictureIsDrawn) {
-    PicturesInProgress inProgress;
+TEST(PictureJobs, TheNextJobMayBeginOnceThePictureIsDrawn) {
+    PictureJobs inProgress;
     EXPECT_FALSE(inProgress.isDrawing());
     EXPECT_EQ(inProgress.job(), 1U);
     inProgress.recordQueued();
@@ -79,8 +79,8 @@ TEST(PicturesInProgress, TheNextJobMayBeginOnceThePictureIsDrawn) {
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 7, Quality::draft));
 }
 
-TEST(PicturesInProgress, AJobWithoutAFrameEndsAtOnce) {
-    PicturesInProgress inProgress;
+TEST(PictureJobs, AJobWithoutAFrameEndsAtOnce) {
+    PictureJobs inProgress;
     inProgress.recordQueued();
     inProgress.recordDone(1);
     EXPECT_FALSE(inProgress.isDrawing());

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of a session that are being made.
+// The jobs that make the pictures of a session, as far as they are not done.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace oval4d::net {
 
-/// The picture jobs of a session. At most one job is queued or being drawn. When its last picture has been drawn, the
-/// next job may begin while this picture is still being encoded. Not thread-safe.
-class PicturesInProgress {
+/// The picture jobs of a session. At most one job is queued or being drawn. When the last picture of a job has been
+/// drawn, the next job may begin, while this picture is still being encoded. Not thread-safe.
+class PictureJobs {
   public:
     /// A picture that has been drawn and is being encoded.
     struct Encoding {
@@ -25,7 +25,8 @@ class PicturesInProgress {
     bool isDrawing() const { return drawing_ != 0; }
     /// Returns the number of the job that is queued or being drawn, or else that of the next one. The first is 1.
     std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
-    /// Records that the job with the number job() was queued. No other job may be queued or being drawn.
+    /// Records that the job with the number job() was queued. The caller must ensure that no other job is queued or
+    /// being drawn.
     void recordQueued() { drawing_ = ++jobs_; }
     /// Records that the last picture of a job has been drawn and is being encoded.
     void recordDrawn(const Encoding& picture) {
