@@ -27,12 +27,12 @@ class ArrayFunction;
 struct SecondFunction {
     std::shared_ptr<const ScalarFunction> function;
     std::string formula = {};                         ///< the text of the formula; empty if the function is an array
-    std::shared_ptr<const ArrayFunction> array = {};  ///< the same function if it is an array; else null
+    std::shared_ptr<const ArrayFunction> array = {};  ///< `function` if it is an array; else null
     std::string variable = {};                        ///< the name of the array in its file; empty if it has none
 };
 
 /// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
-/// it. session::LoadObject explains the members; it has members with the same names.
+/// it. The members mean the same as those of session::LoadObject with the same names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;
@@ -53,12 +53,13 @@ struct Field : geometry::ObjectInfo {
     double initialLevel = 0;                       ///< the only level that is shown at first
     Inside initialInside = Inside::below;          ///< which side of the levels is inside at first
     std::string formula;                           ///< the text of the formula; empty if there is none
-    std::shared_ptr<const ArrayFunction> array;    ///< the same function if it is an array; else null
+    std::shared_ptr<const ArrayFunction> array;    ///< `function` if it is an array; else null
     std::shared_ptr<const SecondFunction> second;  ///< null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;
-    bool shared = false;                       ///< whether sessions share it; if so, it is not counted as their memory
-    std::shared_ptr<const FileSource> source;  ///< see FileSource; null unless the samples are too large for memory
+    bool shared = false;                       ///< whether several sessions share this field; the limits on the memory
+                                               ///< of sessions then do not count it
+    std::shared_ptr<const FileSource> source;  ///< null unless the samples are too large for memory
 
     /// Returns whether samples of the field or of its second array are in a mapped file that can no longer be read.
     bool isLost() const;

@@ -50,7 +50,8 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Returns the size in bytes of the samples that the outcome itself contains, without those in mapped files.
+/// Estimates the size in bytes of the samples that the encoded outcome itself contains. Arrays with more than
+/// `maxInMemory` samples do not count, because their samples are in mapped files.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -61,7 +62,8 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
     return bytes;
 }
 
-// Reading and writing share this code, so that they always agree.
+// Encodes or decodes the members that need no special treatment. encodeReadRequest() and decodeReadRequest() share this
+// code, so that they always agree.
 template <typename Archive, typename Load, typename Limits>
 void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);

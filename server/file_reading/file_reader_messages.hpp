@@ -31,9 +31,10 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
                    slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 
-/// Decodes the result of encodeOutcome(). The bytes need not be trusted: a malicious file may control the process that
-/// sent them. Returns a valid object called `name` with a bounded number of printable warnings, or an error about the
-/// file that can be sent to the client. Throws std::runtime_error if the bytes are invalid.
+/// Decodes the result of encodeOutcome(). `files` are the mapped files to which the bytes may refer. The bytes need not
+/// be trusted: a malicious file may control the process that sent them. Returns a valid object called `name` with a
+/// bounded number of printable warnings, or an error about the file that can be sent to the client. Throws
+/// std::runtime_error if the bytes are invalid.
 Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
                                                   const session::Limits& limits,
                                                   const slicing::MappedFiles& files = {});

@@ -56,8 +56,9 @@ void FileReaderPool::retire(Process used) {
     wake_.notify_all();
 }
 
-/// Kills processes that have read a file, starts new ones in their place, and kills those that have waited for a file
-/// for too long. Runs on its own thread, so that no client waits for the replacement.
+/// Kills processes that have read a file, and starts new ones in their place. If no file is read for
+/// FileReaderOptions::idle, kills the waiting processes. Runs on its own thread, so that no client waits for the
+/// replacement.
 void FileReaderPool::replaceUsed(const std::stop_token& stop) {
     const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);
@@ -137,8 +138,8 @@ class Conversation {
         return mapped;
     }
 
-    std::string outcome;
-    std::optional<Error> refused;  // why a new file was refused
+    std::string outcome;           // the body of the message received last; after run(), the outcome
+    std::optional<Error> refused;  // why a new file was refused; empty if none was
 
   private:
     static int descriptorOf(const std::shared_ptr<const fields::FileHandle>& file) {

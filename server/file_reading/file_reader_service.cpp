@@ -113,8 +113,8 @@ class Reading {
     slicing::MappedFiles mapped_;  // in the order of the server's list of mapped files
 };
 
-// Replaces `body`, the `file` message, with the body of the `outcome` message. `descriptor`: the open file that came
-// with the message, or kNoFile.
+// Replaces `body`, the body of a `file` message, with the body of the `outcome` message. `descriptor`: the open file
+// that came with the message, or kNoFile.
 void outcomeOf(const Channel& channel, std::string& body, int descriptor) {
     try {
         ReadRequest request;

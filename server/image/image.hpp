@@ -26,7 +26,7 @@ inline std::size_t byteCount(scene::Viewport viewport) {
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;
-    bool hasAlpha = false;  ///< whether a file of the image has an alpha channel; if not, alpha is ignored
+    bool hasAlpha = false;  ///< whether files of this image have an alpha channel; if not, alpha is ignored
 };
 
 }  // namespace oval4d::image

@@ -22,7 +22,7 @@ constexpr char kStateHeader[] = "oval4d\0\0\0\0";
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
 constexpr int kLevel = 1;
 constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-constexpr std::size_t kLarge = 1'000'000;  // bytes; smaller images are not encoded faster on two cores
+constexpr std::size_t kLarge = 1'000'000;  // bytes before compression; two cores do not encode smaller images faster
 
 void store32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));

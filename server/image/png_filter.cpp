@@ -85,7 +85,8 @@ const std::uint8_t* rowOf(const image::ImageView& image, int y) {
            static_cast<std::size_t>(image.height - 1 - y) * static_cast<std::size_t>(image.width) * 4;
 }
 
-/// Divides the colors of the pixels of a row by their alpha.
+/// Writes the RGBA pixels of a row to `out`, with their colors divided by their alpha. `out` must have the size of the
+/// row.
 void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     for (std::size_t i = 0; i < out.size(); i += 4) {
         const unsigned alpha = row[i + 3];

@@ -10,8 +10,9 @@ using Seconds = FairQueue::Seconds;
 
 constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
-constexpr double kDecay = 0.75;        // the factor by which each new measurement reduces the weight of earlier ones
-constexpr Seconds kPriorWeight{0.02};  // the prior has the weight of measured jobs whose estimates sum to this time
+constexpr double kDecay = 0.75;  // the factor by which each new measurement reduces the weight of earlier ones
+// In Correction::factor(), the prior has the same weight as measured jobs whose estimates sum to this time.
+constexpr Seconds kPriorWeight{0.02};
 // Corrections are learned from measured times that are clipped to this multiple of the cost, because other programs
 // sometimes delay a job.
 constexpr double kMaxOverrun = 2;
@@ -61,17 +62,17 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
 std::optional<FairQueue::DueJob> FairQueue::pop(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
-    Class& schedulers = classes_[length];
-    if (schedulers.clients.empty()) return std::nullopt;
-    const ClientFlowPtr client = schedulers.clients.next();
+    Class& jobClass = classes_[length];
+    if (jobClass.clients.empty()) return std::nullopt;
+    const ClientFlowPtr client = jobClass.clients.next();
     const LanePtr lane = client->lanes_[length].next();
     QueuedJob first = std::move(lane->jobs_.front());
     lane->jobs_.pop_front();
     --waiting_;
     --client->waiting_;
     if (length == long_job) ++longRunning_;
-    scheduler_.recordStart(schedulers.state, classCost(length, first.cost));
-    schedulers.clients.recordStart(client->states_[length], first.cost);
+    scheduler_.recordStart(jobClass.state, classCost(length, first.cost));
+    jobClass.clients.recordStart(client->states_[length], first.cost);
     client->lanes_[length].recordStart(lane->states_[length], first.cost);
     client->lanes_[length].remove(lane->states_[length]);
     scheduleClient(client, length);
@@ -111,17 +112,16 @@ void FairQueue::scheduleLane(const LanePtr& lane) {
 /// Updates the queue entries of a client and of the class of this length, after a change of the client's next job of
 /// this length.
 void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
-    Class& schedulers = classes_[length];
+    Class& jobClass = classes_[length];
     if (client->lanes_[length].empty()) {
-        schedulers.clients.remove(client->states_[length]);
+        jobClass.clients.remove(client->states_[length]);
     } else {
-        schedulers.clients.enqueueFlow(client->states_[length], client, nextCost(*client, length));
+        jobClass.clients.enqueueFlow(client->states_[length], client, nextCost(*client, length));
     }
-    if (schedulers.clients.empty()) {
-        scheduler_.remove(schedulers.state);
+    if (jobClass.clients.empty()) {
+        scheduler_.remove(jobClass.state);
     } else {
-        scheduler_.enqueueFlow(schedulers.state, length,
-                               classCost(length, nextCost(*schedulers.clients.next(), length)));
+        scheduler_.enqueueFlow(jobClass.state, length, classCost(length, nextCost(*jobClass.clients.next(), length)));
     }
 }
 

@@ -21,8 +21,8 @@ namespace oval4d::parallel {
 /// jobs. The virtual time V is the service that each active flow would have received if all were served simultaneously.
 /// The next job of a flow has a virtual start time S and a virtual finish time F = S + cost; the flow with the smallest
 /// F is served next. S is the greater of two values: F of the flow's previous job, and V at the time when the flow was
-/// queued. A job that starts first raises V to S if V is less (J. Bennett, H. Zhang, 1996), and then advances V by
-/// cost / number of active flows.
+/// queued. When a job starts, V is set to S if V is less (J. Bennett, H. Zhang, 1996), and then advances by cost /
+/// number of active flows.
 /// - A flow that is new or was idle starts at V, so it gains no credit for idle time. Among flows that start at V, only
 ///   the costs of their jobs decide which one is served first.
 /// - V advances while a flow waits. Therefore each other flow gets ahead of the waiting flow by at most the cost of the

@@ -37,12 +37,13 @@ struct ChildOptions {
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
 };
 
-/// Thrown when a conversation fails because the process was lost, or because both the process and its replacement were
-/// lost.
+/// Thrown when a conversation fails because the process was lost and the conversation must not be repeated, or because
+/// the new process was lost, too.
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Returns whether the process hung and the conversation was therefore not repeated.
+    /// Returns true if a process hung during the conversation and ChildOptions::repeatAfterHang is false. Otherwise,
+    /// returns false: a process and then its replacement were lost.
     bool hung() const { return hung_; }
 
   private:

@@ -117,8 +117,9 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "userfaultfd",
                                                             "vfork"});
 
-/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. Rules for calls that do not
-/// exist on this architecture are skipped.
+/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. `allThreads`: whether the
+/// filter applies to all threads of the process, or only to the calling one. Rules for calls that do not exist on this
+/// architecture are skipped.
 class Filter {
   public:
     Filter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {

@@ -28,8 +28,9 @@ struct RasterizerOptions {
 };
 
 /// A child process that draws pictures for the server. A separate process has two advantages: the server survives a
-/// crash of the OpenGL driver, and the process has its own threads of the software rasterizer llvmpipe, which all GL
-/// contexts of one process share. If the process dies or hangs, a new one replaces it and repeats the task.
+/// crash of the OpenGL driver; and each process has its own threads of the software rasterizer llvmpipe, whereas all GL
+/// contexts of one process would share the same threads. If the process dies or hangs, a new one replaces it and
+/// repeats the task.
 ///
 /// Only one thread at a time may use an object. warmUp() and draw() throw process::Canceled if a stop is requested
 /// through `stop`, process::ProcessLost if the replacement is lost, too, and std::runtime_error if a process cannot be

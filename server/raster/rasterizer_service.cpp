@@ -113,7 +113,7 @@ class Service {
     void takeFile(int descriptor) {
         const fields::FileHandle file(descriptor);  // not needed once it is mapped
         auto mapped = fields::MappedFile::map(file.descriptor());
-        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null, for example if it has become empty
+        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null if mapping fails
     }
 
     void takeObject() {

@@ -30,9 +30,10 @@ class SharedRasterizerProcess {
     friend class WorkerRasterizer;
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
-    std::atomic<int> drawing_ = 0;                                   // the number of workers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when pictures were last drawn or queued at once
-    std::atomic<double> lastDrawSeconds_ = 0;                        // the drawing time of the last picture
+    std::atomic<int> drawing_ = 0;  // the number of workers that are drawing
+    // When a picture was last drawn while another one was drawn or queued.
+    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};
+    std::atomic<double> lastDrawSeconds_ = 0;  // the drawing time of the last picture
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; empty on a single core
 };

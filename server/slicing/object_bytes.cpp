@@ -53,7 +53,7 @@ class SampleWriter {
     SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)
         : archive_(archive), files_(files), maxInMemory_(maxInMemory) {}
 
-    void write(const fields::Samples& samples) {
+    void write(const fields::SampleStorage& samples) {
         const std::size_t count = samples.values().size();
         const bool inFile = samples.file() && count > maxInMemory_;
         archive_(inFile);
@@ -98,7 +98,7 @@ void readSamples(ByteReader& archive, const MappedFiles& files, fields::ReadFiel
         if (number >= files.size() || !files[number] || count != fields::sampleCount(array.shape))
             throw std::runtime_error("samples are missing");
         try {
-            array.samples = fields::Samples(files[number], offset, count);
+            array.samples = fields::SampleStorage(files[number], offset, count);
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error(invalid.what());
         }
@@ -107,7 +107,7 @@ void readSamples(ByteReader& archive, const MappedFiles& files, fields::ReadFiel
     std::vector<float> samples;
     archive(samples);
     if (samples.size() != fields::sampleCount(array.shape)) throw std::runtime_error("samples are missing");
-    array.samples = fields::Samples(std::move(samples));
+    array.samples = fields::SampleStorage(std::move(samples));
 }
 
 // Throws std::runtime_error if the field is invalid.

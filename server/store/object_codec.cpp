@@ -70,7 +70,7 @@ fields::ReadField arrayIn(const json::binary_t& samples, const fields::Box& box,
     if (count == 0 || samples.size() != count * sizeof(float)) throwUnreadable("samples of an array are missing");
     std::vector<float> values(count);
     std::memcpy(values.data(), samples.data(), samples.size());
-    array.samples = fields::Samples(std::move(values));
+    array.samples = fields::SampleStorage(std::move(values));
     return array;
 }
 

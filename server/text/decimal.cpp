@@ -92,10 +92,10 @@ struct Block {
 // The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
 // power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple is therefore read back as the same
 // float. At most one multiple of 10^(1 − p) is read back as the same float, too; if there is one, it is shorter and is
-// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound: the form
+// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound: Block
 // has room for ten decimals only; and a power of two must be written exactly, because the spacing of the floats below
-// it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the upper bound: the
-// form has room for only two digits before the point.
+// it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the upper bound: Block
+// has room for only two digits before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
 // kExponentMask selects the exponent bits of a float. These bits minus kHalfSpacing are the float 2^(e − 24), half of
 // the spacing.

@@ -10,7 +10,7 @@ namespace oval4d::text_files {
 struct FileError {
     std::size_t line = 0;  ///< counted from 1; 0 if no single line is the cause
     std::string reason;
-    bool tooLarge = false;   ///< the file exceeds a limit
+    bool tooLarge = false;   ///< whether the file exceeds a limit
     std::size_t column = 0;  ///< the column of a table, counted from 1; 0 if no single column is the cause
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNotANumber = "is not a number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
-// Returns the word without its sign. Sets `negative` to whether this is a minus sign.
+// Returns the word without its sign, if it has one. Sets `negative` to whether the sign is a minus.
 std::string_view withoutSign(std::string_view word, bool& negative) {
     negative = word.starts_with('-') || word.starts_with(kMinusSign);
     if (word.starts_with(kMinusSign)) return word.substr(kMinusSign.size());

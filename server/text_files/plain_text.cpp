@@ -44,6 +44,7 @@ constexpr auto kKinds = std::to_array<Kind>({
 });
 
 /// Kinds of text files without rows of numbers. Their signatures are compared with the start of the text in lowercase.
+/// The first signature must be the longest.
 constexpr auto kTextKinds = std::to_array<Kind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},

@@ -22,7 +22,7 @@ constexpr std::size_t kRadiusIndex = 4;  // the index of the radius, after those
 struct Layout {
     std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
     std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
-    bool radiusMayMiss = false;   // rows may lack the last column, which is the radius
+    bool radiusMayMiss = false;   // whether the radius is the last column, which rows may lack
     std::string otherColumns;     // names of the columns that are left out, in quotes
     std::string_view radiusName;  // the name of the radius as the header writes it
 
@@ -275,7 +275,7 @@ class PointReader {
     TableRow row_;
     std::array<CoordinateReader, kRadiusIndex + 1> readers_;
     std::size_t rows_ = 0;
-    std::size_t firstSize_ = 0;  // the number of columns of the first row; 0 before it
+    std::size_t firstSize_ = 0;  // the number of columns of the first row; 0 before it is read
     bool warnedOfRadius_ = false;
     std::vector<std::string> warnings_;
 };

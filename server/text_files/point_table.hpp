@@ -23,7 +23,7 @@ struct PointRow {
 /// What a table of points may contain.
 struct PointTableOptions {
     std::size_t maxPoints = 0;
-    bool radii = false;  ///< the points may have radii
+    bool radii = false;  ///< whether the points may have radii
 };
 
 /// Reads a table of points and calls `add` for each row. `text` must be a result of plainText(). Returns warnings, for

@@ -115,7 +115,7 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         any = true;
         const ColumnsBetweenTabs between = columnsBetweenTabs(content, row);
         tabs = tabs || between.filled >= kMinColumns;  // otherwise, tabs may stand among blanks
-        if (between.numbers >= kMinColumns) {          // then other commas and semicolons belong to texts
+        if (between.numbers >= kMinColumns) {          // then commas and semicolons elsewhere belong to texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }

@@ -43,7 +43,7 @@ TableFormat formatOf(TableLines lines);
 /// The columns of a line.
 struct TableRow {
     std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
-    bool endsWithSeparator = false;         ///< with a separator other than a blank; no column follows it
+    bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 
 /// Sets `row` to the columns of a line.

@@ -53,7 +53,7 @@ std::vector<float> tiger(std::size_t n) {
     return samples;
 }
 
-fields::ArrayFunction arrayOf(std::size_t n) { return {{n, n, n, n}, {}, fields::Samples(tiger(n))}; }
+fields::ArrayFunction arrayOf(std::size_t n) { return {{n, n, n, n}, {}, fields::SampleStorage(tiger(n))}; }
 
 void setTimePerPoint(benchmark::State& state, std::size_t points) {
     using benchmark::Counter;
@@ -108,7 +108,7 @@ void bounds(benchmark::State& state) {
 
 void readBricks(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
-    const fields::Samples samples(tiger(n));
+    const fields::SampleStorage samples(tiger(n));
     for (auto _ : state) benchmark::DoNotOptimize(fields::ArrayFunction({n, n, n, n}, {}, samples).memoryBytes());
 }
 

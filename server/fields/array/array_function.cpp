@@ -15,16 +15,16 @@ namespace oval4d::fields {
 
 namespace {
 
-Samples checked(Samples samples, const Shape& shape, bool eager) {
+SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
     if (samples.values().size() != sampleCount(shape))
         throw std::invalid_argument("the number of samples does not match the shape of the array");
-    samples.expect(eager ? Samples::Access::sequential : Samples::Access::random);
+    samples.expect(eager ? SampleStorage::Access::sequential : SampleStorage::Access::random);
     return samples;
 }
 
 // Returns the indices of the first and the last sample on which the values at coordinates from `min` to `max` depend.
 // LatticeAxis::continuousIndex() is monotonic, so the position of every 32-bit float in the interval lies between the
-// positions of the rounded ends.
+// positions of the rounded ends. If `min` or `max` is NaN, returns the first and the last sample of the axis.
 std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
@@ -34,13 +34,13 @@ std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, doub
 
 }  // namespace
 
-ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, Samples samples, std::size_t eagerSamples)
+ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples)
     : lattice_(shape, box),
       eagerSamples_(eagerSamples),
       samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
       bricks_({lattice_, samples_.values().data()}, isEager()),
       coarser_(isEager() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
-    samples_.expect(Samples::Access::random);
+    samples_.expect(SampleStorage::Access::random);
     releasePages();
 }
 
@@ -78,7 +78,8 @@ Shape ArrayFunction::selectionSize() const {
 const ArrayFunction& ArrayFunction::selection() const {
     std::call_once(selected_, [&] {
         const Shape size = selectionSize();
-        selection_ = std::make_shared<ArrayFunction>(size, box(), Samples(selectSamples(shape(), samples_, size)));
+        selection_ =
+            std::make_shared<ArrayFunction>(size, box(), SampleStorage(selectSamples(shape(), samples_, size)));
         releasePages();
     });
     return *selection_;
@@ -87,18 +88,18 @@ const ArrayFunction& ArrayFunction::selection() const {
 const ScalarFunction& ArrayFunction::forSteps(std::span<const glm::dvec4> steps) const {
     if (!isEager()) return selection().forSteps(steps);
     const bool areLong = std::ranges::all_of(steps, [this](const glm::dvec4& step) {
-        double cells = 0;  // the square of the step's length in cells
+        double squaredLength = 0;  // of the step, in cells
         for (std::size_t i = 0; i < 4; ++i) {
             const double along = step[static_cast<glm::length_t>(i)] * lattice_.axes[i].scale;
-            cells += along * along;
+            squaredLength += along * along;
         }
-        return cells >= 4;
+        return squaredLength >= 4;
     });
     return coarser_ != nullptr && areLong ? coarser_->forSteps(steps) : *this;
 }
 
 void ArrayFunction::releasePages() const {
-    // Only a large array's pages are released, because reading pages again takes longer than interpolating.
+    // The pages of an eager array stay resident, because reading them again would take longer than interpolating.
     if (!isEager() && samples_.file()) samples_.file()->releasePages();
 }
 
@@ -113,9 +114,9 @@ std::size_t ArrayFunction::memoryBytes() const {
 
 std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {
     const Shape coarse = downsampledShape(lattice_.shape);
-    samples_.expect(Samples::Access::sequential);
-    Samples means(downsample(lattice_.shape, samples_.values()));
-    samples_.expect(Samples::Access::random);
+    samples_.expect(SampleStorage::Access::sequential);
+    SampleStorage means(downsample(lattice_.shape, samples_.values()));
+    samples_.expect(SampleStorage::Access::random);
     return std::make_shared<ArrayFunction>(coarse, lattice_.box, std::move(means), eagerSamples_);
 }
 

@@ -9,7 +9,7 @@
 
 #include "fields/array/brick_bounds.hpp"
 #include "fields/array/lattice.hpp"
-#include "fields/array/samples.hpp"
+#include "fields/array/sample_storage.hpp"
 #include "fields/scalar_function.hpp"
 
 namespace oval4d::fields {
@@ -23,8 +23,8 @@ namespace oval4d::fields {
 ///   weight. In a cell with a missing sample as a corner, this is the case in the interior, and on the faces and edges
 ///   that contain this sample, but not on the other faces.
 /// - At a point with a NaN coordinate, the function has no value.
-/// - Values are computed with 32-bit floats. If all corners of a cell are equal, the value is exactly equal to them;
-///   otherwise, it may be off by 2⁻¹⁹ of their range. It is the same on all processors, with and without AVX2.
+/// - Values are computed with 32-bit floats, and are the same on all processors, with and without AVX2. If all corners
+///   of a cell are equal, the value is exactly equal to them; otherwise, it may be off by 2⁻¹⁹ of their range.
 class ArrayFunction final : public ScalarFunction {
   public:
     /// The default of `eagerSamples` in the constructor.
@@ -38,7 +38,7 @@ class ArrayFunction final : public ScalarFunction {
     /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all of them if there are at
     /// most `eagerSamples`; otherwise, they are read when they are needed (see BrickBounds). Throws
     /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
-    ArrayFunction(const Shape& shape, const Box& box, Samples samples, std::size_t eagerSamples = kEagerSamples);
+    ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples = kEagerSamples);
 
     /// See ScalarFunction. Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples are in the
     /// processor's cache.
@@ -52,14 +52,14 @@ class ArrayFunction final : public ScalarFunction {
                               const GradientBatch& gradients) const override;
 
     /// See ScalarFunction. The bounds are those of all bricks that meet the region (see BrickBounds), widened by the
-    /// rounding error of the interpolation. `hasValueEverywhere` is also false if the difference of the bounds exceeds
-    /// the largest float. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend
-    /// along the whole axis.
+    /// rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks may be missing,
+    /// or if the difference of the bounds exceeds the largest float. If the minimum or maximum of the region along an
+    /// axis is NaN, the region is taken to extend along the whole axis.
     Bounds boundsIn(const Box& region) const override;
 
-    /// Returns the coarsest version of this array in which each step is at least one cell long: the array itself, or
-    /// one that is downsampled one or more times. If the constructor has not read the array, returns a selection of at
-    /// most kSelectedSamples of its samples, or a coarser version of the selection.
+    /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long;
+    /// this array if a step is shorter than one of its cells. If the constructor has not read the array, returns a
+    /// selection of at most kSelectedSamples of its samples, or a coarser version of the selection.
     const ScalarFunction& forSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:
@@ -68,18 +68,18 @@ class ArrayFunction final : public ScalarFunction {
 
     EvaluationCost cost() const override { return {10, 25, 100}; }
 
-    /// Returns the sum of the memory, in bytes, of the bricks, of the coarser versions (at most about 1/15 of that of
-    /// the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
-    /// read, the sum contains the maximum that the bricks and the selection may take.
+    /// Returns the sum of the memory, in bytes, of the BrickBounds, of the coarser versions (at most about 1/15 of that
+    /// of the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
+    /// read, the sum contains the maximum that the BrickBounds and the selection of forSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
     const Box& box() const { return lattice_.box; }
     std::span<const float> samples() const { return samples_.values(); }
-    const Samples& storage() const { return samples_; }
+    const SampleStorage& storage() const { return samples_; }
 
-    /// Returns the range of the samples and the number of missing ones. If rangeIsExact() is true, this includes all
-    /// samples; otherwise, about 260,000 of them.
+    /// Returns the range of the samples and the number of missing ones: among all samples if rangeIsExact() is true,
+    /// otherwise among a selection of about 260,000.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     bool rangeIsExact() const { return isEager(); }
 
@@ -98,7 +98,7 @@ class ArrayFunction final : public ScalarFunction {
 
     const Lattice lattice_;
     const std::size_t eagerSamples_;
-    const Samples samples_;
+    const SampleStorage samples_;
     const BrickBounds bricks_;
     const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null if the array is small, or if !isEager()
     // A selection of the samples, if !isEager(). It is made when it is first needed.

@@ -13,12 +13,13 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::size_t kCells = BrickBounds::kCells;
-constexpr std::size_t kRun = 64;  // the number of bricks along x that are read at once
+constexpr std::size_t kRun = 64;  // the maximum number of bricks along x that are read at once
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
 // An entry packs the minimum (high half) and the maximum of a brick into 8 bytes, so that threads can write it
-// atomically. The lowest bit of the maximum is set if and only if a sample is missing; where this changes the maximum,
-// it is rounded up. A minimum of 0 is stored as −0, so that no entry is 0, because 0 means "unknown".
+// atomically. The lowest bit of the maximum is set if and only if a sample is missing; a maximum with another lowest
+// bit is rounded up to the next float. A minimum of 0 is stored as −0, so that no entry is 0: the number 0 stands for
+// an empty slot.
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;
@@ -28,10 +29,10 @@ std::uint64_t pack(const SampleStatistics& brick) {
 }
 
 void join(Bounds& bounds, std::uint64_t entry) {
-    const auto high = static_cast<std::uint32_t>(entry);
+    const auto maxBits = static_cast<std::uint32_t>(entry);
     bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
-    bounds.max = std::max(bounds.max, double{std::bit_cast<float>(high)});
-    if ((high & 1U) != 0) bounds.hasValueEverywhere = false;
+    bounds.max = std::max(bounds.max, double{std::bit_cast<float>(maxBits)});
+    if ((maxBits & 1U) != 0) bounds.hasValueEverywhere = false;
 }
 
 void add(SampleStatistics& statistics, const SampleStatistics& other) {
@@ -116,7 +117,8 @@ void readRun(const SampledLattice& from, const SampleIndexRange& range, std::spa
     }
 }
 
-// Returns the number of missing samples of a brick. Leaves out faces that the brick shares with an earlier brick.
+// Returns the number of missing samples of a brick, without those on faces that the brick shares with an earlier brick,
+// so that the sum over all bricks counts each sample once.
 std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
     SampleIndexRange range = rangeOf(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
@@ -171,7 +173,9 @@ void BrickBounds::readAll() {
 
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    constexpr double kGoldenRatio = 0.6180339887498949;  // its multiples modulo 1 are evenly spread, not equidistant
+    // The multiples of this number modulo 1 are evenly spread, but not equidistant, so that the runs do not all meet
+    // the same phase of a periodic array.
+    constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {
         const double part = std::fmod(static_cast<double>(run) * kGoldenRatio, 1.);

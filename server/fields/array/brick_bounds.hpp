@@ -33,9 +33,9 @@ struct SampleIndexRange {
 /// Small arrays are read once, by the constructor. A pyramid of coarser bricks, each of which joins up to 2⁴ bricks of
 /// the level below, then answers queries of any size from at most kMaxEntries entries (an entry is the bounds of one
 /// brick). Large arrays may be files that are larger than the memory; a brick of them is read when a query first needs
-/// it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because it would have to
-/// read a large part of the file. The bounds of bricks that were read are kept in a cache of at most kMaxLazyBytes, in
-/// which a brick may replace another one. Thread-safe.
+/// it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because such a query would
+/// have to read a large part of the file. The bounds of bricks that were read are kept in a cache of at most
+/// kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -56,7 +56,7 @@ class BrickBounds {
     /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
     const SampleStatistics& statistics() const { return statistics_; }
 
-    /// Returns the memory used, in bytes; for bricks that are read on demand, its upper bound.
+    /// Returns the memory used, in bytes; without `eager`, the maximum that the cache may use.
     std::size_t memoryBytes() const;
 
   private:
@@ -80,8 +80,8 @@ class BrickBounds {
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
     // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
-    // implementation for parallel search": `check` is the brick's index XOR its entry. Therefore, a slot whose halves
-    // were written by different threads practically never matches an index.
+    // implementation for parallel search": `check` is the brick's index XOR its entry. Therefore, a slot whose two
+    // members were written by different threads is practically never taken for the entry of a brick.
     struct Slot {
         std::uint64_t check, entry;
     };

@@ -93,7 +93,7 @@ struct CellPoint {
     }
 
   private:
-    // Interpolates along w, z, y, and then x.
+    // Interpolates along w, z, y, and then x. Each step calls `mixed`, which is mix() or a variant of it.
     template <typename Mix>
     float reduce(const Mix& mixed) const {
         std::array<float, 2> ends{};

@@ -79,8 +79,8 @@ void addTimes(std::span<const float> row, float weight, float* to) {
     for (std::size_t i = 0; i < row.size(); ++i) to[i] += weight * row[i];
 }
 
-// Advises the system that the samples at these distances from the sample `first` are needed soon.
-void prefetchRow(const Samples& samples, std::size_t first, std::span<const std::size_t> places) {
+// Advises the system that the samples with the indices first + places[i] are needed soon. `places` must be increasing.
+void prefetchRow(const SampleStorage& samples, std::size_t first, std::span<const std::size_t> places) {
     if (!samples.file()) return;
     constexpr std::size_t kPage = 4096 / sizeof(float);
     const std::size_t length = places.back() - places.front() + 1;
@@ -133,8 +133,9 @@ Shape selectionShape(Shape shape, std::size_t maxSamples) {
     return shape;
 }
 
-std::vector<float> selectSamples(const Shape& shape, const Samples& samples, const Shape& size) {
-    std::array<std::vector<std::size_t>, 4> places;  // for each axis, the memory offsets of the selected samples
+std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size) {
+    // For each axis, the distances in memory from the first sample to the selected ones, in samples.
+    std::array<std::vector<std::size_t>, 4> places;
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < 4; stride *= shape[axis++]) {
         const std::size_t last = size[axis] - 1;

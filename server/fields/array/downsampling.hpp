@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fields/array/samples.hpp"
+#include "fields/array/sample_storage.hpp"
 #include "fields/array/shape.hpp"
 
 namespace oval4d::fields {
@@ -22,8 +22,8 @@ std::vector<float> downsample(const Shape& shape, std::span<const float> samples
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
 /// Returns a selection of `samples` with the shape `size`: for each point of a lattice of this shape in the same box,
-/// the nearest sample. Along each axis with several points, this includes the first and the last sample. `shape` is the
-/// shape of `samples`. Reads no other samples.
-std::vector<float> selectSamples(const Shape& shape, const Samples& samples, const Shape& size);
+/// the nearest sample. Along an axis with several points, the selection includes the first and the last sample; along
+/// an axis with one point, only the first. `shape` is the shape of `samples`. Reads only the selected samples.
+std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size);
 
 }  // namespace oval4d::fields

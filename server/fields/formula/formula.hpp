@@ -53,7 +53,7 @@ class Formula {
 
 /// Parses a formula (see parseSyntax() for the syntax). Error: `bad_expression`, with the position of the mistake in
 /// characters; also writes the mistake to `mistake` unless this is null. If `shared` is not null, the formula may use
-/// the names that `shared` defines, and its text() does not repeat their definitions.
+/// the names that `shared` defines; the text() of the result does not repeat their definitions.
 Result<Formula> parseFormula(std::string_view text, FormulaMistake* mistake = nullptr, const FormulaLimits& limits = {},
                              const Formula* shared = nullptr);
 

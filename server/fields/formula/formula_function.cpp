@@ -13,12 +13,13 @@ namespace {
 
 static_assert(ScalarFunction::kLanes == kKernelLanes);
 
-// As many floats as a vector register holds, aligned for it.
+// One float for each of the kKernelLanes points that are computed at once, aligned for an AVX2 register.
 struct alignas(32) Lanes {
     std::array<float, kKernelLanes> values;
 };
 
-// Returns memory for at least `size` floats. Each thread has its own memory, which stays allocated.
+// Returns memory for at least `size` floats; may return null if `size` is 0. Each thread has its own memory, which
+// stays allocated and is reused by the next call.
 float* scratch(std::size_t size) {
     thread_local std::vector<Lanes> memory;
     const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
@@ -49,19 +50,19 @@ void FormulaFunction::evaluate(const PointBatch& points, std::span<float> values
     float* memory = scratch(registers * kBlockPoints);
     const std::size_t whole = points.size() / kKernelLanes * kKernelLanes;
     for (std::size_t i = 0; i < whole; i += kBlockPoints) {
-        const Block block{{points.x.data() + i, points.y.data() + i, points.z.data() + i, points.w.data() + i},
-                          values.data() + i,
-                          memory,
-                          std::min(kBlockPoints, whole - i)};
+        const PointBlock block{{points.x.data() + i, points.y.data() + i, points.z.data() + i, points.w.data() + i},
+                               values.data() + i,
+                               memory,
+                               std::min(kBlockPoints, whole - i)};
         kernels_.evaluate(instructions.data(), instructions.size(), block);
     }
     if (whole == points.size()) return;
     const auto [x, y, z, w] = padded(points, whole);
     Lanes result;
-    const Block block{{x.values.data(), y.values.data(), z.values.data(), w.values.data()},
-                      result.values.data(),
-                      memory,
-                      kKernelLanes};
+    const PointBlock block{{x.values.data(), y.values.data(), z.values.data(), w.values.data()},
+                           result.values.data(),
+                           memory,
+                           kKernelLanes};
     kernels_.evaluate(instructions.data(), instructions.size(), block);
     std::copy_n(result.values.begin(), points.size() - whole, values.begin() + static_cast<std::ptrdiff_t>(whole));
 }

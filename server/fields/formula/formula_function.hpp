@@ -12,7 +12,7 @@ namespace oval4d::fields {
 
 /// A formula as a function, evaluated in single precision. Named constants and expressions that consist of numbers are
 /// evaluated in double precision beforehand. At a kink, such as that of abs at 0, the gradient is that of one side, or
-/// 0. Where the gradient is infinite or undefined, the result is (0, 0, 0, 0).
+/// 0. Where the gradient is infinite or undefined, evaluateWithGradient() writes (0, 0, 0, 0).
 class FormulaFunction final : public ScalarFunction {
   public:
     explicit FormulaFunction(Formula formula, const Kernels& kernels = fastestKernels());

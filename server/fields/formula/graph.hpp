@@ -12,7 +12,7 @@
 namespace oval4d::fields {
 
 /// A graph of operations. While it is built, operations on constants are folded in double precision, and equal nodes
-/// are shared. Simplifications preserve all values apart from the sign of zero, so x·0 and x − x remain, because they
+/// are shared. Simplifications preserve all values apart from the sign of zero. Therefore, x·0 and x − x remain: they
 /// are NaN for infinite x. The exception is x⁰, which becomes 1 even where x is NaN.
 class Graph {
   public:
@@ -38,9 +38,9 @@ class Graph {
     Ref multiply(Ref a, Ref b) { return binary(Operation::multiply, a, b); }
     Ref divide(Ref a, Ref b) { return binary(Operation::divide, a, b); }
 
-    /// Returns all nodes, each after its operands. They may include nodes on which the result does not depend.
+    /// Returns all nodes, each after its operands. The value of the formula need not depend on all of them.
     const std::vector<Node>& nodes() const { return nodes_; }
-    /// Returns the value of the node if it is a constant.
+    /// Returns the value of the node if it is a constant; otherwise, an empty optional.
     std::optional<double> constantAt(Ref node) const;
 
   private:

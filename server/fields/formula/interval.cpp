@@ -42,7 +42,8 @@ Bounds widened(double min, double max, bool hasValueEverywhere, RoundingError er
             std::isnan(max) ? kInfinity : upperBound(max, error), hasValueEverywhere};
 }
 
-// Returns the interval from the smallest to the largest of the candidates. Any NaN makes it unbounded.
+// Returns the interval from the smallest to the largest of the candidates, widened by `error`. If a candidate is NaN,
+// the interval is unbounded.
 Bounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
     double min = kInfinity, max = -kInfinity;
     for (const double candidate : candidates) {

@@ -23,8 +23,8 @@
 
 namespace oval4d::fields {
 
-/// Returns the interval of a number in a formula: it contains both the number and the float that evaluate() uses for
-/// it.
+/// Returns the interval of a number in a formula: it contains both the number and the float that evaluate() uses in
+/// place of the number. For NaN, returns an empty interval (min > max).
 Bounds intervalOf(double number);
 
 /// Returns the interval of a coordinate between `min` and `max`. The ends are rounded outward to floats, so the

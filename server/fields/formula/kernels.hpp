@@ -1,5 +1,5 @@
 #pragma once
-// Functions that run tapes for blocks of points, compiled for several instruction sets.
+// Functions that run compiled formulas (tapes) for blocks of points. Each exists for several instruction sets.
 
 #include <cstddef>
 
@@ -9,20 +9,20 @@ namespace oval4d::fields {
 
 /// The number of points that are processed at once.
 constexpr std::size_t kKernelLanes = 8;
-/// The maximum numbers of points in a Block and in a GradientBlock. They are chosen such that the registers of most
-/// formulas fit into the first-level cache.
+/// The maximum numbers of points in a PointBlock and in a GradientBlock. They are chosen such that the registers of
+/// most formulas fit into the first-level cache.
 constexpr std::size_t kBlockPoints = 256, kGradientBlockPoints = 64;
 
 /// A block of points and the memory for their values. `size` must be a multiple of kKernelLanes, and at most
 /// kBlockPoints.
-struct Block {
-    const float* coordinates[4];
+struct PointBlock {
+    const float* coordinates[4];  ///< the arrays of x, y, z and w
     float* values;
     float* scratch;  ///< kBlockPoints floats for each scratch register of the tape
     std::size_t size;
 };
 
-/// Like Block, but `size` must be at most kGradientBlockPoints.
+/// Like PointBlock, but `size` must be at most kGradientBlockPoints.
 struct GradientBlock {
     const float* coordinates[4];
     float* values;
@@ -35,7 +35,7 @@ struct GradientBlock {
 /// at a point does not depend on the other points of the block. A gradient is (0, 0, 0, 0) if the value or one of the
 /// derivatives is not finite.
 struct Kernels {
-    void (*evaluate)(const Instruction* instructions, std::size_t count, const Block& block);
+    void (*evaluate)(const Instruction* instructions, std::size_t count, const PointBlock& block);
     void (*differentiate)(const Instruction* instructions, std::size_t count, const GradientBlock& block);
 };
 

@@ -226,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name that the formula uses, before it is defined. Until all definitions are parsed, SyntaxNode::index of the
-    // nodes of this name is its index in uses_.
+    // A name in the formula. The formula is parsed before the definitions; until all of these are parsed, the nodes of
+    // the name have as SyntaxNode::index the index of its NameUse in uses_.
     struct NameUse {
         std::string_view name;
         std::size_t byte;
@@ -239,7 +239,7 @@ class Parser {
         if (found == uses_.end()) uses_.push_back({name, byte});
         return add(Kind::constant, {}, index);
     }
-    // A name in the definition of another name. It must be defined earlier.
+    // Adds a node for a name in the definition of another name. Fails unless the name is defined earlier.
     Index earlierName(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
         if (const auto found = definitionOf(name)) return add(found->kind, {}, found->index);

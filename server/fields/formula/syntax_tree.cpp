@@ -21,7 +21,8 @@ Ref buildVariable(std::uint32_t index, Graph& graph) {
     return graph.sqrt(sum);
 }
 
-// Adds a node of the tree to the graph and returns it; `operands` are the graph nodes of its operands.
+// Adds a node of the tree to the graph, and returns the node of the graph. `operands` are the graph's nodes of the
+// operands.
 Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
               Graph& graph) {
     switch (node.kind) {
@@ -36,7 +37,7 @@ Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<c
         case Kind::constant:
             return graph.constant(constants[node.index].value);
         case Kind::expression:
-            break;  // buildGraph() has built it already
+            break;  // does not occur: buildGraph() handles this kind
         case Kind::negate:
             return graph.negate(operands[0]);
         case Kind::add:
@@ -73,7 +74,7 @@ std::string_view symbolOf(Relation relation) {
     return "";
 }
 
-// How tightly the outermost operation of a text binds.
+// How tightly the outermost operation of a text binds, from the loosest to the tightest.
 enum class Precedence { sum, product, negation, power, unit, atom };
 
 struct Written {

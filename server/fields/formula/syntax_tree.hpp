@@ -58,11 +58,12 @@ struct SyntaxTree {
 
     std::vector<SyntaxNode> nodes;  ///< each follows its operands, and is an operand of at most one node
     std::vector<std::uint32_t> operands;
-    std::vector<NamedExpression> expressions;  ///< each uses only earlier ones; their nodes come before the formula's
+    /// Each expression uses only earlier ones. The nodes of all expressions precede those of the formula itself.
+    std::vector<NamedExpression> expressions;
     Relation relation = Relation::none;
     std::uint32_t left = 0, right = 0;  ///< the root nodes of both sides; without a comparison, only `left` is used
-    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). They
-    /// come first in their lists.
+    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). These
+    /// come first in ParsedFormula::constants and in `expressions`.
     std::size_t sharedConstants = 0, sharedExpressions = 0;
 
     std::span<const std::uint32_t> operandsOf(const SyntaxNode& node) const {

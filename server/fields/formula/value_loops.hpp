@@ -17,7 +17,7 @@ namespace oval4d::fields {
 template <typename Math>
 class ValueLoops {
   public:
-    static void evaluate(const Instruction* instructions, std::size_t count, const Block& block) {
+    static void evaluate(const Instruction* instructions, std::size_t count, const PointBlock& block) {
         for (const Instruction* next = instructions; next != instructions + count; ++next)
             compute(*next, outputRegister(block, next->result), inputRegister(block, next->a),
                     inputRegister(block, next->b), block.size);
@@ -38,10 +38,10 @@ class ValueLoops {
 
     static constexpr float kNotANumber = __builtin_nanf("");
 
-    static float* outputRegister(const Block& block, unsigned index) {
+    static float* outputRegister(const PointBlock& block, unsigned index) {
         return index == Tape::kResult ? block.values : block.scratch + (index - Tape::kFirstScratch) * kBlockPoints;
     }
-    static const float* inputRegister(const Block& block, unsigned index) {
+    static const float* inputRegister(const PointBlock& block, unsigned index) {
         return index < Tape::kResult ? block.coordinates[index] : outputRegister(block, index);
     }
 
@@ -124,7 +124,7 @@ class ValueLoops {
     static float step(float x) { return x != x ? x : (x < 0 ? 0.0F : 1.0F); }
     static float sign(float x) { return x != x ? x : (x < 0 ? -1.0F : (x > 0 ? 1.0F : 0.0F)); }
 
-    // Returns whether a power with this exponent is computed as an integer power times the square root.
+    // Returns whether a power with this exponent is computed as an integer power times the square root of the base.
     static bool isHalfInteger(float exponent) {
         return exponent >= 0.5F && exponent <= 8.5F && 2 * exponent == __builtin_floorf(2 * exponent) &&
                exponent != __builtin_floorf(exponent);

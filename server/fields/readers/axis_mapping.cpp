@@ -95,15 +95,16 @@ std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
     }
 }
 
-Result<Samples> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
-                                     const NumberFormat& format, const ReadOptions& options) const {
+Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
+                                           const NumberFormat& format, const ReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
     // Floats in memory must be aligned, but the bytes of a file may lie anywhere.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
     if (format.type == NumberType::f4 && native && aligned && format.isPlain() && isInOrder()) {
         if (file.file)
-            return Samples(file.file, static_cast<std::size_t>(bytes.data() - file.file->bytes().data()), count());
-        return Samples(file.owner, {reinterpret_cast<const float*>(bytes.data()), count()});
+            return SampleStorage(file.file, static_cast<std::size_t>(bytes.data() - file.file->bytes().data()),
+                                 count());
+        return SampleStorage(file.owner, {reinterpret_cast<const float*>(bytes.data()), count()});
     }
     auto buffer = SampleBuffer::of(count(), options);
     if (!buffer) return buffer.error();

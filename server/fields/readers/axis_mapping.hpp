@@ -39,8 +39,8 @@ Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimen
 /// A part of an array that is read at once.
 struct Slab {
     std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of StridedLayout::size
-    StridedLayout layout;
-    std::size_t first;  ///< the index of its first number among the samples of the field
+    StridedLayout layout;              ///< the sizes of the slab, and its strides among the samples of the field
+    std::size_t first;                 ///< the index of its first number among the samples of the field
 };
 
 /// Maps the dimensions of an array in a file to the axes of the samples of a field. This determines where each number
@@ -72,9 +72,9 @@ class AxisMapping {
     /// Returns the samples. `bytes` is the part of the file that stores them, in the format `format`; it must contain
     /// at least count() numbers. Uses the bytes in place if they are aligned, in order (see isInOrder()), and plain
     /// 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order; otherwise, converts them. Errors:
-    /// those of SampleBuffer.
-    Result<Samples> samples(const FileContents& file, std::span<const std::byte> bytes, const NumberFormat& format,
-                            const ReadOptions& options) const;
+    /// those of SampleBuffer::of().
+    Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
+                                  const NumberFormat& format, const ReadOptions& options) const;
 
   private:
     Shape shape_{1, 1, 1, 1};

@@ -28,9 +28,9 @@ struct CoordinateEnds {
     double first, last;
 };
 
-/// Returns the first and the last of the coordinates `at` along the dimension `name`. There must be at least one.
-/// Returns an empty optional if the coordinates are not strictly monotonic. Adds a warning if they are not strictly
-/// monotonic or not evenly spaced.
+/// Returns the first and the last of the coordinates `at` along the dimension `name`. `at` must not be empty. Returns
+/// an empty optional if the coordinates are not strictly monotonic. Adds a warning if they are not strictly monotonic
+/// or not evenly spaced.
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings);
 

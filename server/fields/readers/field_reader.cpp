@@ -58,7 +58,7 @@ bool comesBefore(const std::string& a, const std::string& b) {
     return restA.empty() != restB.empty() ? restA.empty() : a < b;
 }
 
-// Sets the box of a series. `times` are the values of w of its files.
+// Sets the box of a series (see readSeries()). `times` has the value of w of each file.
 void setSeriesBox(ReadField& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();

@@ -30,7 +30,8 @@ struct FileContents {
     static FileContents of(std::vector<std::byte> bytes);
     /// Returns the bytes of a mapped file.
     static FileContents of(MappedFilePtr file);
-    /// Maps an open file; does not need the descriptor afterward. Errors: those of MappedFile::map().
+    /// Maps the open file with the descriptor `file`, which the caller may close afterward. Errors: those of
+    /// MappedFile::map().
     static Result<FileContents> map(int file);
     /// Maps a file. Errors: those of map(int), and `not_found`.
     static Result<FileContents> map(const std::filesystem::path& path);

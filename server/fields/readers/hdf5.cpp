@@ -55,7 +55,8 @@ herr_t keepBytes(void* /*memory*/, H5FD_file_image_op_t /*purpose*/, void* /*byt
 void* sameBytes(void* bytes) { return bytes; }
 herr_t keepAll(void* /*bytes*/) { return 0; }
 
-// Opens a file in memory. H5LTopen_file_image does the same, but leaks memory if the file is not valid.
+// Opens a file in memory. Returns a negative number if the file is not valid; H5LTopen_file_image would leak memory
+// then.
 hid_t openBytes(std::span<const std::byte> bytes) {
     constexpr std::size_t kIncrement = 65536;                   // the step by which the file would grow
     auto* const memory = const_cast<std::byte*>(bytes.data());  // the library's type is not const
@@ -73,7 +74,8 @@ struct Contents {
     bool refers = false;  // whether the file refers to other files
 };
 
-// The library calls these functions, so they must not throw.
+// The library calls visitLink() for each link and visitObject() for each object, until one returns another number than
+// 0. Neither may throw, because the library is written in C.
 herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<Contents*>(to);
     contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
@@ -138,8 +140,8 @@ std::optional<NumberFormat> formatOf(hid_t type) {
     return format;
 }
 
-// Returns the bytes of a dataset; an empty optional unless it is stored in one piece, without filters, in the file
-// itself.
+// Returns the `size` bytes of a dataset; an empty optional unless the dataset is stored in one piece, without filters,
+// in the file itself.
 std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, hid_t dataset, std::size_t size) {
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation || H5Pget_layout(*creation) != H5D_CONTIGUOUS) return {};
@@ -152,8 +154,8 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
 }
 
 // Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers.
-Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, hid_t dataset, hid_t stored,
-                          const AxisMapping& mapping, const NumberFormat& format) {
+Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& options, hid_t dataset, hid_t stored,
+                                const AxisMapping& mapping, const NumberFormat& format) {
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
     auto buffer = SampleBuffer::of(mapping.count(), options);

@@ -107,7 +107,7 @@ std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
 struct TypeRow {
     nc_type type;
     NumberType number;
-    double fill;  // the default value of numbers that were never written
+    double fill;  // the default value of numbers that were never written; kNoFill if the type has none
 };
 constexpr double kNoFill = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<TypeRow, 10> kNetcdfTypes{{{NC_BYTE, NumberType::i1, kNoFill},
@@ -243,14 +243,14 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
     return dimensions;
 }
 
-Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
-                          const AxisMapping& mapping) {
+Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
+                                const AxisMapping& mapping) {
     const NumberFormat format = formatOf(variable, *rowOf(variable.type));
     const std::size_t skipped = 4 - variable.dimensions.size();
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
-    // The cache keeps chunks for the next slab, which often needs the same ones. The call fails for files without
-    // chunks.
+    // The cache keeps chunks for the next slab, which often needs the same ones. A failure is ignored: the call fails
+    // for files without chunks, which need no cache.
     constexpr std::size_t kSlots = 4133;
     static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
     std::vector<std::byte> numbers;

@@ -255,8 +255,8 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions&
     return {};
 }
 
-// Returns the first `size` bytes of a decompressed file. `unzipped` must contain the bytes that `gzip` has already
-// decompressed.
+// Returns the first `size` bytes of a decompressed file; if they are too many to be kept in memory, in a file that
+// `options.newFile` makes. `unzipped` must contain the bytes that `gzip` has already decompressed.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
                            std::size_t size, const ReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;

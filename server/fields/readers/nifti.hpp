@@ -10,16 +10,16 @@
 
 namespace oval4d::fields {
 
-/// Returns whether the bytes are the start of a NIfTI file. They must include the first 348 bytes of the file.
+/// Returns whether the bytes are the start of a NIfTI file; false if there are fewer than 348 bytes.
 bool isNiftiStart(std::span<const std::byte> start);
 
 /// Reads a NIfTI-1 or NIfTI-2 file (.nii, .nii.gz) with 1 to 4 dimensions of integers or real numbers, in either byte
-/// order. Refuses images whose header and data are in two files (.hdr, .img). The box is that of the options. If they
-/// have none, the file's orientation gives the box along the first three dimensions, provided that `options.axes` is
-/// empty and the voxels' axes are parallel to the axes of space. Otherwise, the box is centered at the origin along
-/// these dimensions, and uses the file's distances between samples; if the voxels' axes are oblique, there is a
-/// warning. The fourth dimension begins at the file's first time. Errors: `bad_field`, `too_large`; `out_of_range` for
-/// the options.
+/// order. Refuses images whose header and data are in two files (.hdr, .img). The box is `options.box`. Without this
+/// option, the file's orientation gives the box along the first three dimensions, provided that `options.axes` is empty
+/// and the voxels' axes are parallel to the axes of space. Otherwise, the box is centered at the origin along these
+/// dimensions, and uses the file's distances between samples; if `options.axes` is empty and the voxels' axes are
+/// oblique, there is a warning. The fourth dimension begins at the file's first time. Errors: `bad_field`, `too_large`;
+/// `out_of_range` for the options.
 Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -36,7 +36,8 @@ struct ReadOptions {
     /// converted, are written to a file that `newFile` makes.
     std::size_t maxInMemory = kMaxSamples;
     NewFile newFile = {};        ///< null if all converted samples are kept in memory
-    std::span<float> into = {};  ///< the memory for converted samples, if it has exactly the size of the array
+    std::span<float> into = {};  ///< memory for converted samples, used if it has exactly the size of the array; must
+                                 ///< remain valid as long as the samples are used
 };
 
 /// A field read from a file. The samples may lie in the file's bytes, which they then keep valid.
@@ -44,7 +45,7 @@ struct ReadField {
     Shape shape{1, 1, 1, 1};
     Box box;
     bool boxIsKnown = false;  ///< whether the file or the options state the box; else it is defaultBox()
-    Samples samples{std::vector<float>()};
+    SampleStorage samples{std::vector<float>()};
     std::array<std::string, 4> units;   ///< of x, y, z and w; empty if unknown. UTF-8, at most 64 bytes
     std::string quantity;               ///< what the samples measure; empty if unknown. UTF-8, at most 64 bytes
     std::string quantityUnits;          ///< the unit of the samples; empty if unknown. UTF-8, at most 64 bytes

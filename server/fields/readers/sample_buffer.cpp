@@ -24,9 +24,9 @@ void SampleBuffer::releasePages() const {
     if (file_) file_->releasePages();
 }
 
-Samples SampleBuffer::take() {
+SampleStorage SampleBuffer::take() {
     if (file_) return {std::move(file_), 0, values_.size()};
-    if (!memory_.empty()) return Samples(std::move(memory_));
+    if (!memory_.empty()) return SampleStorage(std::move(memory_));
     return {nullptr, values_};
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
-#include "fields/array/samples.hpp"
+#include "fields/array/sample_storage.hpp"
 #include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
@@ -22,8 +22,9 @@ class SampleBuffer {
     std::span<float> values() { return values_; }
     /// Releases the resident pages of the file, if there is one.
     void releasePages() const;
-    /// Returns the samples. This object must not be used afterward.
-    Samples take();
+    /// Returns the samples, which own their memory unless it is ReadOptions::into. This object must not be used
+    /// afterward.
+    SampleStorage take();
 
   private:
     std::span<float> values_;

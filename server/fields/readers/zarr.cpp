@@ -87,12 +87,12 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // Returns how many of a chunk's numbers along a dimension are within the array.
+    // Returns how many of the numbers of the chunk `index` along a dimension are within the array.
     std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
         return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
     }
 
-    // Converts a chunk row by row. The end of a row may lie beyond the end of the array; it is left out.
+    // Converts a chunk row by row, without the numbers that lie beyond the end of the array.
     void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
@@ -173,7 +173,8 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     return at;
 }
 
-// Sets `kept` to the dimensions that remain when those of size 1 are left out while there are more than four.
+// Sets `kept` to the dimensions that are read: all of them or, if there are more than four, those that remain when
+// dimensions of size 1 are left out until four remain.
 void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
     kept.resize(array.shape.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});

@@ -21,19 +21,20 @@ using FolderReader = std::function<Result<std::optional<FileContents>>(const std
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
 
 /// Reads an array from a Zarr folder, chunk by chunk. `options.variable` is the path of the array in the folder. If
-/// that is empty and the folder is an array, reads this array. If it is empty and the folder is a group, reads the
-/// finest level of a multiscale image (OME-Zarr); if the group is no such image, the group's consolidated metadata must
-/// list its arrays, and the one with the most dimensions is read. Types: Booleans, integers and floats of either byte
-/// order. Chunks may be compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all
-/// numbers are the fill value.
+/// this option is empty, reads the folder itself if it is an array, or the finest level if it is a multiscale image
+/// (OME-Zarr). If the folder is another group, the group's consolidated metadata must list its arrays, and the one with
+/// the most dimensions is read. Types: Booleans, integers and floats of either byte order. Chunks may be compressed by
+/// gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
 ///
 /// The axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr). The box is
 /// given by the arrays of coordinates beside the array, or by the scales of a multiscale image. CF attributes apply:
-/// units, scale_factor and so on. Dimensions of size 1 are left out while there are more than 4.
+/// units, scale_factor and so on. From an array with more than 4 dimensions, dimensions of size 1 are left out until 4
+/// remain.
 ///
 /// Errors: `bad_field` if the metadata are not valid, or if a chunk is damaged or does not have the stated size;
-/// `out_of_range` if there is no such variable; `unsupported_format` for other types, compressors and filters;
-/// `too_large`; and those of `folder`.
+/// `out_of_range` if there is no array at `options.variable`, if a group does not list its arrays, or if `options.axes`
+/// does not fit the array; `unsupported_format` for other types, compressors and filters; `too_large`; and those of
+/// `folder`.
 Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -61,7 +61,7 @@ std::string textIn(const json& object, std::string_view name) {
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-// Returns the sizes of dimensions in the member `name`: a list of integers from `least` on.
+// Returns the sizes of dimensions in the member `name`: a list of integers, each of them at least `least`.
 Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view name, std::size_t least) {
     const json* const list = member(object, name);
     const auto what = std::string(name);
@@ -345,7 +345,8 @@ Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) cons
     if (!fill) return fill.error();
     array->fill = *fill;
     applyAttributes(*array);
-    // Only xarray writes _ARRAY_DIMENSIONS. In version 2, it stores its _FillValue as fill_value.
+    // An array with _ARRAY_DIMENSIONS was written by xarray. In version 2, xarray stores the attribute _FillValue as
+    // fill_value, so samples with this value are missing.
     if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill)) array->format.missing.push_back(*fill);
     auto valid = checked(std::move(*array));
     if (!valid) return valid.error();

@@ -23,7 +23,8 @@ using TextReader = std::function<Result<std::optional<std::string>>(const std::s
 struct ZarrArray {
     std::string path;  ///< of the array's folder, relative to the Zarr folder; empty if they are the same
     std::vector<std::size_t> shape, chunk;    ///< the sizes of the array and of its chunks, in the order of its indices
-    std::vector<std::size_t> order;           ///< the dimensions as they are stored, from the slowest to the fastest
+    std::vector<std::size_t> order;           ///< the indices of the dimensions as they are stored, from the
+                                              ///< slowest to the fastest
     NumberFormat format;                      ///< with scale, offset and missing values as the CF attributes state them
     std::optional<ChunkCodec> codec;          ///< empty if chunks are not compressed
     double fill;                              ///< the value of missing chunks, as a stored number; NaN if there is none
@@ -62,7 +63,7 @@ class ZarrFolder {
     /// The array of a group to read if none is requested.
     struct ChosenArray {
         std::string path;
-        std::vector<std::string> all;  ///< the paths of all arrays that the group lists
+        std::vector<std::string> all;  ///< the paths of all arrays among which `path` was chosen
     };
     /// Chooses an array to read if the folder is a group (see readZarr()). Errors: `unsupported_format` if the folder
     /// is neither an array nor a group; `out_of_range` if the group does not list its arrays; `bad_field` if none of

@@ -26,7 +26,7 @@ slicing::Object arrayOf(const fields::Shape& shape, const fields::Box& box = {gl
     array.box = box;
     std::vector<float> values(fields::sampleCount(shape));
     std::iota(values.begin(), values.end(), 0.F);
-    array.samples = fields::Samples(std::move(values));
+    array.samples = fields::SampleStorage(std::move(values));
     auto field = fields::fieldFromArray("run", array);
     return std::make_shared<const fields::Field>(std::move(*field));
 }
@@ -107,7 +107,7 @@ slicing::Object withSecond(const slicing::Object& object) {
     second.box = field.array->box();
     std::vector<float> samples(field.array->samples().begin(), field.array->samples().end());
     for (float& sample : samples) sample = -sample;
-    second.samples = fields::Samples(std::move(samples));
+    second.samples = fields::SampleStorage(std::move(samples));
     EXPECT_FALSE(fields::setSecondArray(field, second, "p"));
     return std::make_shared<const fields::Field>(std::move(field));
 }
@@ -132,7 +132,7 @@ TEST(Load, TheSecondFunctionGrowsWithTheField) {
     fields::ReadField other;
     other.shape = {2, 2, 2, 3};
     other.box = byFormula.array->box();
-    other.samples = fields::Samples(std::vector<float>(24));
+    other.samples = fields::SampleStorage(std::vector<float>(24));
     const auto mismatch = fields::setSecondArray(byFormula, other, "p");
     ASSERT_TRUE(mismatch);
     EXPECT_NE(mismatch->message.find("2 × 2 × 2 × 3"), std::string::npos) << mismatch->message;

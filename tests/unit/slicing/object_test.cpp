@@ -217,7 +217,7 @@ std::shared_ptr<const fields::Field> arrayOf(const fields::Shape& shape, float f
     array.box = {glm::dvec4(-1), glm::dvec4(1, 2, 3, 4)};
     std::vector<float> samples(fields::sampleCount(shape));
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = factor * static_cast<float>(i);
-    array.samples = fields::Samples(std::move(samples));
+    array.samples = fields::SampleStorage(std::move(samples));
     if (into == nullptr) return std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
     EXPECT_FALSE(fields::setSecondArray(*into, array, "pressure"));
     return {};

@@ -318,7 +318,7 @@ TEST(Codec, FieldsKeepTheirSecondFunction) {
     array.box = {glm::dvec4(-1), glm::dvec4(1)};
     std::vector<float> samples(24);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i);
-    array.samples = fields::Samples(std::move(samples));
+    array.samples = fields::SampleStorage(std::move(samples));
     fields::Field twoArrays = *fields::fieldFromArray("run", array), withFormula = twoArrays;
     EXPECT_FALSE(fields::setSecondArray(twoArrays, array, "p"));
     EXPECT_FALSE(fields::setSecondFormula(withFormula, "x + a; a=2"));

@@ -24,7 +24,7 @@ double monomial(unsigned bits, const Box& box, const glm::dvec4& point) {
 }
 
 ArrayFunction arrayOf(const Shape& shape, const Box& box, const std::function<double(glm::dvec4)>& f) {
-    return {shape, box, Samples(sampled(shape, box, f))};
+    return {shape, box, SampleStorage(sampled(shape, box, f))};
 }
 
 TEST(ArrayFunction, EqualsEveryMultilinearFunctionWithItsGradient) {
@@ -49,19 +49,20 @@ TEST(ArrayFunction, EqualsEveryMultilinearFunctionWithItsGradient) {
     }
 }
 
-std::vector<float> valuesOf(const Samples& samples) { return {samples.values().begin(), samples.values().end()}; }
+std::vector<float> valuesOf(const SampleStorage& samples) { return {samples.values().begin(), samples.values().end()}; }
 
-TEST(Samples, GrowInTheirOwnMemoryUntilItIsFullAndBranchIntoCopies) {
+TEST(SampleStorage, GrowsInItsOwnMemoryUntilItIsFullAndBranchesIntoCopies) {
     std::vector<float> expected{1, 2, 3, 4};
-    Samples samples{expected};
+    SampleStorage samples{expected};
     std::size_t moves = 0;
     for (int i = 0; i < 1000; ++i) {
-        const Samples before = samples;
+        const SampleStorage before = samples;
         const std::vector<float> more{static_cast<float>(i), 2};
         samples = before.followedBy(more);
         moves += samples.values().data() == before.values().data() ? 0 : 1;
         EXPECT_EQ(valuesOf(before), expected);
-        const Samples branch = before.followedBy(std::vector<float>{-1});  // after `samples`, so that it is a copy
+        const SampleStorage branch =
+            before.followedBy(std::vector<float>{-1});  // after `samples`, so that it is a copy
         EXPECT_NE(branch.values().data(), samples.values().data());
         expected.insert(expected.end(), more.begin(), more.end());
         EXPECT_EQ(valuesOf(samples), expected);
@@ -76,7 +77,7 @@ TEST(ArrayFunction, HasTheValueOfEachSampleAtItsPoint) {
     const Shape shape{3, 9, 5, 2};
     const Box box{glm::dvec4(0), {2, 8, 4, 1}};
     const auto samples = randomSamples(shape, 0.1, random);
-    const ArrayFunction array(shape, box, Samples(samples));
+    const ArrayFunction array(shape, box, SampleStorage(samples));
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const glm::dvec4 point(i % 3, i / 3 % 9, i / 27 % 5, i / 135);
         const float value = valueAt(array, point);
@@ -102,7 +103,7 @@ TEST(ArrayFunction, IsContinuousAtTheFacesOfCells) {
     std::mt19937 random(4);
     const Shape shape{6, 6, 6, 6};
     const Box box{glm::dvec4(0), glm::dvec4(5)};
-    const ArrayFunction array(shape, box, Samples(randomSamples(shape, 0, random)));
+    const ArrayFunction array(shape, box, SampleStorage(randomSamples(shape, 0, random)));
     std::uniform_real_distribution<double> inside(0.01, 4.99);
     for (int trial = 0; trial < 400; ++trial) {
         glm::dvec4 point(inside(random), inside(random), inside(random), inside(random));
@@ -119,7 +120,7 @@ TEST(ArrayFunction, IsContinuousAtTheFacesOfCells) {
 TEST(ArrayFunction, ContinuesOutsideTheBoxAtTheNearestPoint) {
     std::mt19937 random(5);
     const Shape shape{4, 5, 3, 6};
-    const ArrayFunction array(shape, kBox, Samples(randomSamples(shape, 0, random)));
+    const ArrayFunction array(shape, kBox, SampleStorage(randomSamples(shape, 0, random)));
     const Box larger{kBox.min - 2. * (kBox.max - kBox.min), kBox.max + 2. * (kBox.max - kBox.min)};
     Points points = randomPoints(larger, 500, random);
     points.add({kInfinity, 0.6, 0, 1001});
@@ -141,7 +142,7 @@ TEST(ArrayFunction, ContinuesOutsideTheBoxAtTheNearestPoint) {
 TEST(ArrayFunction, HasNoValueAtCoordinatesThatAreNotNumbers) {
     std::mt19937 random(6);
     for (const Shape& shape : {Shape{4, 4, 4, 4}, Shape{1, 4, 4, 4}, Shape{4, 1, 1, 1}}) {
-        const ArrayFunction array(shape, {}, Samples(randomSamples(shape, 0, random)));
+        const ArrayFunction array(shape, {}, SampleStorage(randomSamples(shape, 0, random)));
         for (glm::length_t axis = 0; axis < 4; ++axis) {
             Points points = randomPoints({}, 16, random);
             glm::dvec4 point(0.3);
@@ -173,7 +174,8 @@ TEST(ArrayFunction, IsConstantAlongAnAxisWithOneSample) {
             }
         }
     }
-    EXPECT_EQ(valueAt(ArrayFunction({1, 1, 1, 1}, {glm::dvec4(3), glm::dvec4(3)}, Samples({5})), glm::dvec4(0)), 5);
+    EXPECT_EQ(valueAt(ArrayFunction({1, 1, 1, 1}, {glm::dvec4(3), glm::dvec4(3)}, SampleStorage({5})), glm::dvec4(0)),
+              5);
 }
 
 // A point has a value if all samples that have a weight other than 0 do.
@@ -182,7 +184,7 @@ TEST(ArrayFunction, HasNoValueWhereAMissingSampleHasAWeight) {
     const Shape shape{5, 5, 5, 5};
     const Box box{glm::dvec4(0), glm::dvec4(4)};
     const auto samples = randomSamples(shape, 0.15, random);
-    const ArrayFunction array(shape, box, Samples(samples));
+    const ArrayFunction array(shape, box, SampleStorage(samples));
     std::uniform_int_distribution<int> quarters(0, 16), eighths(0, 32);
     Points points;
     for (int trial = 0; trial < 4000; ++trial) {
@@ -218,7 +220,7 @@ TEST(ArrayFunction, HasNoValueWhereAMissingSampleHasAWeight) {
 TEST(ArrayFunction, TheGradientIsTheLimitOfDifferences) {
     std::mt19937 random(9);
     const Shape shape{6, 5, 7, 4};
-    const ArrayFunction array(shape, {}, Samples(randomSamples(shape, 0, random)));
+    const ArrayFunction array(shape, {}, SampleStorage(randomSamples(shape, 0, random)));
     Points points = randomPoints({}, 400, random);
     array.evaluateWithGradient(points.batch(), points.values, points.gradients());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -236,7 +238,7 @@ TEST(ArrayFunction, TheGradientIsTheLimitOfDifferences) {
 
 TEST(ArrayFunction, OverflowGivesNoValue) {
     const float most = std::numeric_limits<float>::max();
-    const ArrayFunction array({2, 1, 1, 1}, {}, Samples({-most, most}));
+    const ArrayFunction array({2, 1, 1, 1}, {}, SampleStorage({-most, most}));
     Points points;
     points.add({0.3, 0, 0, 0});
     array.evaluateWithGradient(points.batch(), points.values, points.gradients());
@@ -248,7 +250,7 @@ TEST(ArrayFunction, OverflowGivesNoValue) {
 
 TEST(ArrayFunction, RefusesShapesAndBoxesThatAreNotValid) {
     const auto make = [](const Shape& shape, const Box& box, std::size_t count) {
-        return ArrayFunction(shape, box, Samples(std::vector<float>(count)));
+        return ArrayFunction(shape, box, SampleStorage(std::vector<float>(count)));
     };
     EXPECT_NO_THROW(make({2, 2, 2, 2}, {}, 16));
     EXPECT_THROW(make({2, 2, 2, 2}, {}, 15), std::invalid_argument);
@@ -265,7 +267,7 @@ TEST(ArrayFunction, RefusesShapesAndBoxesThatAreNotValid) {
 
 TEST(ArrayFunction, SharesSamplesWithTheirOwner) {
     const auto owner = std::make_shared<std::vector<float>>(std::vector<float>{1, 3});
-    const ArrayFunction array({2, 1, 1, 1}, {}, Samples(owner, *owner));
+    const ArrayFunction array({2, 1, 1, 1}, {}, SampleStorage(owner, *owner));
     EXPECT_EQ(array.samples().data(), owner->data());
     EXPECT_EQ(array.storage().memoryBytes(), 2 * sizeof(float));
     EXPECT_EQ(valueAt(array, glm::dvec4(0)), 2);

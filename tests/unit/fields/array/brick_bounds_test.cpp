@@ -28,7 +28,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
     const Box box{{-1, 5, -100, 0}, {1, 5.5, 300, 1}};
     for (const Shape& shape : {Shape{9, 14, 6, 11}, Shape{40, 1, 33, 2}, Shape{5, 5, 5, 5}, Shape{1, 1, 1, 200}}) {
         for (const double missing : {0., 0.002, 0.3, 1.}) {
-            const ArrayFunction array(shape, box, Samples(randomSamples(shape, missing, random)),
+            const ArrayFunction array(shape, box, SampleStorage(randomSamples(shape, missing, random)),
                                       GetParam() ? sampleCount(shape) : 0);
             for (int trial = 0; trial < 150; ++trial) {
                 const Box region = randomBox(box, trial % 3 == 0 ? 1 : 0.1, random);
@@ -68,9 +68,9 @@ TEST(BrickBounds, AreThoseOfTheBricksThatMeetTheRegion) {
     const Shape shape{17, 17, 17, 17};
     const Box box{glm::dvec4(0), glm::dvec4(16)};
     // The largest sample of the brick with the indices i, j, k, l is 4 (i + 10 j + 100 k + 1000 l + 1111).
-    const ArrayFunction array(
-        shape, box,
-        Samples(sampled(shape, box, [](const glm::dvec4& p) { return p.x + 10 * p.y + 100 * p.z + 1000 * p.w; })));
+    const ArrayFunction array(shape, box, SampleStorage(sampled(shape, box, [](const glm::dvec4& p) {
+                                  return p.x + 10 * p.y + 100 * p.z + 1000 * p.w;
+                              })));
     const auto expectBounds = [&](const glm::dvec4& min, const glm::dvec4& max, double low, double high) {
         const Bounds bounds = array.boundsIn({min, max});
         EXPECT_NEAR(bounds.min, low, 0.1);
@@ -99,7 +99,7 @@ TEST(BrickBounds, CountEachMissingSampleOnce) {
             missing += std::isfinite(each) ? 0 : 1;
             if (std::isfinite(each)) min = std::min(min, each), max = std::max(max, each);
         }
-        const ArrayFunction array(shape, {}, Samples(samples));
+        const ArrayFunction array(shape, {}, SampleStorage(samples));
         EXPECT_EQ(array.statistics().missing, missing);
         EXPECT_EQ(array.statistics().min, min);
         EXPECT_EQ(array.statistics().max, max);
@@ -110,7 +110,7 @@ TEST(BrickBounds, CountEachMissingSampleOnce) {
 TEST(BrickBounds, ReadLittleOfALargeArray) {
     const Shape shape{64, 64, 64, 64};
     std::mt19937 random(4);
-    const ArrayFunction array(shape, {}, Samples(randomSamples(shape, 0, random)), 1000);
+    const ArrayFunction array(shape, {}, SampleStorage(randomSamples(shape, 0, random)), 1000);
     EXPECT_FALSE(array.rangeIsExact());
     EXPECT_LT(array.statistics().min, -0.99F);  // of a selection
     EXPECT_GT(array.statistics().max, 0.99F);

@@ -45,7 +45,7 @@ TEST(Downsampling, KeepsTheBoxAndNarrowsTheRange) {
     std::mt19937 random(1);
     const Shape shape{12, 7, 1, 16};
     const Box box{{0, 1, 2, 3}, {4, 5, 6, 7}};
-    const ArrayFunction fine(shape, box, Samples(randomSamples(shape, 0.1, random)));
+    const ArrayFunction fine(shape, box, SampleStorage(randomSamples(shape, 0.1, random)));
     const auto coarse = fine.downsampled();
     EXPECT_EQ(coarse->box(), box);
     EXPECT_EQ(coarse->shape(), (Shape{7, 4, 1, 9}));
@@ -57,7 +57,7 @@ TEST(Downsampling, LongStepsUseTheCoarsestVersionWhoseCellsAreNoLonger) {
     std::mt19937 random(2);
     const Shape shape{65, 33, 17, 9};
     const Box box{glm::dvec4(0), {64, 32, 16, 8}};  // the cells have the length 1
-    const ArrayFunction fine(shape, box, Samples(randomSamples(shape, 0, random)));
+    const ArrayFunction fine(shape, box, SampleStorage(randomSamples(shape, 0, random)));
     const auto shapeFor = [&](double x, double y, double z) {
         const std::array<glm::dvec4, 3> steps{{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, 0.6 * z, 0.8 * z}}};
         const auto* used = dynamic_cast<const ArrayFunction*>(&fine.forSteps(steps));
@@ -75,7 +75,7 @@ TEST(Downsampling, SelectionsHaveTheSamplesAtTheEndsAndAtEqualDistances) {
     const Shape shape{9, 1, 5, 4}, size{3, 1, 5, 2};
     std::vector<float> samples(sampleCount(shape));
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i);
-    const std::vector<float> selected = selectSamples(shape, Samples(samples), size);
+    const std::vector<float> selected = selectSamples(shape, SampleStorage(samples), size);
     ASSERT_EQ(selected.size(), sampleCount(size));
     EXPECT_EQ(selected[0], 0);
     EXPECT_EQ(selected[1], 4);
@@ -87,7 +87,7 @@ TEST(Downsampling, SelectionsHaveTheSamplesAtTheEndsAndAtEqualDistances) {
 TEST(Downsampling, LargeArraysUseASelectionInDraftsWhateverTheSteps) {
     std::mt19937 random(3);
     const Shape shape{40, 40, 40, 40};
-    const ArrayFunction large(shape, {glm::dvec4(0), glm::dvec4(39)}, Samples(randomSamples(shape, 0, random)),
+    const ArrayFunction large(shape, {glm::dvec4(0), glm::dvec4(39)}, SampleStorage(randomSamples(shape, 0, random)),
                               100'000);
     const std::array<glm::dvec4, 1> step{glm::dvec4(0.1, 0, 0, 0)};
     const auto* used = dynamic_cast<const ArrayFunction*>(&large.forSteps(step));

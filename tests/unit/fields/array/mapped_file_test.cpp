@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fields/array/mapped_file.hpp"
-#include "fields/array/samples.hpp"
+#include "fields/array/sample_storage.hpp"
 
 namespace oval4d::fields::test {
 namespace {
@@ -96,10 +96,10 @@ TEST(MappedFile, WritesAndReadsTheSameFile) {
     writable->writableBytes().back() = std::byte{7};
     writable->releasePages();
     EXPECT_EQ(readable->bytes().back(), std::byte{7});
-    EXPECT_THROW(Samples(readable, 2, 1), std::invalid_argument);
-    EXPECT_THROW(Samples(readable, kSize, 1), std::invalid_argument);
-    EXPECT_THROW(Samples(readable, 0, kSize), std::invalid_argument);
-    const Samples samples(readable, kSize - 4, 1);
+    EXPECT_THROW(SampleStorage(readable, 2, 1), std::invalid_argument);
+    EXPECT_THROW(SampleStorage(readable, kSize, 1), std::invalid_argument);
+    EXPECT_THROW(SampleStorage(readable, 0, kSize), std::invalid_argument);
+    const SampleStorage samples(readable, kSize - 4, 1);
     EXPECT_EQ(samples.memoryBytes(), 0U);
     EXPECT_EQ(samples.offset(), kSize - 4);
 }

@@ -29,7 +29,8 @@ fields::Field randomArray(const fields::Shape& shape, const fields::Box& box, st
     std::uniform_real_distribution<double> chance(0, 1);
     std::vector<float> samples(fields::sampleCount(shape));
     for (float& sample : samples) sample = chance(random) < holes ? NAN : value(random);
-    auto function = std::make_shared<const fields::ArrayFunction>(shape, box, fields::Samples(std::move(samples)));
+    auto function =
+        std::make_shared<const fields::ArrayFunction>(shape, box, fields::SampleStorage(std::move(samples)));
     fields::Field field = fields::makeField("random", function, box);
     field.array = function;
     return field;
@@ -223,7 +224,7 @@ TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
 TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
     const auto constant = [](float value, const fields::Shape& shape) {
         auto function = std::make_shared<const fields::ArrayFunction>(
-            shape, fields::Box{}, fields::Samples(std::vector<float>(fields::sampleCount(shape), value)));
+            shape, fields::Box{}, fields::SampleStorage(std::vector<float>(fields::sampleCount(shape), value)));
         fields::Field field = fields::makeField("constant", function, {});
         field.array = function;
         return field;
@@ -251,7 +252,7 @@ TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
     samples[2 + 5 * (2 + 5 * (2 + 5 * 2))] = NAN;
     const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
     auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{5, 5, 5, 5}, box,
-                                                                  fields::Samples(std::move(samples)));
+                                                                  fields::SampleStorage(std::move(samples)));
     fields::Field field = fields::makeField("hole", function, box);
     field.array = function;
     ClosedSurfaceSlicer slicer(field, {});

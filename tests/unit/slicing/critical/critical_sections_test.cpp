@@ -51,7 +51,7 @@ FieldPtr arrayOf(const FieldPtr& field, std::size_t side) {
         field->function->evaluate({x, y, z, w}, std::span(samples).subspan(row * side, side));
     }
     auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{side, side, side, side}, box,
-                                                                  fields::Samples(std::move(samples)));
+                                                                  fields::SampleStorage(std::move(samples)));
     fields::Field array = fields::makeField("array", function, box);
     array.array = function;
     return std::make_shared<const fields::Field>(std::move(array));

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of arrays.
+// The storage of the samples of an array.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace oval4d::fields {
 
-/// The samples of an array: 32-bit floats in memory or in a mapped file. They do not change.
-class Samples {
+/// The samples of an array: 32-bit floats in memory or in a mapped file. They do not change. Copies share them.
+class SampleStorage {
   public:
     /// Takes ownership of samples in memory.
-    explicit Samples(std::vector<float> values);
+    explicit SampleStorage(std::vector<float> values);
     /// Shares samples in memory that `owner` keeps valid.
-    Samples(std::shared_ptr<const void> owner, std::span<const float> values);
-    /// Uses samples in a mapped file, from the byte `offset` on. Throws std::invalid_argument if they are not all in
-    /// the file, or if `offset` is not a multiple of the size of a sample.
-    Samples(MappedFilePtr file, std::size_t offset, std::size_t count);
+    SampleStorage(std::shared_ptr<const void> owner, std::span<const float> values);
+    /// Uses `count` samples in a mapped file, from the byte `offset` on. Throws std::invalid_argument if they are not
+    /// all in the file, or if `offset` is not a multiple of the size of a sample.
+    SampleStorage(MappedFilePtr file, std::size_t offset, std::size_t count);
 
     std::span<const float> values() const { return values_; }
     /// Returns the memory that the samples use, in bytes; 0 if they are in a mapped file, whose pages the system can
@@ -35,7 +35,7 @@ class Samples {
     /// as many samples. However, if these samples are the result of an earlier call, nothing has been appended to them
     /// yet, and their memory still has enough room, copies only `others`, and the result shares the memory of these
     /// samples. Thread-safe.
-    Samples followedBy(std::span<const float> others) const;
+    SampleStorage followedBy(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
     /// pages that are needed; or `sequential`, so that it reads ahead.
@@ -47,13 +47,13 @@ class Samples {
     void prefetch(std::size_t first, std::size_t count) const;
 
   private:
-    struct Room;
+    struct SharedGrowthBuffer;
     void advise(std::size_t first, std::size_t count, int advice) const;
 
     std::shared_ptr<const void> owner_;
     std::span<const float> values_;
     MappedFilePtr file_;
-    std::shared_ptr<Room> room_;  // owns the samples if they are the result of followedBy(), else null
+    std::shared_ptr<SharedGrowthBuffer> growthBuffer_;  // contains the samples if followedBy() made them; else null
 };
 
 }  // namespace oval4d::fields

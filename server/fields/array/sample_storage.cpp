@@ -1,4 +1,4 @@
-#include "fields/array/samples.hpp"
+#include "fields/array/sample_storage.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -9,55 +9,56 @@
 
 namespace oval4d::fields {
 
-/// Memory that the results of followedBy() share. Each result reads only its own samples, so another thread may write
-/// further samples behind them at the same time.
-struct Samples::Room {
+/// Memory that several results of followedBy() share. Each result reads only its own samples, so another thread may
+/// append further samples at the same time.
+struct SampleStorage::SharedGrowthBuffer {
     std::mutex mutex;
     std::vector<float> values;  // guarded by mutex; its capacity does not change
 };
 
-Samples Samples::followedBy(std::span<const float> others) const {
+SampleStorage SampleStorage::followedBy(std::span<const float> others) const {
     const std::size_t count = values_.size() + others.size();
-    if (room_) {
-        const std::lock_guard lock(room_->mutex);
-        std::vector<float>& values = room_->values;
+    if (growthBuffer_) {
+        const std::lock_guard lock(growthBuffer_->mutex);
+        std::vector<float>& values = growthBuffer_->values;
         if (values.size() == values_.size() && count <= values.capacity()) {
             values.insert(values.end(), others.begin(), others.end());
-            Samples grown(room_, {values.data(), count});
-            grown.room_ = room_;
+            SampleStorage grown(growthBuffer_, {values.data(), count});
+            grown.growthBuffer_ = growthBuffer_;
             return grown;
         }
     }
-    auto room = std::make_shared<Room>();
-    room->values.reserve(count + count / 2);
-    room->values.assign(values_.begin(), values_.end());
-    room->values.insert(room->values.end(), others.begin(), others.end());
-    Samples grown(room, room->values);
-    grown.room_ = std::move(room);
+    auto buffer = std::make_shared<SharedGrowthBuffer>();
+    buffer->values.reserve(count + count / 2);
+    buffer->values.assign(values_.begin(), values_.end());
+    buffer->values.insert(buffer->values.end(), others.begin(), others.end());
+    SampleStorage grown(buffer, buffer->values);
+    grown.growthBuffer_ = std::move(buffer);
     return grown;
 }
 
-Samples::Samples(std::vector<float> values) {
+SampleStorage::SampleStorage(std::vector<float> values) {
     auto owned = std::make_shared<const std::vector<float>>(std::move(values));
     values_ = *owned;
     owner_ = std::move(owned);
 }
 
-Samples::Samples(std::shared_ptr<const void> owner, std::span<const float> values)
+SampleStorage::SampleStorage(std::shared_ptr<const void> owner, std::span<const float> values)
     : owner_(std::move(owner)), values_(values) {}
 
-Samples::Samples(MappedFilePtr file, std::size_t offset, std::size_t count) : owner_(file), file_(std::move(file)) {
+SampleStorage::SampleStorage(MappedFilePtr file, std::size_t offset, std::size_t count)
+    : owner_(file), file_(std::move(file)) {
     const std::span<const std::byte> bytes = file_->bytes();
     if (offset % sizeof(float) != 0 || offset > bytes.size() || (bytes.size() - offset) / sizeof(float) < count)
         throw std::invalid_argument("the samples are not within the file");
     values_ = {reinterpret_cast<const float*>(bytes.data() + offset), count};
 }
 
-std::size_t Samples::offset() const {
+std::size_t SampleStorage::offset() const {
     return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(values_.data()) - file_->bytes().data());
 }
 
-void Samples::advise(std::size_t first, std::size_t count, int advice) const {
+void SampleStorage::advise(std::size_t first, std::size_t count, int advice) const {
     if (!file_ || count == 0) return;
     static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(values_.data() + first) / page * page;
@@ -66,10 +67,10 @@ void Samples::advise(std::size_t first, std::size_t count, int advice) const {
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 
-void Samples::expect(Access access) const {
+void SampleStorage::expect(Access access) const {
     advise(0, values_.size(), access == Access::random ? MADV_RANDOM : MADV_SEQUENTIAL);
 }
 
-void Samples::prefetch(std::size_t first, std::size_t count) const { advise(first, count, MADV_WILLNEED); }
+void SampleStorage::prefetch(std::size_t first, std::size_t count) const { advise(first, count, MADV_WILLNEED); }
 
 }  // namespace oval4d::fields
