@@ -42,6 +42,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
             if (glm::distance(points[a], points[b]) <= distance) first[b] = std::min(first[b], first[a]);
         }
     }
+    // A point may have been joined to one that was itself joined to another one later. The least indices come first.
+    for (std::uint32_t& v : first) v = first[v];
     return first;
 }
 

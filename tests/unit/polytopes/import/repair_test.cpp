@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -16,6 +17,7 @@
 
 #include "geometry/rotation.hpp"
 #include "polytopes/import/import.hpp"
+#include "polytopes/import/repair.hpp"
 #include "unit/polytopes/import/import_support.hpp"
 
 namespace oval4d::polytopes {
@@ -82,6 +84,26 @@ TEST(Repair, RemovesRepeatedCornersFromFaces) {
     lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // traversed twice
     const Imported imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
+}
+
+// Three points in a line, of which the outer two are farther apart than the distance for merging.
+TEST(Repair, MergesAChainOfVertices) {
+    const Polytope& simplex = named("5-cell");
+    PolygonSoup soup{simplex.vertices, simplex.faces, simplex.cells, {}, {}};
+    soup.faceSourcePositions.resize(soup.faces.size());
+    soup.cellSourcePositions.resize(soup.cells.size());
+    const double distance = 1e-4;
+    for (const double steps : {0.8, 1.6})
+        soup.vertices.push_back(simplex.vertices[0] - glm::dvec4(steps * distance, 0, 0, 0));
+    std::uint32_t uses = 0;
+    for (std::uint32_t& v : soup.faces.items) {
+        if (v == 0 && uses++ % 3 > 0) v = uses % 3 == 0 ? 5 : 6;
+    }
+    std::vector<std::string> warnings;
+    repair(soup, distance, warnings);
+    EXPECT_EQ(warnings, std::vector<std::string>{"2 vertices coincide with others and were merged with them"});
+    EXPECT_EQ(soup.vertices.size(), 5U);
+    EXPECT_EQ(countsOf(build(soup, "5-cell")), countsOf(simplex));
 }
 
 // The compound of three tesseracts inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2). Each of the 24
