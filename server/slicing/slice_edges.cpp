@@ -78,8 +78,12 @@ std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orie
 
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed) {
-    const std::size_t most = elementCounts(object)[2] * static_cast<std::size_t>(planes.count);
-    if (most <= allowed) return;
+    const std::size_t sides =
+        visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& polytope) { return polytope->faces.items.size(); },
+                                        [](const CloudPtr&) { return std::size_t{0}; }},
+                             object);
+    // A hyperplane crosses each side of a 2-face at most once, and two crossings are the ends of a slice edge.
+    if (sides * static_cast<std::size_t>(planes.count) / 2 <= allowed) return;
     const std::size_t found = countSliceEdges(object, orientation, planes);
     if (found > allowed) throw TooManySliceEdges(found, allowed);
 }

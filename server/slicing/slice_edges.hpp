@@ -24,9 +24,8 @@ class TooManySliceEdges : public std::runtime_error {
 std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
                             const geometry::Hyperplanes& planes);
 
-/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. But if the number of 2-faces times the
-/// number of hyperplanes is at most `allowed`, returns in constant time without counting; a nonconvex 2-face, which a
-/// hyperplane may cut in several slice edges, then counts as one edge.
+/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. If so many edges are impossible, because the
+/// polytope has few 2-faces or there are few hyperplanes, returns in constant time.
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed);
 

@@ -44,15 +44,20 @@ TEST(SliceEdges, areNotMoreThanCountedIfVerticesLieInHyperplanes) {
     }
 }
 
+// Pentagrams have several edges in one slice.
 TEST(SliceEdges, areRefusedBeyondTheLimit) {
     std::mt19937 random(32);
-    const Object object = support::objectOf(named("24-cell"));
-    const geometry::Rotation orientation = support::randomRotation(random);
-    const geometry::Hyperplanes planes{-10, 21, 0.1};
-    const std::size_t found = countSliceEdges(object, orientation, planes);
-    ASSERT_GT(found, 100U);
-    EXPECT_NO_THROW(checkSliceEdges(object, orientation, planes, found));
-    EXPECT_THROW(checkSliceEdges(object, orientation, planes, found - 1), TooManySliceEdges);
+    for (const auto* name : {"24-cell", "small stellated 120-cell"}) {
+        const Object object = support::objectOf(named(name));
+        const geometry::Rotation orientation = support::randomRotation(random);
+        for (const int count : {1, 21}) {
+            const geometry::Hyperplanes planes{0, count, 0.02, 0.01};
+            const std::size_t found = countSliceEdges(object, orientation, planes);
+            ASSERT_GT(found, 0U);
+            EXPECT_NO_THROW(checkSliceEdges(object, orientation, planes, found));
+            EXPECT_THROW(checkSliceEdges(object, orientation, planes, found - 1), TooManySliceEdges);
+        }
+    }
 }
 
 }  // namespace
