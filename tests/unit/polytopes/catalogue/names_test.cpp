@@ -45,8 +45,10 @@ TEST(Notations, parseTheirExamples) {
             const std::vector<std::string> words = text::wordsOf(example);
             const auto parsed = notation.parse({words, lookup});
             ASSERT_TRUE(parsed && std::holds_alternative<Design>(*parsed));
-            EXPECT_EQ(std::get<Design>(*parsed).name, support::designFor(example).name)
-                << "an earlier notation fits, too";
+            const std::string& name = std::get<Design>(*parsed).name;
+            EXPECT_EQ(name, support::designFor(example).name) << "an earlier notation fits, too";
+            EXPECT_EQ(name, support::designFor(name).name)
+                << "stored sessions could not build the polytope by its name";
         }
     }
 }
