@@ -194,11 +194,6 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                                          request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
-    try {
-        slicing::checkSliceEdges(state.object, state.orientation, planes, limits.sliceEdges);
-    } catch (const slicing::TooManySliceEdges& fault) {
-        return Error{ErrorCode::too_large, fault.what()};
-    }
     if (isField && readsFieldSurfaces(request)) {
         slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
@@ -206,6 +201,11 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (element) {
         slicing::writeElementAsSlice(state.object, *element, state.orientation, slices);
     } else {
+        try {
+            slicing::checkSliceEdges(state.object, state.orientation, planes, limits.sliceEdges);
+        } catch (const slicing::TooManySliceEdges& fault) {
+            return Error{ErrorCode::too_large, fault.what()};
+        }
         slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
     }
     if (request.contents == exports::ExportContents::projection && !drawing) slices = projectionOf(state, slices);
