@@ -5,6 +5,7 @@ import math
 import random
 from types import SimpleNamespace
 
+import numpy
 from meshes import assert_manifold, volume
 from wire import Client
 
@@ -25,29 +26,16 @@ async def load_field(client, formula, box=None, name="field", **members):
 def random_rotation(seed):
     """Returns the rows of a random 4×4 rotation matrix: normal deviates, made orthonormal with determinant 1."""
     source = random.Random(seed)
-    rows = []
-    while len(rows) < 4:
-        row = [source.gauss(0, 1) for _ in range(4)]
-        for _ in range(2):  # the second time removes rounding errors
-            for other in rows:
-                part = dot(row, other)
-                row = [a - part * b for a, b in zip(row, other)]
-        length = math.sqrt(dot(row, row))
-        rows.append([a / length for a in row])
-    if determinant(rows) < 0:
-        rows[0] = [-a for a in rows[0]]
-    return rows
+    deviates = [[source.gauss(0, 1) for _ in range(4)] for _ in range(4)]
+    columns, triangle = numpy.linalg.qr(numpy.transpose(deviates))
+    rows = (columns * numpy.sign(numpy.diag(triangle))).T
+    if numpy.linalg.det(rows) < 0:
+        rows[0] = -rows[0]
+    return rows.tolist()
 
 
 def dot(a, b):
     return sum(p * q for p, q in zip(a, b))
-
-
-def determinant(rows):
-    if not rows:
-        return 1
-    return sum((-1) ** i * rows[0][i] * determinant([row[:i] + row[i + 1:] for row in rows[1:]])
-               for i in range(len(rows)))
 
 
 def closed_parts(surface, level=0, caps=True):
@@ -69,13 +57,9 @@ def surface_volume(piece, level=0, caps=True):
 
 def surface_centroid(surface):
     """Returns the centroid of the body of level 0, as the weighted mean of tetrahedra with a corner at the origin."""
-    total, sums = 0, [0, 0, 0]
-    for triangle in closed_parts(surface):
-        corners = [surface["points"][p] for p in triangle]
-        part = determinant(corners) / 6
-        total += part
-        sums = [a + part * sum(corner[i] for corner in corners) / 4 for i, a in enumerate(sums)]
-    return [a / total for a in sums]
+    corners = numpy.asarray(surface["points"])[numpy.asarray(closed_parts(surface))]
+    volumes = numpy.linalg.det(corners) / 6
+    return list(volumes @ corners.sum(axis=1) / 4 / volumes.sum())
 
 
 def components_and_euler(surface):

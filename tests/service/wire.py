@@ -8,7 +8,7 @@ from pathlib import Path
 
 import websockets
 from harness import DEADLINE
-from schemas import answer_type, compare_with_schema, shape
+from schemas import answer_type, compare_with_schema, uncompared_shape
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol/python"))
@@ -56,7 +56,7 @@ class Client:
         self.compares = compares
         self.hello = hello
         self.messages = []
-        self._one_of_each_shape = {}
+        self._uncompared = {}
         self.close_code = None
         self._ids = itertools.count(1)
         self._changed = asyncio.Condition()
@@ -74,7 +74,7 @@ class Client:
     async def __aexit__(self, exception, *_):
         await self.leave()
         if exception is None:
-            for text in self._one_of_each_shape.values():
+            for text in self._uncompared.values():
                 compare_with_schema(json.loads(text))
 
     async def leave(self):
@@ -86,8 +86,8 @@ class Client:
             async for data in self.socket:
                 message = self.decode(data)
                 self.messages.append(message)
-                if self.compares and isinstance(data, str):
-                    self._one_of_each_shape.setdefault((message["type"], shape(message)), data)
+                if self.compares and isinstance(data, str) and (found := uncompared_shape(message)):
+                    self._uncompared.setdefault(found, data)
                 if self.acknowledges and self.is_picture(message):
                     await self.send("shown", revision=self.states()[-1]["revision"])
                 async with self._changed:
