@@ -8,8 +8,8 @@
 namespace oval4d::fields {
 
 // The points are u_n = (1/2 + n a) mod 1. The vector a has the components a_j = g^−(j+1) for j = 0 … 3, and g is the
-// real root of g⁵ = g + 1. The coordinates are stored as multiples of 2⁻³² in 32-bit integers, so that integer overflow
-// computes them modulo 1.
+// real root of g⁵ = g + 1. The coordinates are computed in units of 2⁻³² in 32-bit integers, so that integer overflow
+// reduces them modulo 1.
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;

@@ -57,8 +57,9 @@ struct LoadObject {
     std::string name;    ///< the name to give to the object
     std::string format;  ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
     std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
-    /// As in Rotate. If it is true and a field replaces a field, FieldSettings stay the same, and the slices and the
-    /// focus point stay the same if both fields have the same circumradius.
+    /// Whether this belongs to the undo step of the previous command, as while a formula is edited. If so, and if a
+    /// field replaces a field, FieldSettings stay the same; if both fields also have the same circumradius,
+    /// SliceSettings and the focus point stay the same, too.
     bool continues = false;
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().

@@ -36,7 +36,7 @@ struct KeySteps {
     /// If this is not null, the action NAME_up adds this member of the state to the number, and NAME_down subtracts it.
     double State::* amount = nullptr;
 };
-/// The rule of a number that applySet() accepts within a fixed range.
+/// The rule of a numeric setting: applySet() accepts the numbers in `range` and refuses all others.
 struct NumberInRange {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     geometry::Range range;

@@ -23,7 +23,7 @@ bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
 bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow,
                        std::span<SliceSet* const> touching, SliceSet& out) {
     if (!planesBelow.anyOnPlane && isWorthTwoCores(polytope, out.planes.count))
-        return cutHalves(polytope, planesBelow, out);
+        return cutInTwoSweeps(polytope, planesBelow, out);
     Sweep& sweep = lower_.sweep;
     if (!sweep.begin(polytope, planesBelow, out.planes.count)) return false;
     SliceCounts size = sweep.maxSize();
@@ -39,7 +39,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
 
 // Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
 // the lower half gives the position of the upper half in `out`.
-bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
+bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;
     const auto begin = [&](HalfOfPlanes& half, std::int32_t first, std::int32_t end) {

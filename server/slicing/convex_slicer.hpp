@@ -38,7 +38,7 @@ class ConvexSlicer {
         SliceCounts end;     // where the slices of this half end in the output; before sweep.cut(), where they begin
         bool sound = false;  // what the last call of sweep.begin() or sweep.cut() returned
     };
-    bool cutHalves(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
+    bool cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
 
     parallel::ForkJoin* forkJoin_;
     HalfOfPlanes lower_, upper_;

@@ -91,7 +91,7 @@ void MemoryStore::remove(std::span<const std::string> ids) {
     }
 }
 
-void MemoryStore::touch(std::span<const std::string> ids) {
+void MemoryStore::restartExpiry(std::span<const std::string> ids) {
     for (const std::string& id : ids) {
         if (const auto found = entries_.find(id); found != entries_.end()) found->second.touched = now_();
     }

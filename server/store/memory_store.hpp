@@ -23,7 +23,7 @@ class MemoryStore final : public Store {
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
     void remove(std::span<const std::string> ids) override;
-    void touch(std::span<const std::string> ids) override;
+    void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
     std::vector<std::string> pollLostSessions() override { return {}; }
     std::size_t size() const override { return entries_.size(); }

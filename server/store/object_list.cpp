@@ -13,7 +13,7 @@ namespace oval4d::store {
 
 using nlohmann::json;
 
-std::size_t ObjectListWriter::indexOf(const slicing::Object& object) {
+std::size_t ObjectListEncoder::indexOf(const slicing::Object& object) {
     const auto [found, isNew] = indices_.try_emplace(slicing::identityOf(object), list_.size());
     if (isNew) {
         const geometry::ObjectInfo& info = slicing::infoOf(object);
@@ -24,7 +24,7 @@ std::size_t ObjectListWriter::indexOf(const slicing::Object& object) {
     return found->second;
 }
 
-ObjectListReader::ObjectListReader(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
+ObjectListDecoder::ObjectListDecoder(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
     for (const json& entry : list) {
         if (entry.size() == 1) {
             objects_.push_back(rebuilt(readShortText(entry.at(0)), cache));
@@ -36,13 +36,13 @@ ObjectListReader::ObjectListReader(const json& list, const ObjectLookup& objectO
     }
 }
 
-const slicing::Object& ObjectListReader::at(const json& index) const {
+const slicing::Object& ObjectListDecoder::at(const json& index) const {
     const auto i = readInteger<std::size_t>(index);
     if (i >= objects_.size()) throwUnreadable("an object is missing");
     return objects_[i];
 }
 
-slicing::Object ObjectListReader::transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
     if (frame == geometry::ReferenceFrame{}) return source;
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
@@ -56,7 +56,7 @@ slicing::Object ObjectListReader::transformedTo(const slicing::Object& source, c
 
 /// Returns the polytope with this name (see polytopes::designNamed()). Throws UnreadableRecord if there is none, if it
 /// cannot be built, or if it has more vertices than `vertexBudget_`, which it reduces by these vertices.
-slicing::Object ObjectListReader::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
+slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);

@@ -17,9 +17,9 @@
 namespace oval4d::store {
 
 /// Collects the objects of a session in a list without duplicates.
-class ObjectListWriter {
+class ObjectListEncoder {
   public:
-    explicit ObjectListWriter(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
+    explicit ObjectListEncoder(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
 
     /// Returns the index of the object in the list, from 0. Adds the object if the list does not have it yet.
     std::size_t indexOf(const slicing::Object& object);
@@ -35,11 +35,11 @@ class ObjectListWriter {
 
 /// The objects of a session that is being decoded: those in the list of its record, and the same objects in the frames
 /// of reference in which states show them.
-class ObjectListReader {
+class ObjectListDecoder {
   public:
-    /// Reads what ObjectListWriter::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
+    /// Reads what ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
     /// built, or if the objects that are built from their names have more than ten million vertices altogether.
-    ObjectListReader(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
+    ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
 
     /// Returns the object with this index. The reference is valid as long as this reader exists. Throws
     /// UnreadableRecord if there is none.

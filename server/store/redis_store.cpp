@@ -281,7 +281,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
     for (std::size_t i = 0; i < ids.size(); ++i) receive();
 }
 
-void RedisStore::touch(std::span<const std::string> ids) {
+void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
     const bool hashed = !alsoStoresPlainTokens();  // if true, also delete tokens in plain text
     for (const std::string& id : ids) {

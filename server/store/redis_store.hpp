@@ -29,7 +29,7 @@ class RedisStore final : public Store {
     /// Does nothing and returns 0: Redis has its own quota, `maxmemory`.
     std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }
     void remove(std::span<const std::string> ids) override;
-    void touch(std::span<const std::string> ids) override;
+    void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
     std::vector<std::string> pollLostSessions() override;
     std::size_t size() const override { return size_; }

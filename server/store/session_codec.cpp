@@ -29,7 +29,7 @@ std::uint64_t revisionIn(const json& value) {
 
 /// Returns the encoding of the last `maxCount` states.
 template <typename States>
-json history(const States& states, std::size_t maxCount, ObjectListWriter& objects) {
+json history(const States& states, std::size_t maxCount, ObjectListEncoder& objects) {
     json list = json::array();
     for (std::size_t i = states.size() - std::min(states.size(), maxCount); i < states.size(); ++i) {
         list.push_back(encodeState(states[i], objects));
@@ -40,14 +40,14 @@ json history(const States& states, std::size_t maxCount, ObjectListWriter& objec
 }  // namespace
 
 std::string encodeHead(const Session& session, const ObjectKeyLookup& keyOf) {
-    ObjectListWriter objects(keyOf);
+    ObjectListEncoder objects(keyOf);
     json current = encodeState(session.current, objects);
     return encodeCbor({kRecordVersion, session.revision, objects.list(), std::move(current)});
 }
 
 std::string encodeWhole(const Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf) {
     const auto& [current, undoSteps, redoSteps, loaded, pendingKey, revision] = session;
-    ObjectListWriter objects(keyOf);
+    ObjectListEncoder objects(keyOf);
     json state = encodeState(current, objects);
     json before = history(undoSteps, maxUndo, objects);
     json after = history(redoSteps, maxUndo, objects);
@@ -61,7 +61,7 @@ Session decode(std::string_view whole, std::string_view head, const ObjectLookup
                polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
         const json value = parseRecord(whole);
-        ObjectListReader objects(value.at(2), objectOf, cache);
+        ObjectListDecoder objects(value.at(2), objectOf, cache);
         Session session;
         session.revision = revisionIn(value.at(1));
         session.current = decodeState(value.at(3), objects);
@@ -75,7 +75,7 @@ Session decode(std::string_view whole, std::string_view head, const ObjectLookup
         if (revision <= session.revision) return session;
         session.undoSteps.push_back(std::move(session.current));
         session.redoSteps.clear();
-        ObjectListReader newerObjects(newer.at(2), objectOf, cache);
+        ObjectListDecoder newerObjects(newer.at(2), objectOf, cache);
         session.current = decodeState(newer.at(3), newerObjects);
         session.revision = revision;
         session.pendingKey.clear();

@@ -169,7 +169,7 @@ void SqliteStore::setUp() {
             "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
         statement.number(nowMilliseconds()).step();
     }
-    if (const auto count = evictUntilFits(0, [](const std::string&) { return false; }); count > 0) {
+    if (const auto count = evictSessionsUntilFits(0, [](const std::string&) { return false; }); count > 0) {
         spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
     }
     releasePages(std::max<std::int64_t>(kMaxReleasedPages, usedPages()));
@@ -373,10 +373,10 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
 }
 
 std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
-    return afterPendingRepair([&] { return evictUntilFits(pagesFor(updates), isPinned); });
+    return afterPendingRepair([&] { return evictSessionsUntilFits(pagesFor(updates), isPinned); });
 }
 
-std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
+std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
     const auto fits = [&] { return usedPages() + pagesNeeded <= maxPages_; };
     if (fits()) return 0;
     std::vector<std::string> candidates;
@@ -408,7 +408,7 @@ void SqliteStore::remove(std::span<const std::string> ids) {
     });
 }
 
-void SqliteStore::touch(std::span<const std::string> ids) {
+void SqliteStore::restartExpiry(std::span<const std::string> ids) {
     afterPendingRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {

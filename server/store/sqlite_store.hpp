@@ -35,7 +35,7 @@ class SqliteStore final : public Store {
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
     void remove(std::span<const std::string> ids) override;
-    void touch(std::span<const std::string> ids) override;
+    void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
     std::vector<std::string> pollLostSessions() override;
     std::size_t size() const override { return size_; }
@@ -51,7 +51,7 @@ class SqliteStore final : public Store {
     void repair(const std::string& why);
     void logDamagedRecords();
     SaveResult saveOne(const RecordUpdate& update);
-    std::size_t evictUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);
+    std::size_t evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);
     std::int64_t usedPages();
     void releasePages(std::int64_t maxPages);
 

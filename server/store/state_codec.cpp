@@ -378,13 +378,13 @@ void check(const State& state) {
 
 }  // namespace
 
-json encodeState(const State& state, ObjectListWriter& objects) {
+json encodeState(const State& state, ObjectListEncoder& objects) {
     json array = MemberWriter::encoded(state);
     array[kSourceNumber] = objects.indexOf(state.source);
     return array;
 }
 
-State decodeState(const json& array, ObjectListReader& objects) {
+State decodeState(const json& array, ObjectListDecoder& objects) {
     const slicing::Object& source = objects.at(array.at(kSourceNumber));
     State state{source, {}, source, {}, 0, 0, 0, {}, {}, false, {}, {}};
     const MemberReader reader(array);

@@ -9,10 +9,10 @@
 namespace oval4d::store {
 
 /// Encodes a state as an array, and adds the state's source object to `objects`.
-nlohmann::json encodeState(const session::State& state, ObjectListWriter& objects);
+nlohmann::json encodeState(const session::State& state, ObjectListEncoder& objects);
 
 /// Decodes a state. A record of an earlier version may lack some members; these get their defaults. Throws
 /// UnreadableRecord if a member is invalid, or does not fit another member or the object.
-session::State decodeState(const nlohmann::json& array, ObjectListReader& objects);
+session::State decodeState(const nlohmann::json& array, ObjectListDecoder& objects);
 
 }  // namespace oval4d::store

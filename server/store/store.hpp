@@ -116,18 +116,18 @@ class Store {
     using IsPinned = std::function<bool(const std::string& id)>;
     /// Called after save() has thrown NotWritable. Evicts sessions that are not pinned until `updates` fit within the
     /// quota, and returns the number of evicted sessions. Evicts first the sessions that were never changed, then those
-    /// that were not saved, claimed or touched for the longest time. Evicts none if the updates already fit: in that
-    /// case, the save failed for another reason, such as a full disk, and deleting sessions would not help.
+    /// whose expiry period began first. Evicts none if the updates already fit: in that case, the save failed for
+    /// another reason, such as a full disk, and deleting sessions would not help.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.
     virtual void remove(std::span<const std::string> ids) = 0;
 
-    /// Restarts the expiry period of sessions.
-    virtual void touch(std::span<const std::string> ids) = 0;
+    /// Restarts the expiry period of sessions. Saving and claiming a session restart it, too.
+    virtual void restartExpiry(std::span<const std::string> ids) = 0;
 
-    /// Removes the sessions that have not been saved, claimed or touched for `age`, and returns their number. Does
-    /// nothing and returns 0 if the store expires records itself.
+    /// Removes the sessions whose expiry period began more than `age` ago, and returns their number. Does nothing and
+    /// returns 0 if the store expires records itself.
     virtual std::size_t expire(Milliseconds age) = 0;
 
     /// Updates size(), and returns the ids of the sessions that other servers have claimed from this one since the last

@@ -425,7 +425,7 @@ void WriteBehindStore::refreshExpiry() {
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
         const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
-        timed("touch", [&] { return store_->touch(some), true; });
+        timed("touch", [&] { return store_->restartExpiry(some), true; });
     }
     const std::size_t expired = timed("expire", [&] { return store_->expire(settings_.expiry); });
     if (expired > 0) spdlog::info("sessions expired count={}", expired);

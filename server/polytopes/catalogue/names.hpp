@@ -1,6 +1,7 @@
 #pragma once
-// Names of polytopes that need not be in the catalogue: operations on regular polychora, products, prisms,
-// Coxeter–Dynkin diagrams and Schläfli symbols.
+// Understands names of polytopes by rules, whether or not the catalogue lists them: regular polychora after operations
+// (`truncated tesseract`), products, prisms and constructions (`hull of X and Y`); Coxeter–Dynkin diagrams; Schläfli
+// symbols.
 
 #include <cstddef>
 #include <span>

@@ -229,14 +229,14 @@ class Merger {
         };
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
-        struct RelativeHeight {
+        struct HeightAboveNeighbor {
             glm::dvec3 normal;  // of the triangle `from` (see heightFrom()), outward
             // For the corner of `to` that is not on the common edge: its height above the plane of `from` (outward is
             // positive), the uncertainty of the height, and the distance of the corner from the line of the edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto heightFrom = [&](const BoundaryTriangle& from, const BoundaryTriangle& to) {
-            RelativeHeight height;
+            HeightAboveNeighbor height;
             const glm::dvec3 q = place(from.corners[0]);
             height.normal = from.sign * glm::cross(place(from.corners[1]) - q, place(from.corners[2]) - q);
             const double size = glm::length(height.normal);
@@ -255,7 +255,7 @@ class Merger {
                                (1 + PlaneThroughPoints(from.corners, points_).cornerErrorFactor(points_[v]));
             return height;
         };
-        const RelativeHeight there = heightFrom(one, other), back = heightFrom(other, one);
+        const HeightAboveNeighbor there = heightFrom(one, other), back = heightFrom(other, one);
         if (there.height > there.uncertain || back.height > back.uncertain) return false;
         const bool folded = glm::dot(there.normal, back.normal) < 0 && std::abs(there.height) <= there.uncertain &&
                             std::abs(back.height) <= back.uncertain && there.reach > there.uncertain &&

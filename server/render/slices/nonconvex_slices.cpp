@@ -19,7 +19,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     DepthRange depths{std::numeric_limits<float>::max(), 0};
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         transforms_.emplace_back(viewOf(i));
-        if (scene.placements[i].drawn) collectSlice(viewOf(i), depths);
+        if (scene.placements[i].drawn) collectShapesOf(viewOf(i), depths);
     }
     const auto radius = static_cast<float>(scene.ballRadius);
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
@@ -50,7 +50,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 }
 
 // Collects the items of a slice, and extends `depths` to include the depths of its vertices.
-void NonconvexShapeCollector::collectSlice(const SliceView& slice, DepthRange& depths) {
+void NonconvexShapeCollector::collectShapesOf(const SliceView& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];

@@ -35,7 +35,7 @@ class NonconvexShapeCollector {
         std::uint32_t slice, number;  // number: index of a patch in Scene::fill, or of a vertex or edge of the slice
     };
 
-    void collectSlice(const SliceView& slice, DepthRange& depths);
+    void collectShapesOf(const SliceView& slice, DepthRange& depths);
     void add(const Item& item, slicing::Visibility visibility);
     void addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void addPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);

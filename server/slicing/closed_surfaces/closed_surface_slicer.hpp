@@ -1,6 +1,6 @@
 #pragma once
-// Slices with closed surfaces of a field, which is replaced by the piecewise linear interpolation of its values on a
-// lattice.
+// Slices a field into closed surfaces. For this, the field is replaced by the piecewise linear interpolation of its
+// values on a lattice.
 
 #include <array>
 #include <cstddef>

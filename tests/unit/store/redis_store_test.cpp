@@ -26,7 +26,7 @@ TEST(RedisStore, ExpiresUntouchedSessions) {
     EXPECT_EQ(brief->save({&update, 1}).at(0), SaveResult::saved);
     expectExpiry(1h);
     const std::vector<std::string> ids{"id"};
-    lasting->touch(ids);
+    lasting->restartExpiry(ids);
     expectExpiry(3h);
     brief->claim("id");
     expectExpiry(1h);

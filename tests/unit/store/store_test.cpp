@@ -125,7 +125,7 @@ TEST_P(ExpiringStore, ExpiresUntouchedSessions) {
     save(whole(1, "claimed", "three"));
     clock.advance(1h - 1ms);
     const std::vector<std::string> open{"two"};
-    store->touch(open);
+    store->restartExpiry(open);
     store->claim("three");
     EXPECT_EQ(store->expire(1h), 0U);
     clock.advance(2ms);

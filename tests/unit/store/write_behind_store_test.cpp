@@ -46,8 +46,8 @@ class FaultyStore final : public Store {
     void remove(std::span<const std::string> ids) override {
         attempt([&](MemoryStore& kept) { kept.remove(ids); });
     }
-    void touch(std::span<const std::string> ids) override {
-        attempt([&](MemoryStore& kept) { kept.touch(ids); });
+    void restartExpiry(std::span<const std::string> ids) override {
+        attempt([&](MemoryStore& kept) { kept.restartExpiry(ids); });
     }
     std::size_t expire(Milliseconds age) override {
         return attempt([&](MemoryStore& kept) {

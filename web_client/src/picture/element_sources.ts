@@ -62,7 +62,7 @@ export class ElementSources {
             edges.add(faceCount + number);
         } else {
             if (element.element === "face") this.addFace(number, edges);
-            else this.addFacesOf(number, edges);
+            else this.addSlicedElementsOf(number, edges);
             if (element.element === "cell") this.addSectionEnds(number, edges);
             this.addEdgesBetween(ownVertices, edges);
         }
@@ -156,7 +156,7 @@ export class ElementSources {
     }
 
     /** Adds those 2-faces and edges of a cell that slices cut or contain. */
-    private addFacesOf(cell: number, sources: Set<number>): void {
+    private addSlicedElementsOf(cell: number, sources: Set<number>): void {
         for (const { vertices, edges, faces, of } of this.slices) {
             if (!of.faces.includes(cell)) continue;
             const isCorner = new Uint8Array(vertices.length / 3);

@@ -68,7 +68,7 @@ export class Stage {
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
-        // After a loss, three.js lets the browser restore the context, and then uploads its data to the new one.
+        // After the loss of the WebGL context, three.js lets the browser restore it, and then uploads its data again.
         for (const change of ["lost", "restored"]) {
             this.canvases.solids.addEventListener(`webglcontext${change}`, () => {
                 this.isContextLost = change === "lost";
