@@ -219,6 +219,7 @@ class Exporter {
                std::to_string(element_->index);
     }
     bool isCloud() const { return std::holds_alternative<slicing::CloudPtr>(object_); }
+    bool hasCells() const { return slicing::elementCount(object_, slicing::ElementKind::cell) > 0; }
     const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
 
     void refuseOtherContents() const {
@@ -276,15 +277,18 @@ class Exporter {
             least = std::min(least, v.w);
             most = std::max(most, v.w);
         }
-        if (isCloud() && request_.body == Body::solid) {
-            throw ExportRefused{{ExportRefusal::Cause::no_body,
-                                 "points have no volume; choose body=skeleton, whose balls are the points"}};
+        if (!hasCells() && request_.body == Body::solid) {
+            throw ExportRefused{
+                {ExportRefusal::Cause::no_body,
+                 isCloud() ? "points have no volume; choose body=skeleton, whose balls are the points"
+                           : "the object has no cells, so its slices are curves, which have no volume; choose "
+                             "body=skeleton, whose bars are the curves"}};
         }
         const std::string reach =
             text::roundedDecimal(origin().w + least) + " to " + text::roundedDecimal(origin().w + most);
         const bool many = slices_.planes.count > 1;
         const bool isField = slicing::fieldIn(object_) != nullptr;
-        const std::string kind = isField ? "field" : isCloud() ? "points" : "polytope";
+        const std::string kind = isField ? "field" : isCloud() ? "points" : hasCells() ? "polytope" : "object";
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
             message += wOf(0);

@@ -16,7 +16,7 @@ struct CellType {
     bool operator==(const CellType&) const = default;
 };
 
-/// The properties that 4-D objects of all kinds (polytopes, point clouds and fields) have.
+/// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
     std::string name;
     std::uint64_t serial = 0;    ///< unique among the objects in this process; the key of an object in caches
@@ -26,7 +26,7 @@ struct ObjectInfo {
                                  ///< these coordinates mapped by the frame of reference. 0 unless loading moved the
                                  ///< object (see Centering)
     bool convex = true;          ///< false for a polytope that is not the boundary of a convex body: the faces of
-                                 ///< its slices may cross each other; true for every point cloud and field
+                                 ///< its slices may cross each other; true for all other kinds of objects
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };

@@ -42,6 +42,10 @@ PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std:
     return cloud;
 }
 
+std::size_t memoryOf(const PointCloud& cloud) {
+    return sizeof cloud + cloud.points.size() * (sizeof(glm::dvec4) + sizeof(double));
+}
+
 PointCloud transformedTo(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial) {
     PointCloud image = cloud;
     image.serial = serial;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct PointCloud : ObjectInfo {
 /// finite, if a radius is negative, or if there are no points. If all points are at the origin, the circumradius is the
 /// largest radius or, if all radii are 0, it is 1.
 PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std::vector<double> radii);
+
+/// Returns the memory that the cloud occupies, in bytes, without its name.
+std::size_t memoryOf(const PointCloud& cloud);
 
 /// Returns the cloud in the coordinates of `frame`, with the serial number `serial`. The radii of the balls do not
 /// change.

@@ -19,20 +19,20 @@ void append(std::string& out, const geometry::JaggedArray& rows) {
 
 }  // namespace
 
-std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vertices) {
-    std::string name = polytope.name;
+std::string write4Off(const geometry::CellComplex& complex, std::span<const glm::dvec4> vertices) {
+    std::string name = complex.name;
     std::ranges::replace_if(name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     std::string out = "4OFF\n# " + name + "\n# vertices, 2-faces, edges, cells\n" + std::to_string(vertices.size()) +
-                      ' ' + std::to_string(polytope.faces.size()) + ' ' + std::to_string(polytope.edges.size()) + ' ' +
-                      std::to_string(polytope.cells.size()) + '\n';
+                      ' ' + std::to_string(complex.faces.size()) + ' ' + std::to_string(complex.edges.size()) + ' ' +
+                      std::to_string(complex.cells.size()) + '\n';
     for (const glm::dvec4& v : vertices) {
         for (int axis = 0; axis < 4; ++axis) {
             out += text::shortestDecimal(v[axis]);
             out += axis < 3 ? ' ' : '\n';
         }
     }
-    append(out, polytope.faces);
-    append(out, polytope.cells);
+    append(out, complex.faces);
+    append(out, complex.cells);
     return out;
 }
 

@@ -5,13 +5,13 @@
 
 #include <glm/vec4.hpp>
 
-#include "polytopes/polytope.hpp"
+#include "geometry/cell_complex.hpp"
 
 namespace oval4d::polytopes {
 
-/// Returns the polytope as the text of a 4OFF file (Geomview's OFF format in four dimensions). The file contains
-/// `vertices`, for example rotated ones, in place of polytope.vertices; both have the same order. Numbers are written
-/// such that reading them gives the same doubles. importPolytope() reads the file.
-std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vertices);
+/// Returns a polytope or another cell complex as the text of a 4OFF file (Geomview's OFF format in four dimensions).
+/// The file contains `vertices`, for example rotated ones, in place of complex.vertices; both have the same order.
+/// Numbers are written such that reading them gives the same doubles. importPolytope() reads the file.
+std::string write4Off(const geometry::CellComplex& complex, std::span<const glm::dvec4> vertices);
 
 }  // namespace oval4d::polytopes

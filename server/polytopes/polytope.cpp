@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -30,22 +28,14 @@ std::string nameOf(Part part, std::size_t index) {
     return (part == Part::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
 }
 
-void findEdges(Polytope& p) {
-    std::unordered_map<std::uint64_t, std::uint32_t> known;
-    known.reserve(p.faces.items.size());
-    for (std::size_t f = 0; f < p.faces.size(); ++f) {
-        const auto loop = p.faces[f];
-        std::vector<std::uint32_t> edges;
-        edges.reserve(loop.size());
+// Throws InvalidPolytope if a vertex follows itself in the loop of a 2-face.
+void checkLoops(const geometry::JaggedArray& faces) {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto loop = faces[f];
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-            if (a == b) throw InvalidPolytope(Part::face, f, "repeats vertex " + std::to_string(a));
-            const auto [at, fresh] =
-                known.try_emplace((std::uint64_t{a} << 32) | b, static_cast<std::uint32_t>(p.edges.size()));
-            if (fresh) p.edges.push_back({a, b});
-            edges.push_back(at->second);
+            if (loop[i] == loop[(i + 1) % loop.size()])
+                throw InvalidPolytope(Part::face, f, "repeats vertex " + std::to_string(loop[i]));
         }
-        p.faceEdges.add(edges);
     }
 }
 
@@ -217,22 +207,6 @@ class Orienter {
     std::vector<bool> done_;
 };
 
-// Returns whether a vertex loop is a convex polygon: whether it turns the same way at every corner, by 2π in total.
-bool isConvexLoop(const Polytope& p, std::span<const std::uint32_t> loop) {
-    if (loop.size() == 3) return true;
-    const std::size_t n = loop.size();
-    const auto side = [&](std::size_t i) { return p.vertices[loop[(i + 1) % n]] - p.vertices[loop[i % n]]; };
-    double turning = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const glm::dvec4 a = side(i);
-        const glm::dvec4 b = side(i + 1);
-        const double inner = glm::dot(a, b);
-        turning += std::acos(std::clamp(inner / (glm::length(a) * glm::length(b)), -1.0, 1.0));
-    }
-    // The absolute values of the exterior angles add up to 2π for convex loops only.
-    return turning < 2 * std::numbers::pi + 1e-6;
-}
-
 void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part owner, const char* member,
                   std::size_t least) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -310,8 +284,9 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
     if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
     checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
     checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
+    checkLoops(p.faces);
     findEdges(p);
-    for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvexLoop(p, p.faces[f]);
+    p.convexFaces = hasConvexFaces(p);
     Orienter orient(p);
     findFacesAtEdges(p);
     numberCellTypes(p, typeOfCell.empty() ? cellTypesByShape(p) : std::move(typeOfCell));
@@ -328,14 +303,8 @@ Polytope transformedTo(const Polytope& polytope, const geometry::ReferenceFrame&
     return image;
 }
 
-std::size_t memoryOf(const Polytope& p) {
-    const auto memoryOf = [](const geometry::JaggedArray& lists) {
-        return sizeof(std::uint32_t) * (lists.begin.size() + lists.items.size());
-    };
-    return sizeof p + p.vertices.size() * sizeof p.vertices[0] + p.edges.size() * sizeof p.edges[0] +
-           p.faceCells.size() * sizeof p.faceCells[0] + p.cellSigns.size() +
-           p.typeOfCell.size() * sizeof p.typeOfCell[0] + memoryOf(p.faces) + memoryOf(p.faceEdges) +
-           memoryOf(p.edgeFaces) + memoryOf(p.cells);
+std::size_t memoryOf(const Polytope& polytope) {
+    return sizeof polytope + memoryOfElements(polytope) + memoryOfRows(polytope.edgeFaces);
 }
 
 }  // namespace oval4d::polytopes

@@ -1,7 +1,6 @@
 #pragma once
 // A 4-D polytope with all its elements and their incidences.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,37 +10,21 @@
 
 #include <glm/vec4.hpp>
 
+#include "geometry/cell_complex.hpp"
 #include "geometry/jagged_array.hpp"
-#include "geometry/object_info.hpp"
 #include "geometry/reference_frame.hpp"
 
 namespace oval4d::polytopes {
 
 using geometry::CellType;
 
-/// A 4-D polytope: its vertices, edges, 2-faces and cells. makePolytope() builds it. Threads and sessions share it as a
-/// const object. Indices are 0-based and have 32 bits.
-struct Polytope : geometry::ObjectInfo {
-    std::vector<glm::dvec4> vertices;                 ///< in arbitrary units; if the polytope was built from a name,
-                                                      ///< its center is the origin
-    std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices, the smaller index first
-    geometry::JaggedArray faces;                      ///< the vertex loop of each 2-face
-    geometry::JaggedArray faceEdges;                  ///< the edges of each 2-face; edge i joins the vertices
-                                                      ///< i and i + 1 of its loop
-    geometry::JaggedArray edgeFaces;                  ///< the 2-faces around each edge, in cyclic order (several
-                                                      ///< cycles are stored one after another): 2-face f is
-                                                      ///< stored as 2 f + 1 if its vertex loop traverses the edge
-                                                      ///< from the edge's first vertex to its second, else as 2 f.
-                                                      ///< The cell between an entry s and the next entry of its
-                                                      ///< cycle is faceCells[s / 2][1 − s mod 2]
-    geometry::JaggedArray cells;                      ///< the 2-faces of each cell
-    std::vector<std::int8_t> cellSigns;               ///< parallel to cells.items: +1 if the vertex loop of the 2-face
-                                                      ///< is counterclockwise seen from outside the cell, else −1;
-                                                      ///< a 2-face has opposite signs in its two cells
-    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
-                                                          ///< sign of the 2-face is −1
-    std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
-    bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
+/// A 4-D polytope: a cell complex that is the boundary of a body, or of several. makePolytope() builds it. Threads and
+/// sessions share it as a const object. If it was built from a name, its center is the origin.
+struct Polytope : geometry::CellComplex {
+    /// The 2-faces around each edge, in cyclic order (several cycles are stored one after another): 2-face f is stored
+    /// as 2 f + 1 if its vertex loop traverses the edge from the edge's first vertex to its second, else as 2 f. The
+    /// cell between an entry s and the next entry of its cycle is faceCells[s / 2][1 − s mod 2].
+    geometry::JaggedArray edgeFaces;
 
     std::size_t cellCount() const { return cells.size(); }
 };

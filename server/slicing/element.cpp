@@ -20,12 +20,13 @@ namespace oval4d::slicing {
 
 namespace {
 
-using polytopes::Polytope;
+using geometry::CellComplex;
+using geometry::PointCloud;
 
 // Calls `visit` with the number of each vertex of the element. For a cell, visits a vertex once for each 2-face of the
 // cell that contains the vertex.
 template <typename Visit>
-void visitVertexNumbers(const Polytope& p, const Element& element, Visit visit) {
+void visitVertexNumbers(const CellComplex& p, const Element& element, Visit visit) {
     const std::size_t i = element.index;
     switch (element.kind) {
         case ElementKind::vertex:
@@ -46,25 +47,25 @@ void visitVertexNumbers(const Polytope& p, const Element& element, Visit visit) 
 }
 
 template <typename Visit>
-void visitVertexNumbers(const geometry::PointCloud& /*cloud*/, const Element& element, Visit visit) {
+void visitVertexNumbers(const PointCloud& /*cloud*/, const Element& element, Visit visit) {
     visit(static_cast<std::uint32_t>(element.index));
 }
 
-const std::vector<glm::dvec4>& verticesOf(const Polytope& p) { return p.vertices; }
-const std::vector<glm::dvec4>& verticesOf(const geometry::PointCloud& cloud) { return cloud.points; }
+const std::vector<glm::dvec4>& verticesOf(const CellComplex& p) { return p.vertices; }
+const std::vector<glm::dvec4>& verticesOf(const PointCloud& cloud) { return cloud.points; }
 
 // Calls `visit` with the position of each vertex of the element, as often as visitVertexNumbers() does.
-template <typename Solid, typename Visit>
-void visitVertices(const Solid& object, const Element& element, Visit visit) {
+template <typename Elements, typename Visit>
+void visitVertices(const Elements& object, const Element& element, Visit visit) {
     visitVertexNumbers(object, element, [&](std::uint32_t v) { visit(verticesOf(object)[v]); });
 }
 
 // Tells which elements contain a given element, or are contained in it. An element contains another one if it contains
 // all vertices of the other one.
-template <typename Solid>
+template <typename Elements>
 class Incidence {
   public:
-    Incidence(const Solid& object, const Element& element) : object_(object), element_(element) {
+    Incidence(const Elements& object, const Element& element) : object_(object), element_(element) {
         isOwn_.resize(verticesOf(object).size());
         visitVertexNumbers(object, element, [&](std::uint32_t v) { isOwn_[v] = true; });
         own_ = static_cast<std::size_t>(std::ranges::count(isOwn_, true));
@@ -87,7 +88,7 @@ class Incidence {
     }
 
   private:
-    const Solid& object_;
+    const Elements& object_;
     Element element_;
     std::vector<bool> isOwn_;  // per vertex of the object: whether the given element contains it
     std::size_t own_ = 0;      // the number of vertices of the given element
@@ -129,8 +130,8 @@ class Span {
 
 // Computes directionOf(). `points` is a buffer, which is overwritten. Passing the same buffer for many elements avoids
 // an allocation for each of them.
-template <typename Solid>
-glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred,
+template <typename Elements>
+glm::dvec4 directionIn(const Elements& object, const Element& element, const glm::dvec4& preferred,
                        std::vector<glm::dvec4>& points) {
     const double tolerance = 1e-6 * object.circumradius;
     points.clear();
@@ -152,7 +153,7 @@ glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::d
     return best;
 }
 
-void findSourcesIn(const Polytope& p, const Element& element, PartsShowingElement& out) {
+void findSourcesIn(const CellComplex& p, const Element& element, PartsShowingElement& out) {
     const auto index = static_cast<std::uint32_t>(element.index);
     const auto edgeCount = static_cast<std::uint32_t>(p.edges.size());
     const auto faceCount = static_cast<std::uint32_t>(p.faces.size());
@@ -185,14 +186,14 @@ void findSourcesIn(const Polytope& p, const Element& element, PartsShowingElemen
     }
 }
 
-void findSourcesIn(const geometry::PointCloud& /*cloud*/, const Element& element, PartsShowingElement& out) {
+void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsShowingElement& out) {
     out.vertices.push_back(static_cast<std::uint32_t>(element.index));
     out.ownVertices = out.vertices;
 }
 
-// Sets the length, area or volume in `out`. `toFile` is the linear part of the map from the polytope's coordinates to
+// Sets the length, area or volume in `out`. `toFile` is the linear part of the map from the object's coordinates to
 // those of its file.
-void measureSize(const Polytope& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
+void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
     const glm::dvec4 base = points.front();  // coordinates relative to a vertex of the element minimize cancellation
@@ -240,8 +241,8 @@ std::size_t elementCount(const Object& object, ElementKind kind) {
 
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
     std::vector<glm::dvec4> points;
-    return visitPolytopeOrCloud([&](const auto& shared) { return directionIn(*shared, element, preferred, points); },
-                                object);
+    return visitElements([&](const auto& elements) { return directionIn(elements, element, preferred, points); },
+                         object);
 }
 
 geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
@@ -257,13 +258,13 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     double best = -2;
     std::size_t nearest = 0;  // the index in `candidates` of the element with the cosine `best`
     std::vector<glm::dvec4> points;
-    const auto findNearest = [&](const auto& shared) {
+    const auto findNearest = [&](const auto& elements) {
         if (incident) {
-            Incidence isIncident(*shared, *incident);
+            Incidence isIncident(elements, *incident);
             std::erase_if(candidates, [&](std::size_t i) { return !isIncident(Element{kind, i}); });
         }
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const double cosine = glm::dot(w, glm::normalize(directionIn(*shared, {kind, candidates[i]}, w, points)));
+            const double cosine = glm::dot(w, glm::normalize(directionIn(elements, {kind, candidates[i]}, w, points)));
             // Elements at the same angle are equally near. The first of them is chosen, so that rounding does not
             // decide.
             constexpr double kSame = 1e-9;
@@ -273,7 +274,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
             }
         }
     };
-    visitPolytopeOrCloud(findNearest, object);
+    visitElements(findNearest, object);
     if (candidates.empty()) return std::nullopt;
     constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6 radians
     if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
@@ -286,7 +287,7 @@ void PartsShowingElement::clear() {
 
 void findSourcesShowing(const Object& object, const Element& element, PartsShowingElement& out) {
     out.clear();
-    visitPolytopeOrCloud([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
+    visitElements([&](const auto& elements) { findSourcesIn(elements, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {
         std::ranges::sort(*list);
         list->erase(std::unique(list->begin(), list->end()), list->end());
@@ -295,9 +296,9 @@ void findSourcesShowing(const Object& object, const Element& element, PartsShowi
 
 ElementMeasurements measureElement(const Object& object, const Element& element) {
     std::vector<std::uint32_t> vertices;
-    visitPolytopeOrCloud(
-        [&](const auto& shared) {
-            visitVertexNumbers(*shared, element, [&](std::uint32_t v) { vertices.push_back(v); });
+    visitElements(
+        [&](const auto& elements) {
+            visitVertexNumbers(elements, element, [&](std::uint32_t v) { vertices.push_back(v); });
         },
         object);
     std::ranges::sort(vertices);
@@ -307,9 +308,9 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
     out.center /= static_cast<double>(vertices.size());
     const fields::Field* const field = fieldIn(object);
     const glm::dmat4 toFile = field == nullptr ? glm::dmat4(1) : field->toFunction;
-    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { measureSize(*p, element, toFile, out); },
-                                    [](const CloudPtr& /*cloud*/) {}},
-                         object);
+    visitElements(Overloaded{[&](const CellComplex& complex) { measureSize(complex, element, toFile, out); },
+                             [](const PointCloud& /*cloud*/) {}},
+                  object);
     return out;
 }
 
@@ -333,9 +334,7 @@ std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Ro
         heights.reserve(vertices.size());
         for (const glm::dvec4& v : vertices) heights.push_back(glm::dot(direction, v));
     };
-    visitPolytopeOrCloud(
-        Overloaded{[&](const PolytopePtr& p) { add(p->vertices); }, [&](const CloudPtr& cloud) { add(cloud->points); }},
-        object);
+    visitElements([&](const auto& elements) { add(verticesOf(elements)); }, object);
     return groupHeights(std::move(heights), kOnPlaneTolerance * infoOf(object).circumradius);
 }
 
@@ -351,9 +350,7 @@ std::optional<double> nextVertexHeight(const Object& object, const geometry::Rot
             if (beyond && (!next || (upward ? height < *next : height > *next))) next = height;
         }
     };
-    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { consider(p->vertices); },
-                                    [&](const CloudPtr& cloud) { consider(cloud->points); }},
-                         object);
+    visitElements([&](const auto& elements) { consider(verticesOf(elements)); }, object);
     return next;
 }
 

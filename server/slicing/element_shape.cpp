@@ -15,7 +15,8 @@ namespace oval4d::slicing {
 
 namespace {
 
-using polytopes::Polytope;
+using geometry::CellComplex;
+using geometry::PointCloud;
 
 // Returns the index of a number in a sorted list that contains it.
 std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
@@ -34,8 +35,8 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 }
 
 // Appends the 2-faces of a cell. `vertices` and `edges` are the sorted numbers of the cell's vertices and edges in the
-// polytope; `out` must already contain these vertices.
-void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
+// complex; `out` must already contain these vertices.
+void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
     // Directed by their cellSigns, the loops of the 2-faces are all counterclockwise or all clockwise in the
@@ -63,7 +64,7 @@ void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::ui
 
 // Appends the vertices, edges and 2-faces of the shape to `out`, but no entries to vertexBegin, edgeBegin and
 // faceBegin. Returns the w coordinate of the shape.
-double addShape(const Polytope& p, const Element& element, const PartsShowingElement& sources,
+double addShape(const CellComplex& p, const Element& element, const PartsShowingElement& sources,
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;
     const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
@@ -92,10 +93,10 @@ void writeElementAsSlice(const Object& object, const Element& element, const geo
     out.surfaces.clear();
     out.fogs.clear();
     out.clearSlices();
-    const double w = visitPolytopeOrCloud(
+    const double w = visitElements(
         Overloaded{
-            [&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
-            [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},
+            [&](const CellComplex& complex) { return addShape(complex, element, sources, turn, out); },
+            [&](const PointCloud& cloud) { return addVertices(cloud.points, sources.ownVertices, 0, turn, out); }},
         object);
     out.planes = {0, 1, 1, w};
     out.vertexBegin.push_back(static_cast<std::uint32_t>(out.vertices.size()));

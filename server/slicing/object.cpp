@@ -17,19 +17,20 @@ namespace oval4d::slicing {
 
 namespace {
 
-using polytopes::Polytope;
+using geometry::CellComplex;
+using geometry::PointCloud;
 
 const std::vector<glm::dvec4>& verticesOf(const Object& object) {
-    return visitPolytopeOrCloud(
-        Overloaded{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
-                   [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
+    return visitElements(
+        Overloaded{[](const CellComplex& complex) -> const std::vector<glm::dvec4>& { return complex.vertices; },
+                   [](const PointCloud& cloud) -> const std::vector<glm::dvec4>& { return cloud.points; }},
         object);
 }
 
 // The radius is small, because the domain's edges only frame the surfaces.
 double relativeBallRadius(const fields::Field& /*field*/) { return 0.016; }
 
-double relativeBallRadius(const Polytope& p) {
+double relativeBallRadius(const CellComplex& p) {
     double sum = 0;
     for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
     const double meanEdge = sum / static_cast<double>(p.edges.size());
@@ -38,7 +39,16 @@ double relativeBallRadius(const Polytope& p) {
     return p.convex ? radius : 0.5 * radius;
 }
 
-void findCellCenters(const Polytope& p, std::vector<glm::dvec4>& out) {
+std::size_t memoryOf(const fields::Field& field) {
+    std::size_t functions = 0;
+    if (!field.isTransformed) {
+        functions = field.function->memoryBytes();
+        if (field.second) functions += field.second->function->memoryBytes();
+    }
+    return sizeof field + functions + polytopes::memoryOf(*field.domain);
+}
+
+void findCellCenters(const CellComplex& p, std::vector<glm::dvec4>& out) {
     out.resize(p.cells.size());
     for (std::size_t c = 0; c < out.size(); ++c) {
         glm::dvec4 sum(0);
@@ -64,7 +74,7 @@ glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::
 // cell's 2-faces are divided, oriented as seen from outside the cell: for each triangle, the result of
 // perpendicularTo() for the vectors from a fixed vertex of the cell to the three corners. As the orientations of all
 // cells agree, all normals point outward.
-void findCellHyperplanes(const Polytope& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
+void findCellHyperplanes(const CellComplex& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
     normals.assign(p.cells.size(), glm::dvec4(0));
     offsets.assign(p.cells.size(), 0);
     for (std::size_t c = 0; c < normals.size(); ++c) {
@@ -93,12 +103,12 @@ const geometry::ObjectInfo& infoOf(const Object& object) {
 
 std::array<std::size_t, 4> elementCounts(const Object& object) {
     using Counts = std::array<std::size_t, 4>;
-    return visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& p) {
-                                               return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
-                                                             p->cells.size()};
-                                           },
-                                           [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
-                                object);
+    return visitElements(Overloaded{[](const CellComplex& complex) {
+                                        return Counts{complex.vertices.size(), complex.edges.size(),
+                                                      complex.faces.size(), complex.cells.size()};
+                                    },
+                                    [](const PointCloud& cloud) { return Counts{cloud.points.size(), 0, 0, 0}; }},
+                         object);
 }
 
 const fields::Field* fieldIn(const Object& object) {
@@ -129,20 +139,7 @@ double initialSliceExtent(const Object& object) {
 }
 
 std::size_t memoryOf(const Object& object) {
-    return std::visit(Overloaded{[](const PolytopePtr& p) { return polytopes::memoryOf(*p); },
-                                 [](const CloudPtr& cloud) {
-                                     return sizeof *cloud +
-                                            cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
-                                 },
-                                 [](const FieldPtr& field) {
-                                     std::size_t functions = 0;
-                                     if (!field->isTransformed) {
-                                         functions = field->function->memoryBytes();
-                                         if (field->second) functions += field->second->function->memoryBytes();
-                                     }
-                                     return sizeof *field + functions + polytopes::memoryOf(*field->domain);
-                                 }},
-                      object);
+    return std::visit([](const auto& shared) { return memoryOf(*shared); }, object);
 }
 
 const void* identityOf(const Object& object) {
@@ -172,37 +169,37 @@ double relativeBallRadius(const Object& object) {
 }
 
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
-    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
-                                    [&](const CloudPtr& /*cloud*/) { out.clear(); }},
-                         object);
+    visitElements(Overloaded{[&](const CellComplex& complex) { findCellCenters(complex, out); },
+                             [&](const PointCloud& /*cloud*/) { out.clear(); }},
+                  object);
 }
 
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
-    visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
-                                    [&](const CloudPtr& /*cloud*/) {
-                                        normals.clear();
-                                        offsets.clear();
-                                    }},
-                         object);
+    visitElements(Overloaded{[&](const CellComplex& complex) { findCellHyperplanes(complex, normals, offsets); },
+                             [&](const PointCloud& /*cloud*/) {
+                                 normals.clear();
+                                 offsets.clear();
+                             }},
+                  object);
 }
 
 std::span<const std::uint32_t> typeOfCells(const Object& object) {
     using Types = std::span<const std::uint32_t>;
-    return visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
-                                           [](const CloudPtr& /*cloud*/) { return Types(); }},
-                                object);
+    return visitElements(Overloaded{[](const CellComplex& complex) { return Types(complex.typeOfCell); },
+                                    [](const PointCloud& /*cloud*/) { return Types(); }},
+                         object);
 }
 
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
     std::vector<glm::dvec4> vertices(rotatedVertices.begin(), rotatedVertices.end());
     for (glm::dvec4& v : vertices) v += infoOf(object).originInFile;
-    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
-                                           [&](const CloudPtr& cloud) {
-                                               Polytope points;
-                                               points.name = cloud->name;
-                                               return polytopes::write4Off(points, vertices);
-                                           }},
-                                object);
+    return visitElements(Overloaded{[&](const CellComplex& complex) { return polytopes::write4Off(complex, vertices); },
+                                    [&](const PointCloud& cloud) {
+                                        CellComplex points;
+                                        points.name = cloud.name;
+                                        return polytopes::write4Off(points, vertices);
+                                    }},
+                         object);
 }
 
 }  // namespace oval4d::slicing

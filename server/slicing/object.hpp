@@ -1,9 +1,10 @@
 #pragma once
 // The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new kind
 // needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
-// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. All other code uses these functions;
-// some of the other code also asks whether an object is a point cloud or a field (fieldIn()), because only fields have
-// levels and fog.
+// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. If it is derived from
+// geometry::CellComplex, only code that stores and reads objects distinguishes it from other cell complexes. All other
+// code uses these functions; some of the other code also asks whether an object is a point cloud or a field
+// (fieldIn()), because only fields have levels and fog.
 
 #include <array>
 #include <cstddef>
@@ -77,7 +78,7 @@ glm::dvec4 vertexInFile(const Object& object, std::size_t index);
 /// Returns the smallest and the largest w coordinate of the vertices after rotation by `orientation`.
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation);
 
-/// Returns the radius of the balls drawn at slice vertices, as a fraction of the circumradius. For a polytope, the
+/// Returns the radius of the balls drawn at slice vertices, as a fraction of the circumradius. For a cell complex, the
 /// radius grows with the mean edge length, so that balls neither hide the slices of a 120-cell nor look too small in
 /// slices of a 5-cell. For a point cloud, the radius is smaller if there are more points. For a field, it is constant.
 /// Takes time linear in the number of edges.

@@ -26,9 +26,9 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 /// std::runtime_error if bytes or files are missing.
 Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
-/// Writes the data from which readParts() rebuilds the object, without its name. For a polytope, these are the
-/// vertices, 2-faces, cells and cell types; for a cloud, the points and radii; for both, also ObjectInfo::originInFile.
-/// For a field, these are the functions (formulas or samples) and the domain.
+/// Writes the data from which readParts() rebuilds the object, without its name: for a polytope, its vertices, 2-faces,
+/// cells and cell types; for a field, its functions (formulas or samples) and domain; for any other object, what
+/// its file lists, such as the points and radii of a cloud. For all but fields, also writes ObjectInfo::originInFile.
 ///
 /// The samples of an array are written inline if they are not in a file, or if the object has at most `maxInMemory`
 /// inline samples in total, these included. Otherwise a reference to their file is written, and the file is added to

@@ -1,9 +1,13 @@
 #pragma once
 
-#include <utility>
+#include <concepts>
+#include <memory>
 #include <variant>
 
 #include "fields/field.hpp"
+#include "geometry/cell_complex.hpp"
+#include "geometry/point_cloud.hpp"
+#include "polytopes/polytope.hpp"
 #include "slicing/object.hpp"
 
 namespace oval4d::slicing {
@@ -17,13 +21,18 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // Clang 16 has no implicit deduction guides for aggregates
 
-/// Calls `visitor` with the PolytopePtr or CloudPtr in an object or, for a field, with the PolytopePtr of its domain.
-/// Returns the result of this call.
+/// Calls `visitor` with the elements of an object: a const geometry::CellComplex& or, for a point cloud, a const
+/// geometry::PointCloud&. The elements of a field are those of its domain. Returns the result of this call.
 template <typename V>
-decltype(auto) visitPolytopeOrCloud(const V& visitor, const Object& object) {
-    return std::visit(Overloaded{[&](const PolytopePtr& p) -> decltype(auto) { return visitor(p); },
-                                 [&](const CloudPtr& cloud) -> decltype(auto) { return visitor(cloud); },
-                                 [&](const FieldPtr& field) -> decltype(auto) { return visitor(field->domain); }},
+decltype(auto) visitElements(const V& visitor, const Object& object) {
+    return std::visit(Overloaded{[&]<std::derived_from<geometry::CellComplex> Complex>(
+                                     const std::shared_ptr<const Complex>& complex) -> decltype(auto) {
+                                     return visitor(static_cast<const geometry::CellComplex&>(*complex));
+                                 },
+                                 [&](const CloudPtr& cloud) -> decltype(auto) { return visitor(*cloud); },
+                                 [&](const FieldPtr& field) -> decltype(auto) {
+                                     return visitor(static_cast<const geometry::CellComplex&>(*field->domain));
+                                 }},
                       object);
 }
 

@@ -11,10 +11,11 @@
 #include "slicing/listed_hyperplanes.hpp"
 #include "slicing/prefix_sums.hpp"
 
-// The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down into
+// The complex is cut just above each hyperplane, where there are no vertices, and the section is then moved down into
 // the hyperplane. A point on an edge that starts in the hyperplane moves to the vertex where the edge starts. A segment
 // in a 2-face that has an edge in the hyperplane moves to this edge. Elements that shrink to a point are removed.
-// Therefore vertices in the hyperplane need no special cases, and sections are closed loops even if 2-faces are stars.
+// Therefore vertices in the hyperplane need no special cases, and sections of cells are closed loops even if 2-faces
+// are stars.
 
 namespace oval4d::slicing {
 
@@ -30,10 +31,22 @@ void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::
     if (!polytope.convex || !cutConvex(polytope, out)) cutGeneral(polytope, out);
 }
 
-void PolytopeSlicer::cutGeneral(const polytopes::Polytope& polytope, SliceSet& out) {
-    cutEdges(polytope, out);
-    cutFaces(polytope, out);
-    cutCells(polytope, out);
+void PolytopeSlicer::slice(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                           const geometry::Hyperplanes& planes, SliceSet& out) {
+    if (!planes.listed.empty()) {
+        cutEach(planes, out,
+                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(complex, orientation, plane, one); });
+        return;
+    }
+    out.planes = planes;
+    locateVertices(complex, orientation, out);
+    cutGeneral(complex, out);
+}
+
+void PolytopeSlicer::cutGeneral(const geometry::CellComplex& complex, SliceSet& out) {
+    cutEdges(complex, out);
+    cutFaces(complex, out);
+    cutCells(complex, out);
 }
 
 bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
@@ -44,7 +57,7 @@ bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& ou
 
 // Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
 // hyperplanes touch it in this way, within the tolerance.
-bool PolytopeSlicer::cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out) {
+bool PolytopeSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
     allBelow_ = below_;
@@ -56,14 +69,14 @@ bool PolytopeSlicer::cutTangentPlanes(const polytopes::Polytope& polytope, Slice
         if (k == allUpTo_[v] || (k >= firstAbove && k < lastBelow) || touching_[k] != nullptr) continue;
         if (touched++ == singles_.size()) break;
         touching_[k] = &singles_.at(touched - 1);
-        cutOnePlane(polytope, out, k, *touching_[k]);
+        cutOnePlane(complex, out, k, *touching_[k]);
     }
     below_.swap(allBelow_);
     upTo_.swap(allUpTo_);
     return touched <= singles_.size();
 }
 
-void PolytopeSlicer::cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane,
+void PolytopeSlicer::cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane,
                                  SliceSet& single) {
     for (std::size_t v = 0; v < below_.size(); ++v) {
         below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
@@ -71,23 +84,23 @@ void PolytopeSlicer::cutOnePlane(const polytopes::Polytope& polytope, SliceSet& 
     }
     single.planes = {all.planes.first + plane, 1, all.planes.spacing, all.planes.offset};
     single.rotatedVertices.swap(all.rotatedVertices);
-    cutGeneral(polytope, single);
+    cutGeneral(complex, single);
     single.rotatedVertices.swap(all.rotatedVertices);
 }
 
-void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+void PolytopeSlicer::locateVertices(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
                                     SliceSet& out) {
     const auto count = static_cast<double>(out.planes.count);
     const double inverse = 1 / out.planes.spacing;
-    const double tolerance = kOnPlaneTolerance * polytope.circumradius * inverse;
+    const double tolerance = kOnPlaneTolerance * complex.circumradius * inverse;
     const glm::dmat4 m = orientation.matrix();
-    const std::size_t n = polytope.vertices.size();
+    const std::size_t n = complex.vertices.size();
     out.rotatedVertices.resize(n);
     below_.resize(n);
     upTo_.resize(n);
     anyOnPlane_ = false;
     for (std::size_t v = 0; v < n; ++v) {
-        out.rotatedVertices[v] = m * polytope.vertices[v];
+        out.rotatedVertices[v] = m * complex.vertices[v];
         const double level = (out.rotatedVertices[v].w - out.planes.offset) * inverse - out.planes.first;
         const double above = std::clamp(level - tolerance, 0.0, count);
         const auto whole = static_cast<std::int32_t>(above);
@@ -97,10 +110,10 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     }
 }
 
-// Finds the slice vertices: the polytope's vertices in hyperplanes, and the points where edges cross hyperplanes.
-void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out) {
-    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
+// Finds the slice vertices: the complex's vertices in hyperplanes, and the points where edges cross hyperplanes.
+void PolytopeSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(complex.edges.size());
+    const auto vertices = static_cast<std::uint32_t>(complex.vertices.size());
     out.vertexBegin.assign(out.planes.count + 1, 0);
     for (std::uint32_t v = 0; v < vertices; ++v) {
         if (below_[v] != upTo_[v]) addToDifferences(out.vertexBegin, below_[v], upTo_[v]);
@@ -108,7 +121,7 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     slotBegin_.resize(edges);
     std::uint32_t slots = 0;
     for (std::uint32_t e = 0; e < edges; ++e) {
-        const auto [a, b] = polytope.edges[e];
+        const auto [a, b] = complex.edges[e];
         slotBegin_[e] = slots;
         slots += std::abs(below_[a] - below_[b]);
         const std::int32_t from = std::min(upTo_[a], upTo_[b]);
@@ -131,7 +144,7 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     }
     std::uint32_t* slot = slotPoint_.data();
     for (std::uint32_t e = 0; e < edges; ++e) {
-        auto [lower, upper] = polytope.edges[e];
+        auto [lower, upper] = complex.edges[e];
         if (below_[lower] == below_[upper]) continue;
         if (below_[lower] > below_[upper]) std::swap(lower, upper);
         std::int32_t k = below_[lower];
@@ -151,9 +164,9 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     }
 }
 
-// Finds the slice edges: the polytope's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
-void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
-    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+// Finds the slice edges: the complex's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
+void PolytopeSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
+    const auto faces = static_cast<std::uint32_t>(complex.faces.size());
     // upTo_ is equal to below_ or one greater. Therefore half of below_ + upTo_ is below_ if rounded down, and upTo_ if
     // rounded up, and one pass over the sums finds the extremes of both.
     rankSum_.resize(below_.size());
@@ -164,9 +177,9 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
     lyingIn_.resize(faces);
     faceCrossingBegin_.resize(faces + 1);
     faceCrossings_.clear();
-    const std::uint32_t* vertex = polytope.faces.items.data();
+    const std::uint32_t* vertex = complex.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
-        const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
+        const std::uint32_t* end = complex.faces.items.data() + complex.faces.begin[f + 1];
         std::int32_t least = rankSum_[*vertex];
         std::int32_t most = least;
         while (++vertex != end) {
@@ -180,18 +193,18 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
         faceCrossingBegin_[f] = static_cast<std::uint32_t>(faceCrossings_.size());
         if (above.from == above.to) continue;
-        if (!polytope.convexFaces || !cutConvexFace(polytope, f, above)) cutNonconvexFace(polytope, f, above, out);
+        if (!complex.convexFaces || !cutConvexFace(complex, f, above)) cutNonconvexFace(complex, f, above, out);
     }
     faceCrossingBegin_[faces] = static_cast<std::uint32_t>(faceCrossings_.size());
-    numberEdges(polytope, out);
+    numberEdges(complex, out);
 }
 
 // The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
 // nothing, if the loop ascends more than once. Rounding errors can have this effect if the 2-face nearly lies in a
 // hyperplane.
-bool PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
-    const auto loop = polytope.faces[face];
-    const auto loopEdges = polytope.faceEdges[face];
+bool PolytopeSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above) {
+    const auto loop = complex.faces[face];
+    const auto loopEdges = complex.faceEdges[face];
     std::int32_t ascents = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int32_t from = below_[loop[i]];
@@ -205,17 +218,17 @@ bool PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uin
         }
     }
     if (ascents != above.to - above.from) return false;
-    for (std::int32_t k = above.from; k < above.to; ++k) addFaceCrossing(polytope, face, k, up_[k], down_[k]);
+    for (std::int32_t k = above.from; k < above.to; ++k) addFaceCrossing(complex, face, k, up_[k], down_[k]);
     return true;
 }
 
 // A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
 // hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
 // overlap, the 2-face covers the line more than once.
-void PolytopeSlicer::cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above,
+void PolytopeSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above,
                                       const SliceSet& out) {
-    const auto loop = polytope.faces[face];
-    const auto loopEdges = polytope.faceEdges[face];
+    const auto loop = complex.faces[face];
+    const auto loopEdges = complex.faceEdges[face];
     for (std::int32_t k = above.from; k < above.to; ++k) {
         ups_.clear();
         downs_.clear();
@@ -238,11 +251,11 @@ void PolytopeSlicer::cutNonconvexFace(const polytopes::Polytope& polytope, std::
             std::sort(crossings->begin(), crossings->end(),
                       [](const LoopCrossing& a, const LoopCrossing& b) { return a.along < b.along; });
         }
-        for (std::size_t i = 0; i < ups_.size(); ++i) addFaceCrossing(polytope, face, k, ups_[i].slot, downs_[i].slot);
+        for (std::size_t i = 0; i < ups_.size(); ++i) addFaceCrossing(complex, face, k, ups_[i].slot, downs_[i].slot);
     }
 }
 
-void PolytopeSlicer::addFaceCrossing(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
+void PolytopeSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane,
                                      std::uint32_t up, std::uint32_t down) {
     std::uint32_t edge = kNewEdge;
     const std::uint32_t a = slotPoint_[up];
@@ -252,24 +265,27 @@ void PolytopeSlicer::addFaceCrossing(const polytopes::Polytope& polytope, std::u
     } else if (plane < faceSpan_[face].from) {
         // The 2-face lies above this hyperplane, with an edge in it: both points are vertices of the 2-face, and the
         // edge between them lies in the hyperplane.
-        for (const std::uint32_t e : polytope.faceEdges[face]) {
-            const auto [v, u] = polytope.edges[e];
+        for (const std::uint32_t e : complex.faceEdges[face]) {
+            const auto [v, u] = complex.edges[e];
             if (!liesInHyperplane({v, u}) || below_[v] != plane) continue;
             if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
         }
+        // A 2-face that is not flat may have vertices in the hyperplane that no edge joins. Cells are flat, so that
+        // only rounding errors separate such a 2-face from the hyperplane, and their sections need the segment.
+        if (edge == kNewEdge && complex.cells.size() == 0) edge = kNone;
     }
     faceCrossings_.push_back({plane, up, down, edge});
 }
 
-void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& out) {
-    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+void PolytopeSlicer::numberEdges(const geometry::CellComplex& complex, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(complex.edges.size());
+    const auto faces = static_cast<std::uint32_t>(complex.faces.size());
     out.edgeBegin.assign(out.planes.count + 1, 0);
     lyingEdges_.clear();
     for (std::uint32_t e = 0; e < edges; ++e) {
-        if (!liesInHyperplane(polytope.edges[e])) continue;
+        if (!liesInHyperplane(complex.edges[e])) continue;
         lyingEdges_.push_back(e);
-        const std::int32_t plane = below_[polytope.edges[e][0]];
+        const std::int32_t plane = below_[complex.edges[e][0]];
         addToDifferences(out.edgeBegin, plane, plane + 1);
     }
     for (const FaceCrossing& crossing : faceCrossings_) {
@@ -287,7 +303,7 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
         return number;
     };
     for (const std::uint32_t e : lyingEdges_) {
-        const auto [a, b] = polytope.edges[e];
+        const auto [a, b] = complex.edges[e];
         sliceEdgeOf_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
     }
     for (std::uint32_t f = 0; f < faces; ++f) {
@@ -302,11 +318,11 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
 }
 
 // Finds the slice faces: 2-faces in hyperplanes, and the polygons in which cells cross hyperplanes.
-void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out) {
-    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
+void PolytopeSlicer::cutCells(const geometry::CellComplex& complex, SliceSet& out) {
+    const auto cells = static_cast<std::uint32_t>(complex.cells.size());
     cellSpan_.resize(cells);
     for (std::uint32_t c = 0; c < cells; ++c) {
-        const auto faces = polytope.cells[c];
+        const auto faces = complex.cells[c];
         Span span = faceSpan_[faces[0]];
         for (const std::uint32_t f : faces) {
             span = {std::min(span.from, faceSpan_[f].from), std::max(span.to, faceSpan_[f].to)};
@@ -315,25 +331,25 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
     }
     lowestSectionCollapses_.assign(cells, true);
     for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c)
-        lowestSectionCollapses_[c] = lowestSectionCollapses(polytope, c, out);
+        lowestSectionCollapses_[c] = lowestSectionCollapses(complex, c, out);
     loops_.clear();
     loopCorners_.clear();
     coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
     next_.assign(slotPoint_.size(), kNone);
     nextEdge_.resize(slotPoint_.size());
-    addLyingFaces(polytope, out);
+    if (cells > 0) addLyingFaces(complex, out);
     for (std::uint32_t c = 0; c < cells; ++c) {
-        if (cellSpan_[c].from < cellSpan_[c].to || !lowestSectionCollapses_[c]) traceCell(polytope, c);
+        if (cellSpan_[c].from < cellSpan_[c].to || !lowestSectionCollapses_[c]) traceCell(complex, c);
     }
     if (coinciding_.any()) removeCoincidingEdges(out);
     placeLoops(out);
 }
 
 // Requires that numberEdges() has run.
-bool PolytopeSlicer::lowestSectionCollapses(const polytopes::Polytope& polytope, std::uint32_t cell,
+bool PolytopeSlicer::lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell,
                                             const SliceSet& out) const {
-    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
-    for (const std::uint32_t f : polytope.cells[cell]) {
+    const auto faces = static_cast<std::uint32_t>(complex.faces.size());
+    for (const std::uint32_t f : complex.cells[cell]) {
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
             const FaceCrossing& crossing = faceCrossings_[i];
             if (crossing.plane >= cellSpan_[cell].from) break;  // the crossings of a 2-face are sorted by hyperplane
@@ -345,12 +361,12 @@ bool PolytopeSlicer::lowestSectionCollapses(const polytopes::Polytope& polytope,
 
 // Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
 // cell: the end of a segment is the start of the next one. Then follows these links to find the closed loops.
-void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_t cell) {
+void PolytopeSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
     const Span span = cellSpan_[cell];
     starts_.clear();
-    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
-        const std::uint32_t f = polytope.cells.items[at];
-        const bool outward = polytope.cellSigns[at] > 0;
+    for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
+        const std::uint32_t f = complex.cells.items[at];
+        const bool outward = complex.cellSigns[at] > 0;
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
             const FaceCrossing& crossing = faceCrossings_[i];
             if (crossing.plane < span.from && lowestSectionCollapses_[cell])
@@ -379,69 +395,69 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
 }
 
 // A 2-face in the hyperplane is a face of the slice if exactly one of its two cells stands on it, above the hyperplane,
-// or if one of its cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the
-// 2-face in this cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
-void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
+// or if one of its cells lies in the hyperplane, on top of the complex. The slice face then has the orientation of the
+// 2-face in this cell. If the complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
+void PolytopeSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
-    for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
         const std::int32_t plane = lyingIn_[f];
         if (plane == kNoPlane) continue;
         std::array<bool, 2> standsOnFace{};
         std::array<bool, 2> bounds{};
         std::array<bool, 2> outward{};
         for (std::size_t i = 0; i < 2; ++i) {
-            const std::uint32_t cell = polytope.faceCells[f].at(i);
-            const auto faces = polytope.cells[cell];
+            const std::uint32_t cell = complex.faceCells[f].at(i);
+            const auto faces = complex.cells[cell];
             const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
-            outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
+            outward.at(i) = complex.cellSigns[complex.cells.begin[cell] + place] > 0;
             const Span span = cellSpan_[cell];
             standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) =
-                standsOnFace.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
+                standsOnFace.at(i) || (span.from > plane && span.to <= plane && liesOnTop(complex, cell, out));
         }
         if ((standsOnFace[0] && standsOnFace[1]) || (!bounds[0] && !bounds[1])) {
             touchingFaces_.push_back(f);
             continue;
         }
         for (std::size_t i = 0; i < 2; ++i) {
-            if (bounds.at(i)) addLyingFace(polytope, f, outward.at(i));
+            if (bounds.at(i)) addLyingFace(complex, f, outward.at(i));
         }
     }
     for (const std::uint32_t f : touchingFaces_) {
         bool alone = true;
-        for (const std::uint32_t cell : polytope.faceCells[f]) {
+        for (const std::uint32_t cell : complex.faceCells[f]) {
             const bool stands = cellSpan_[cell].from > lyingIn_[f] && lowestSectionCollapses_[cell];
             alone = alone && (stands || cellSpan_[cell].to <= lyingIn_[f]);
         }
-        if (alone && !bounded_[lyingIn_[f]]) addLyingFace(polytope, f, true);
+        if (alone && !bounded_[lyingIn_[f]]) addLyingFace(complex, f, true);
     }
 }
 
-void PolytopeSlicer::addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward) {
-    const auto loop = polytope.faces[face];
+void PolytopeSlicer::addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward) {
+    const auto loop = complex.faces[face];
     const std::size_t n = loop.size();
     bounded_[lyingIn_[face]] = true;
-    loops_.push_back({lyingIn_[face], static_cast<std::uint32_t>(polytope.cells.size()) + face,
+    loops_.push_back({lyingIn_[face], static_cast<std::uint32_t>(complex.cells.size()) + face,
                       static_cast<std::uint32_t>(loopCorners_.size()), static_cast<std::uint32_t>(n)});
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t corner = forward ? i : (n - i) % n;
         const std::size_t edge = forward ? i : n - 1 - i;
-        loopCorners_.push_back({vertexPoint_[loop[corner]], sliceEdgeOf_[polytope.faceEdges[face][edge]]});
+        loopCorners_.push_back({vertexPoint_[loop[corner]], sliceEdgeOf_[complex.faceEdges[face][edge]]});
     }
 }
 
-// Returns whether a cell in a hyperplane lies on top of the polytope, so that its outer side faces toward larger w.
+// Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w.
 // This is the case if its 2-faces, oriented as in this cell, enclose a positive volume.
-bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+bool PolytopeSlicer::liesOnTop(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const {
     double volume = 0;
-    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
-        const auto loop = polytope.faces[polytope.cells.items[at]];
+    for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
+        const auto loop = complex.faces[complex.cells.items[at]];
         const glm::dvec3 first(out.rotatedVertices[loop[0]]);
         for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
             const glm::dvec3 normal =
                 glm::cross(glm::dvec3(out.rotatedVertices[loop[i]]), glm::dvec3(out.rotatedVertices[loop[i + 1]]));
-            volume += polytope.cellSigns[at] * glm::dot(first, normal);
+            volume += complex.cellSigns[at] * glm::dot(first, normal);
         }
     }
     return volume > 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Slices a polytope by parallel hyperplanes w = const.
+// Slices a polytope or another cell complex by parallel hyperplanes w = const.
 
 #include <array>
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "geometry/cell_complex.hpp"
 #include "geometry/rotation.hpp"
 #include "parallel/fork_join.hpp"
 #include "polytopes/polytope.hpp"
@@ -19,16 +20,19 @@
 
 namespace oval4d::slicing {
 
-/// Slices polytopes, convex or not. Reuses its memory, so that repeated calls of similar size allocate nothing. Only
-/// one thread at a time may use a slicer.
+/// Slices polytopes, convex or not, and other cell complexes. Reuses its memory, so that repeated calls of similar size
+/// allocate nothing. Only one thread at a time may use a slicer.
 class PolytopeSlicer {
   public:
     /// If `forkJoin` is not null, may slice large convex polytopes on two cores. `forkJoin` must outlive this object.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
-    /// Slices `polytope` rotated by `orientation`. Overwrites `out`, except ballScale, ballOpacity, surfaces and fogs,
-    /// and reuses its memory.
+    /// Slices an object rotated by `orientation`. A slice of a cell complex without cells has no faces: where a 2-face
+    /// lies in the hyperplane, the slice has its edges. Overwrites `out`, except ballScale, ballOpacity, surfaces and
+    /// fogs, and reuses its memory.
     void slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+               const geometry::Hyperplanes& planes, SliceSet& out);
+    void slice(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
@@ -44,8 +48,8 @@ class PolytopeSlicer {
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
     // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
     // down into the hyperplane. Until numberEdges() runs, the slice edge of a segment that does not shrink is not
-    // known: `edge` is the index of the polytope edge in the hyperplane to which the segment moves, or kNewEdge if the
-    // segment moves to no polytope edge.
+    // known: `edge` is the index of the complex's edge in the hyperplane to which the segment moves, or kNewEdge if the
+    // segment moves to no edge of the complex.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
@@ -64,38 +68,38 @@ class PolytopeSlicer {
     };
 
     // Rotates the vertices and counts the hyperplanes below each vertex.
-    void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
-    // Cuts all slices by the general method, which also handles nonconvex polytopes.
-    void cutGeneral(const polytopes::Polytope& polytope, SliceSet& out);
+    void locateVertices(const geometry::CellComplex& complex, const geometry::Rotation& orientation, SliceSet& out);
+    // Cuts all slices by the general method, which also handles nonconvex polytopes and other cell complexes.
+    void cutGeneral(const geometry::CellComplex& complex, SliceSet& out);
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false, and leaves `out` unusable, if
     // more than two hyperplanes touch the polytope or if rounding errors prevent the cut.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
-    bool cutTangentPlanes(const polytopes::Polytope& polytope, SliceSet& out);
+    bool cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out);
     // Cuts one slice, in the hyperplane with the index `plane` in `all.planes`, and writes it to `single`. Borrows
     // `all.rotatedVertices` meanwhile, and returns them at the end.
-    void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
-    void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
-    void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
-    bool cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
-    void cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
-    void addFaceCrossing(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+    void cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane, SliceSet& single);
+    void cutEdges(const geometry::CellComplex& complex, SliceSet& out);
+    void cutFaces(const geometry::CellComplex& complex, SliceSet& out);
+    bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above);
+    void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above, const SliceSet& out);
+    void addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane, std::uint32_t up,
                          std::uint32_t down);
-    void numberEdges(const polytopes::Polytope& polytope, SliceSet& out);
+    void numberEdges(const geometry::CellComplex& complex, SliceSet& out);
     // Returns whether the whole edge lies in a hyperplane.
     bool liesInHyperplane(const std::array<std::uint32_t, 2>& edge) const {
         return below_[edge[0]] == below_[edge[1]] && below_[edge[0]] < upTo_[edge[0]] &&
                below_[edge[1]] < upTo_[edge[1]];
     }
-    void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
+    void cutCells(const geometry::CellComplex& complex, SliceSet& out);
     // Considers the hyperplane through a cell's lowest vertices, and the section of the cell just above it. Returns
-    // whether each segment of this section, when it is moved down into the hyperplane, moves to an edge of the polytope
+    // whether each segment of this section, when it is moved down into the hyperplane, moves to an edge of the complex
     // or shrinks to a point. If a segment does neither, the cell itself nearly lies in the hyperplane. Returns true if
     // no hyperplane contains the cell's lowest vertices.
-    bool lowestSectionCollapses(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
-    void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
-    void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
-    bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
-    void traceCell(const polytopes::Polytope& polytope, std::uint32_t cell);
+    bool lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
+    void addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out);
+    void addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward);
+    bool liesOnTop(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
+    void traceCell(const geometry::CellComplex& complex, std::uint32_t cell);
     void removeCoincidingEdges(SliceSet& out);
     void placeLoops(SliceSet& out);
 

@@ -18,17 +18,16 @@ namespace {
 
 using geometry::kNone;
 
-// Which elements of a polytope part 0 of the output contains: those of the selected cells.
+// Which elements of a cell complex part 0 of the output contains: those of the selected cells, or all elements.
 struct Selection {
-    const std::vector<bool>* facing;  // per cell: whether it is selected; null if all cells are selected
-    bool cell(std::uint32_t c) const { return facing == nullptr || (*facing)[c]; }
-    bool face(const polytopes::Polytope& p, std::size_t f) const {
-        return cell(p.faceCells[f][0]) || cell(p.faceCells[f][1]);
+    const std::vector<bool>* facing;  // per cell: whether it is selected; null if all elements are selected
+    bool face(const geometry::CellComplex& p, std::size_t f) const {
+        return facing == nullptr || (*facing)[p.faceCells[f][0]] || (*facing)[p.faceCells[f][1]];
     }
 };
 
 // Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone for all others.
-void numberElements(const polytopes::Polytope& p, const Selection& selection, std::vector<std::uint32_t>& vertices,
+void numberElements(const geometry::CellComplex& p, const Selection& selection, std::vector<std::uint32_t>& vertices,
                     std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
@@ -77,12 +76,13 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
     clear(out);
     faceCells.clear();
     const ProjectionToHyperplane& projection = options.projection;
-    const auto addPolytope = [&](const polytopes::Polytope& p) {
+    const auto addComplex = [&](const geometry::CellComplex& p) {
         const auto edges = static_cast<std::uint32_t>(p.edges.size());
         const auto faces = static_cast<std::uint32_t>(p.faces.size());
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
-        if (options.culled || options.cells) findFacingCells(object, orientation, projection);
-        const Selection selection{options.culled ? &cellIsFacing_ : nullptr};
+        const bool culled = options.culled && cells > 0, drawn = options.cells && cells > 0 && p.convexFaces;
+        if (culled || drawn) findFacingCells(object, orientation, projection);
+        const Selection selection{culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;
@@ -94,7 +94,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
             out.edges.push_back({number_[p.edges[e][0]], number_[p.edges[e][1]]});
             out.edgeSource.push_back(faces + e);
         }
-        for (std::uint32_t f = 0; options.cells && p.convexFaces && f < faces; ++f) {
+        for (std::uint32_t f = 0; drawn && f < faces; ++f) {
             if (!selection.face(p, f)) continue;
             for (const std::uint32_t v : p.faces[f]) out.corners.push_back(number_[v]);
             for (const std::uint32_t e : p.faceEdges[f]) out.cornerEdges.push_back(edgeNumber_[e]);
@@ -113,8 +113,9 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         }
         out.ballOpacity.assign(out.ballScale.size(), 1);
     };
-    visitPolytopeOrCloud(
-        Overloaded{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }}, object);
+    visitElements(Overloaded{[&](const geometry::CellComplex& complex) { addComplex(complex); },
+                             [&](const geometry::PointCloud& cloud) { addCloud(cloud); }},
+                  object);
     endPart(out);
     for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
 }

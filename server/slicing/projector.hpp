@@ -33,10 +33,10 @@ class Projector {
     struct Options {
         ProjectionToHyperplane projection;
         /// Whether to write the 2-faces of the object, which bound the projected cells. If the object has a nonconvex
-        /// 2-face, no 2-face is written.
+        /// 2-face, or has no cells, no 2-face is written.
         bool cells = false;
         /// Whether to leave out the elements that the 4-D eye cannot see. The eye sees an element if it sees the outer
-        /// side of at least one cell that contains the element.
+        /// side of at least one cell that contains the element. Leaves out nothing if the object has no cells.
         bool culled = false;
         int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
     };

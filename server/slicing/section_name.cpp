@@ -141,18 +141,19 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
         return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
     };
     if (fieldIn(object) != nullptr) return false;
-    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) {
-                                               const std::size_t inPlane = countInPlane(p->vertices);
-                                               if (inPlane > 0 && inPlane <= kMaxVertices) return true;
-                                               std::size_t size = inPlane;
-                                               for (const auto& [a, b] : p->edges) {
-                                                   size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
-                                                   if (size > kMaxVertices) return false;
-                                               }
-                                               return size > 0;
-                                           },
-                                           [](const CloudPtr& /*cloud*/) { return false; }},
-                                object);
+    return visitElements(Overloaded{[&](const geometry::CellComplex& complex) {
+                                        const std::size_t inPlane = countInPlane(complex.vertices);
+                                        if (inPlane > 0 && inPlane <= kMaxVertices) return true;
+                                        std::size_t size = inPlane;
+                                        for (const auto& [a, b] : complex.edges) {
+                                            const int sides = sideOf(complex.vertices[a]) * sideOf(complex.vertices[b]);
+                                            size += sides < 0 ? 1 : 0;
+                                            if (size > kMaxVertices) return false;
+                                        }
+                                        return size > 0;
+                                    },
+                                    [](const geometry::PointCloud& /*cloud*/) { return false; }},
+                         object);
 }
 
 std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {

@@ -36,20 +36,20 @@ PlanesAtVertex planesAt(const geometry::Hyperplanes& planes, std::span<const dou
             static_cast<std::size_t>(std::clamp(std::floor(levelOf(w + tolerance)) + 1, 0.0, count))};
 }
 
-std::size_t countInPolytope(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
-                            const geometry::Hyperplanes& planes) {
+std::size_t countInComplex(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                           const geometry::Hyperplanes& planes) {
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
     const glm::dmat4 turned = orientation.matrix();
     std::vector<PlanesAtVertex> at;
-    at.reserve(polytope.vertices.size());
-    const double tolerance = kOnPlaneTolerance * polytope.circumradius;
-    for (const glm::dvec4& vertex : polytope.vertices)
+    at.reserve(complex.vertices.size());
+    const double tolerance = kOnPlaneTolerance * complex.circumradius;
+    for (const glm::dvec4& vertex : complex.vertices)
         at.push_back(planesAt(planes, sorted, tolerance, (turned * vertex).w));
     // The crossings of the edges of all 2-faces with hyperplanes. A slice edge has two of them as its ends.
     std::size_t crossings = 0;
-    for (std::size_t f = 0; f < polytope.faces.size(); ++f) {
-        const auto loop = polytope.faces[f];
+    for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+        const auto loop = complex.faces[f];
         std::uint32_t previous = loop.back();
         for (const std::uint32_t v : loop) {
             const auto [low, high] = std::minmax(at[previous], at[v], [](const auto& a, const auto& b) {
@@ -70,18 +70,18 @@ TooManySliceEdges::TooManySliceEdges(std::size_t found, std::size_t allowed)
 
 std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
                             const geometry::Hyperplanes& planes) {
-    return visitPolytopeOrCloud(
-        Overloaded{[&](const PolytopePtr& polytope) { return countInPolytope(*polytope, orientation, planes); },
-                   [](const CloudPtr&) { return std::size_t{0}; }},
+    return visitElements(
+        Overloaded{[&](const geometry::CellComplex& complex) { return countInComplex(complex, orientation, planes); },
+                   [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
         object);
 }
 
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed) {
     const std::size_t sides =
-        visitPolytopeOrCloud(Overloaded{[](const PolytopePtr& polytope) { return polytope->faces.items.size(); },
-                                        [](const CloudPtr&) { return std::size_t{0}; }},
-                             object);
+        visitElements(Overloaded{[](const geometry::CellComplex& complex) { return complex.faces.items.size(); },
+                                 [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
+                      object);
     // A hyperplane crosses each side of a 2-face at most once, and two crossings are the ends of a slice edge.
     if (sides * static_cast<std::size_t>(planes.count) / 2 <= allowed) return;
     const std::size_t found = countSliceEdges(object, orientation, planes);

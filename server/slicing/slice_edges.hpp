@@ -24,8 +24,8 @@ class TooManySliceEdges : public std::runtime_error {
 std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
                             const geometry::Hyperplanes& planes);
 
-/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. If so many edges are impossible, because the
-/// polytope has few 2-faces or there are few hyperplanes, returns in constant time.
+/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. If so many edges are impossible, because
+/// the object has few 2-faces or there are few hyperplanes, returns in constant time.
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed);
 

@@ -33,12 +33,12 @@ struct SliceCounts {
 /// 1] − 1, and likewise edges and faces. The vertex indices in `edges` and `corners` are relative to the first vertex
 /// of the slice, and the edge indices in `cornerEdges` to the first edge of the slice.
 ///
-/// The source number of an element of a slice says from which element of the object it was cut. For a polytope with E
-/// edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E + v if polytope vertex v
-/// lies in the hyperplane; `edgeSource` is the index of the 2-face that was cut, or F + e if edge e lies in the
-/// hyperplane; `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the hyperplane. For a
-/// point cloud, `vertexSource` is the index of the point; slices have no edges or faces. For a field, the vertices,
-/// edges and faces are those of the slices of its domain, which is a polytope.
+/// The source number of an element of a slice says from which element of the object it was cut. For a cell complex,
+/// such as a polytope, with E edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E
+/// + v if vertex v lies in the hyperplane; `edgeSource` is the index of the 2-face that was cut, or F + e if edge e
+/// lies in the hyperplane; `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the
+/// hyperplane. For a point cloud, `vertexSource` is the index of the point; slices have no edges or faces. For a field,
+/// the vertices, edges and faces are those of the slices of its domain, which is a polytope.
 struct SliceSet {
     geometry::Hyperplanes planes;
     std::vector<glm::dvec4> rotatedVertices;  ///< all vertices or points of the object, rotated

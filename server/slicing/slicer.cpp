@@ -14,9 +14,12 @@ void Slicer::slice(const Object& object, const geometry::Rotation& orientation, 
         out.fogs.clear();
     }
     std::visit(
-        Overloaded{[&](const PolytopePtr& p) { polytopes_.slice(*p, orientation, planes, out); },
-                   [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); },
-                   [&](const FieldPtr& field) { fields_.slice(*field, orientation, planes, settings, detail, out); }},
+        Overloaded{
+            [&]<std::derived_from<geometry::CellComplex> Complex>(const std::shared_ptr<const Complex>& complex) {
+                complexes_.slice(*complex, orientation, planes, out);
+            },
+            [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); },
+            [&](const FieldPtr& field) { fields_.slice(*field, orientation, planes, settings, detail, out); }},
         object);
 }
 

@@ -20,7 +20,7 @@ class Slicer {
   public:
     /// If `forkJoin` is not null, slices large convex polytopes and fields on two cores. `forkJoin` must outlive this
     /// object.
-    explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin), fields_(forkJoin) {}
+    explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : complexes_(forkJoin), fields_(forkJoin) {}
 
     /// Slices `object` rotated by `orientation`. Extracts the surfaces and samples the fog of a field as `settings` and
     /// `detail` specify. Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples of a field
@@ -33,7 +33,7 @@ class Slicer {
                               const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
-    PolytopeSlicer polytopes_;
+    PolytopeSlicer complexes_;
     CloudSlicer clouds_;
     FieldSlicer fields_;
     parallel::ExclusiveUseAssertion inUse_;

@@ -9,9 +9,10 @@ namespace oval4d::slicing {
 
 namespace {
 
-using polytopes::Polytope;
+using geometry::CellComplex;
+using geometry::PointCloud;
 
-void findVisibilities(const Polytope& p, std::span<const Visibility> ofType, Visibilities& out) {
+void findVisibilities(const CellComplex& p, std::span<const Visibility> ofType, Visibilities& out) {
     const std::size_t cells = p.cells.size(), faces = p.faces.size(), edges = p.edges.size();
     // From cells to vertices, each element passes its visibility to the elements on its boundary. All indices are
     // source numbers.
@@ -33,7 +34,7 @@ void findVisibilities(const Polytope& p, std::span<const Visibility> ofType, Vis
     }
 }
 
-std::uint32_t coloringCell(const Polytope& p, const Visibilities& visibilities, std::uint32_t source) {
+std::uint32_t coloringCell(const CellComplex& p, const Visibilities& visibilities, std::uint32_t source) {
     const auto cells = static_cast<std::uint32_t>(p.cells.size());
     if (source < cells) return source;
     const auto& [first, second] = p.faceCells[source - cells];
@@ -45,15 +46,16 @@ std::uint32_t coloringCell(const Polytope& p, const Visibilities& visibilities, 
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out) {
     out = {};
     if (std::ranges::all_of(ofType, [](Visibility visibility) { return visibility == Visibility::full; })) return;
-    visitPolytopeOrCloud(
-        Overloaded{[&](const PolytopePtr& p) { findVisibilities(*p, ofType, out); }, [](const CloudPtr& /*cloud*/) {}},
-        object);
+    visitElements(Overloaded{[&](const CellComplex& complex) { findVisibilities(complex, ofType, out); },
+                             [](const PointCloud& /*cloud*/) {}},
+                  object);
 }
 
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
-    return visitPolytopeOrCloud(Overloaded{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
-                                           [&](const CloudPtr& /*cloud*/) { return source; }},
-                                object);
+    return visitElements(
+        Overloaded{[&](const CellComplex& complex) { return coloringCell(complex, visibilities, source); },
+                   [&](const PointCloud& /*cloud*/) { return source; }},
+        object);
 }
 
 }  // namespace oval4d::slicing

@@ -1,6 +1,6 @@
 #pragma once
-// Encodes objects (polytopes, point clouds, fields) as CBOR records and decodes them. No other file in store/
-// distinguishes between kinds of objects.
+// Encodes objects of all kinds as CBOR records and decodes them. No other file in store/ distinguishes between kinds of
+// objects.
 
 #include <functional>
 #include <string>

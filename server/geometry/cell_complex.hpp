@@ -1,0 +1,48 @@
+#pragma once
+// Cell complexes in R⁴: elements of dimension 0 to 3, and which of them contain which.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "geometry/jagged_array.hpp"
+#include "geometry/object_info.hpp"
+
+namespace oval4d::geometry {
+
+/// A cell complex in R⁴: vertices, edges, 2-faces and cells, some of which may be missing. It need not be a manifold.
+/// All kinds of objects that have edges are derived from it, so that slicing, projecting and measuring need one code
+/// for them. Indices are 0-based and have 32 bits.
+struct CellComplex : ObjectInfo {
+    std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
+    std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
+    JaggedArray faces;                                    ///< the vertex loop of each 2-face
+    JaggedArray faceEdges;                                ///< the edges of each 2-face; edge i joins the vertices
+                                                          ///< i and i + 1 of its loop
+    JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
+    std::vector<std::int8_t> cellSigns;                   ///< parallel to cells.items: +1 if the vertex loop of the
+                                                          ///< 2-face is counterclockwise seen from outside the cell,
+                                                          ///< else −1; a 2-face has opposite signs in its two cells
+    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
+                                                          ///< sign of the 2-face is −1; empty if there are no cells
+    std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
+    bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
+};
+
+/// Sets `edges` and `faceEdges` from the vertex loops of the 2-faces, in which no vertex may follow itself. `edges`
+/// must be empty.
+void findEdges(CellComplex& complex);
+
+/// Returns whether every 2-face is a convex polygon. A 2-face that is not flat is not convex.
+bool hasConvexFaces(const CellComplex& complex);
+
+/// Returns the memory that the rows occupy, in bytes, without the array object itself.
+std::size_t memoryOfRows(const JaggedArray& array);
+
+/// Returns the memory that the elements occupy, in bytes, without the object itself and its names.
+std::size_t memoryOfElements(const CellComplex& complex);
+
+}  // namespace oval4d::geometry
