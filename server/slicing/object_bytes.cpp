@@ -1,10 +1,14 @@
 #include "slicing/object_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -133,10 +137,19 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
     return std::move(*field);
 }
 
-enum class ObjectKind : std::uint8_t { polytope, cloud, field };
+// The kind of an object is written as the index of its alternative in Object.
+void writeKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
 
-void requirePolytope(ObjectKind kind) {
-    if (kind != ObjectKind::polytope) throw std::runtime_error("an unknown kind of object");
+// Reads the kind of an object. Returns a null pointer to an object of this kind, to be visited by the functions that
+// read the rest: if a kind has no function, the code does not compile. Throws std::runtime_error if the kind is
+// unknown.
+template <typename... Kinds>
+Object readKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {
+    const std::array<Object, sizeof...(Kinds)> ofEachKind{Kinds()...};
+    std::uint8_t kind = 0;
+    archive(kind);
+    if (kind >= ofEachKind.size()) throw std::runtime_error("an unknown kind of object");
+    return ofEachKind.at(kind);
 }
 
 /// Reads a jagged array. Throws std::runtime_error unless each of its rows lies within `items`.
@@ -155,15 +168,16 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     out.clear();
     files.clear();
     ByteWriter archive(out);
+    writeKind(object, archive);
     std::visit(Overloaded{[&](const PolytopePtr& p) {
-                              archive(ObjectKind::polytope), visitPolytope(archive, *p);
+                              visitPolytope(archive, *p);
                               archive(p->cellTypes.size());
                               for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
                               archive(p->originInFile);
                           },
-                          [&](const CloudPtr& cloud) { archive(ObjectKind::cloud), visitCloud(archive, *cloud); },
+                          [&](const CloudPtr& cloud) { visitCloud(archive, *cloud); },
                           [&](const FieldPtr& field) {
-                              archive(ObjectKind::field), writeField(*field, archive, files, 0);
+                              writeField(*field, archive, files, 0);
                               archive(field->name), archive(field->serial);
                           }},
                object);
@@ -171,56 +185,70 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
 
 Object decodeObject(std::string_view bytes, const MappedFiles& files) {
     ByteReader archive(bytes);
-    ObjectKind kind{};
-    archive(kind);
-    if (kind == ObjectKind::cloud) {
-        auto cloud = std::make_shared<geometry::PointCloud>();
-        visitCloud(archive, *cloud);
-        return CloudPtr(std::move(cloud));
-    }
-    if (kind == ObjectKind::field) {
-        auto field = std::make_shared<fields::Field>(readField("", archive, files));
-        archive(field->name), archive(field->serial);
-        return FieldPtr(std::move(field));
-    }
-    requirePolytope(kind);
-    auto p = std::make_shared<Polytope>();
-    visitPolytope(archive, *p);
-    std::size_t types = 0;
-    for (archive(types); p->cellTypes.size() < types;) {
-        auto& [name, cells] = p->cellTypes.emplace_back();
-        archive(name), archive(cells);
-    }
-    archive(p->originInFile);
-    return PolytopePtr(std::move(p));
+    return std::visit(Overloaded{[&](const PolytopePtr& /*null*/) -> Object {
+                                     auto p = std::make_shared<Polytope>();
+                                     visitPolytope(archive, *p);
+                                     std::size_t types = 0;
+                                     for (archive(types); p->cellTypes.size() < types;) {
+                                         auto& [name, cells] = p->cellTypes.emplace_back();
+                                         archive(name), archive(cells);
+                                     }
+                                     archive(p->originInFile);
+                                     return PolytopePtr(std::move(p));
+                                 },
+                                 [&](const CloudPtr& /*null*/) -> Object {
+                                     auto cloud = std::make_shared<geometry::PointCloud>();
+                                     visitCloud(archive, *cloud);
+                                     return CloudPtr(std::move(cloud));
+                                 },
+                                 [&](const FieldPtr& /*null*/) -> Object {
+                                     auto field = std::make_shared<fields::Field>(readField("", archive, files));
+                                     archive(field->name), archive(field->serial);
+                                     return FieldPtr(std::move(field));
+                                 }},
+                      readKind(archive, std::type_identity<Object>()));
 }
 
 void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
+    writeKind(object, archive);
     std::visit(Overloaded{[&](const PolytopePtr& p) {
-                              archive(ObjectKind::polytope), archive(p->vertices), archive(p->originInFile);
+                              archive(p->vertices), archive(p->originInFile);
                               visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
                           },
                           [&](const CloudPtr& cloud) {
-                              archive(ObjectKind::cloud), archive(cloud->points), archive(cloud->originInFile),
-                                  archive(cloud->radii);
+                              archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
                           },
-                          [&](const FieldPtr& field) {
-                              archive(ObjectKind::field), writeField(*field, archive, files, maxInMemory);
-                          }},
+                          [&](const FieldPtr& field) { writeField(*field, archive, files, maxInMemory); }},
                object);
 }
 
 Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices, const MappedFiles& files) {
-    ObjectKind kind{};
-    archive(kind);
-    if (kind == ObjectKind::field) return std::make_shared<const fields::Field>(readField(name, archive, files));
     std::vector<glm::dvec4> vertices;
-    archive(vertices);
-    if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");
-    glm::dvec4 originInFile;
-    archive(originInFile);
-    if (!std::isfinite(glm::length(originInFile))) throw std::runtime_error("an origin that is not finite");
-    if (kind == ObjectKind::cloud) {
+    glm::dvec4 originInFile(0);
+    const auto readVerticesAndOrigin = [&] {
+        archive(vertices);
+        if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");
+        archive(originInFile);
+        if (!std::isfinite(glm::length(originInFile))) throw std::runtime_error("an origin that is not finite");
+    };
+    const auto readPolytope = [&](const PolytopePtr& /*null*/) -> Object {
+        readVerticesAndOrigin();
+        JaggedArray faces = arrayFrom(archive), cells = arrayFrom(archive);
+        std::vector<std::uint32_t> typeOfCell;
+        archive(typeOfCell);
+        if (typeOfCell.size() != cells.size()) throw std::runtime_error("cell types that do not match the cells");
+        try {
+            // Rejects indices that are out of range, and cells that are not closed surfaces.
+            Polytope polytope = polytopes::makePolytope(name, std::move(vertices), std::move(faces), std::move(cells),
+                                                        std::move(typeOfCell));
+            polytope.originInFile = originInFile;
+            return std::make_shared<const Polytope>(std::move(polytope));
+        } catch (const std::invalid_argument& invalid) {
+            throw std::runtime_error("an invalid polytope: " + std::string(invalid.what()));
+        }
+    };
+    const auto readCloud = [&](const CloudPtr& /*null*/) -> Object {
+        readVerticesAndOrigin();
         std::vector<double> radii;
         archive(radii);
         try {
@@ -230,21 +258,12 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error("an invalid point cloud: " + std::string(invalid.what()));
         }
-    }
-    requirePolytope(kind);
-    JaggedArray faces = arrayFrom(archive), cells = arrayFrom(archive);
-    std::vector<std::uint32_t> typeOfCell;
-    archive(typeOfCell);
-    if (typeOfCell.size() != cells.size()) throw std::runtime_error("cell types that do not match the cells");
-    try {
-        // Rejects indices that are out of range, and cells that are not closed surfaces.
-        Polytope polytope = polytopes::makePolytope(name, std::move(vertices), std::move(faces), std::move(cells),
-                                                    std::move(typeOfCell));
-        polytope.originInFile = originInFile;
-        return std::make_shared<const Polytope>(std::move(polytope));
-    } catch (const std::invalid_argument& invalid) {
-        throw std::runtime_error("an invalid polytope: " + std::string(invalid.what()));
-    }
+    };
+    return std::visit(Overloaded{readPolytope, readCloud,
+                                 [&](const FieldPtr& /*null*/) -> Object {
+                                     return std::make_shared<const fields::Field>(readField(name, archive, files));
+                                 }},
+                      readKind(archive, std::type_identity<Object>()));
 }
 
 }  // namespace oval4d::slicing

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -150,6 +151,15 @@ TEST(ObjectBytes, BytesCutShortAreRefused) {
     encodeObject(shared("5-cell"), bytes, files);
     for (std::size_t size = 0; size < bytes.size(); size += 7)
         EXPECT_THROW((void)decodeObject(std::string_view(bytes).substr(0, size)), std::runtime_error);
+}
+
+TEST(ObjectBytes, UnknownKindsAreRefused) {
+    std::string bytes, parts = partsOf(shared("5-cell"));
+    MappedFiles files;
+    encodeObject(shared("5-cell"), bytes, files);
+    bytes.front() = parts.front() = static_cast<char>(std::variant_size_v<Object>);
+    EXPECT_THROW((void)decodeObject(bytes), std::runtime_error);
+    EXPECT_THROW((void)read(parts), std::runtime_error);
 }
 
 TEST(ObjectBytes, DamagedBooleansAreRefused) {
