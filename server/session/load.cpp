@@ -14,9 +14,12 @@
 #include "fields/formula_field.hpp"
 #include "fields/readers/field_reader.hpp"
 #include "geometry/centering.hpp"
+#include "geometry/index.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/import/import.hpp"
+#include "polytopes/import/off4.hpp"
 #include "session/example_fields.hpp"
 #include "text/message_text.hpp"
 #include "text_files/file_error.hpp"
@@ -74,6 +77,60 @@ Result<ObjectWithWarnings> readPolytope(const LoadObject& load, const Limits& li
     auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
     warnOfMove(load.center, polytope.originInFile, warnings);
     return ObjectWithWarnings{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
+}
+
+// Removes the vertices that lie on no 2-face. Returns their number.
+std::size_t removeUnusedVertices(std::vector<glm::dvec4>& vertices, geometry::JaggedArray& faces) {
+    std::vector<std::uint32_t> number(vertices.size(), geometry::kNone);
+    for (const std::uint32_t v : faces.items) number[v] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        if (number[v] == geometry::kNone) continue;
+        vertices[kept] = vertices[v];
+        number[v] = kept++;
+    }
+    for (std::uint32_t& v : faces.items) v = number[v];
+    const std::size_t removed = vertices.size() - kept;
+    vertices.resize(kept);
+    return removed;
+}
+
+// Reads a 4OFF file without cells. Throws a FileError if it is refused.
+ObjectWithWarnings readSurface(std::string_view text, const LoadObject& load, const Limits& limits) {
+    auto [soup, edges, shortRecord] = polytopes::readOff4(text, limits.maxVertices);
+    if (soup.faces.size() == 0)
+        text_files::throwFileError(
+            0, "the file lists neither 2-faces nor cells; its points can be loaded as a list of points");
+    std::vector<std::string> warnings;
+    if (const std::size_t removed = removeUnusedVertices(soup.vertices, soup.faces); removed > 0)
+        warnings.push_back(std::to_string(removed) + (removed == 1 ? " vertex lies on no 2-face and was left out"
+                                                                   : " vertices lie on no 2-face and were left out"));
+    const glm::dvec4 center = geometry::newOriginFor(load.center, soup.vertices);
+    for (glm::dvec4& vertex : soup.vertices) vertex -= center;
+    try {
+        auto surface = geometry::makeSurfaceMesh(load.name, std::move(soup.vertices), std::move(soup.faces));
+        surface.originInFile = center;
+        if (edges != 0 && edges != surface.edges.size())
+            warnings.push_back("the file states " + std::to_string(edges) + " edges, but its 2-faces have " +
+                               std::to_string(surface.edges.size()));
+        warnOfMove(load.center, center, warnings);
+        return {std::make_shared<const geometry::SurfaceMesh>(std::move(surface)), std::move(warnings)};
+    } catch (const geometry::InvalidSurface& invalid) {
+        if (shortRecord) throw FileError(*shortRecord);
+        const bool known = invalid.face != geometry::kNone;
+        throw FileError{known ? soup.faceSourcePositions[invalid.face].line : 0, invalid.what()};
+    }
+}
+
+// Reads a 4OFF file: a polytope or, if the file lists no cells, a surface.
+Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits) {
+    try {
+        const std::string text = text_files::plainText(load.data);
+        if (!polytopes::listsCells(text)) return readSurface(text, load, limits);
+    } catch (const FileError& error) {
+        return errorOf(error);
+    }
+    return readPolytope<polytopes::FileFormat::off4>(load, limits);
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
@@ -183,7 +240,7 @@ struct FormatRow {
     bool buildsHull;
 };
 constexpr auto kFormats = std::to_array<FormatRow>({
-    {"off", "off (4OFF)", readPolytope<polytopes::FileFormat::off4>, false},
+    {"off", "off (4OFF)", readOff, false},
     {"points", "points", readPolytope<polytopes::FileFormat::points>, true},
     {"cloud", "cloud", readCloud, false},
     {kFormula, kFormula, readFormulaText, false},

@@ -8,6 +8,7 @@
 
 #include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "polytopes/off.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/cloud_slicer.hpp"
@@ -37,6 +38,12 @@ double relativeBallRadius(const CellComplex& p) {
     const double radius = 0.062 * std::min(1.0, std::pow(meanEdge / p.circumradius, 0.65));
     // The bars of a nonconvex polytope may cross each other. Half the radius keeps the crossings visible.
     return p.convex ? radius : 0.5 * radius;
+}
+
+// However fine the mesh of a surface is, the curves in its slices must be visible.
+double relativeBallRadius(const geometry::SurfaceMesh& surface) {
+    constexpr double kLeast = 0.016;
+    return std::max(kLeast, relativeBallRadius(static_cast<const CellComplex&>(surface)));
 }
 
 std::size_t memoryOf(const fields::Field& field) {

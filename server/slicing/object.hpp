@@ -21,6 +21,7 @@
 #include "geometry/object_info.hpp"
 #include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
+#include "geometry/surface_mesh.hpp"
 
 namespace oval4d::fields {
 struct Field;
@@ -35,13 +36,14 @@ struct Polytope;
 namespace oval4d::slicing {
 
 using PolytopePtr = std::shared_ptr<const polytopes::Polytope>;
+using SurfacePtr = std::shared_ptr<const geometry::SurfaceMesh>;
 using CloudPtr = std::shared_ptr<const geometry::PointCloud>;
 using FieldPtr = std::shared_ptr<const fields::Field>;
 
 /// A 4-D object: a shared pointer to immutable data. The pointer is null only in an uninitialized session::State. Two
 /// objects are equal if they share the same data. The vertices, edges, 2-faces and cells of a field are those of its
 /// domain.
-using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr>;
+using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr, SurfacePtr>;
 
 /// Returns the field, or null if the object is of another kind. The pointer is valid as long as the field exists.
 const fields::Field* fieldIn(const Object& object);
@@ -80,28 +82,29 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
 
 /// Returns the radius of the balls drawn at slice vertices, as a fraction of the circumradius. For a cell complex, the
 /// radius grows with the mean edge length, so that balls neither hide the slices of a 120-cell nor look too small in
-/// slices of a 5-cell. For a point cloud, the radius is smaller if there are more points. For a field, it is constant.
-/// Takes time linear in the number of edges.
+/// slices of a 5-cell; for a surface, the radius is at least 0.016, however fine its mesh. For a point cloud, the
+/// radius is smaller if there are more points. For a field, it is constant. Takes time linear in the number of edges.
 double relativeBallRadius(const Object& object);
 
 /// Sets `out` to the center of each cell: the mean of its vertices, each weighted by the number of the cell's 2-faces
-/// that contain the vertex. Clears `out` for a point cloud.
+/// that contain the vertex. Clears `out` for a point cloud or a surface.
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
 /// Finds the hyperplane of each cell, before any rotation: sets normals[c] to the outward normal of cell c, and
 /// offsets[c] to the dot product of this normal and any point of the cell. The length of a normal is six times the
 /// volume of the cell. If the signed volume of a cell is 0, as for some self-intersecting cells, the normal and the
-/// offset are 0. Clears both lists for a point cloud.
+/// offset are 0. Clears both lists for a point cloud or a surface.
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets);
 
 /// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the data exists;
-/// it is empty for a point cloud.
+/// it is empty for a point cloud or a surface.
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
 /// of the object's own vertices. ObjectInfo::originInFile, the point of the object's file that is the origin of the
 /// object, is added to each of them. Therefore an import of the new file gives the polytope as in the object's file,
-/// turned about this point. The file of a point cloud has only vertices; the file of a field contains the domain.
+/// turned about this point. The file of a surface lists no cells, and that of a point cloud has only vertices; the file
+/// of a field contains the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

@@ -16,6 +16,7 @@
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/overloaded.hpp"
 
@@ -49,6 +50,13 @@ template <typename Archive, typename Cloud>
 void visitCloud(Archive& archive, Cloud& cloud) {
     archive(cloud.name), archive(cloud.serial), archive(cloud.circumradius);
     archive(cloud.points), archive(cloud.radii), archive(cloud.originInFile);
+}
+
+template <typename Archive, typename Surface>
+void visitSurface(Archive& archive, Surface& surface) {
+    archive(surface.name), archive(surface.serial), archive(surface.circumradius), archive(surface.convexFaces);
+    archive(surface.originInFile), archive(surface.vertices), archive(surface.edges);
+    for (auto* array : {&surface.faces, &surface.faceEdges}) visitArray(archive, *array);
 }
 
 // Writes samples or, if writeParts() does not write them inline, the index of their file and their place in this file.
@@ -179,7 +187,8 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
                           [&](const FieldPtr& field) {
                               writeField(*field, archive, files, 0);
                               archive(field->name), archive(field->serial);
-                          }},
+                          },
+                          [&](const SurfacePtr& surface) { visitSurface(archive, *surface); }},
                object);
 }
 
@@ -205,6 +214,11 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
                                      auto field = std::make_shared<fields::Field>(readField("", archive, files));
                                      archive(field->name), archive(field->serial);
                                      return FieldPtr(std::move(field));
+                                 },
+                                 [&](const SurfacePtr& /*null*/) -> Object {
+                                     auto surface = std::make_shared<geometry::SurfaceMesh>();
+                                     visitSurface(archive, *surface);
+                                     return SurfacePtr(std::move(surface));
                                  }},
                       readKind(archive, std::type_identity<Object>()));
 }
@@ -218,7 +232,11 @@ void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, s
                           [&](const CloudPtr& cloud) {
                               archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
                           },
-                          [&](const FieldPtr& field) { writeField(*field, archive, files, maxInMemory); }},
+                          [&](const FieldPtr& field) { writeField(*field, archive, files, maxInMemory); },
+                          [&](const SurfacePtr& surface) {
+                              archive(surface->vertices), archive(surface->originInFile);
+                              visitArray(archive, surface->faces);
+                          }},
                object);
 }
 
@@ -259,7 +277,17 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
             throw std::runtime_error("an invalid point cloud: " + std::string(invalid.what()));
         }
     };
-    return std::visit(Overloaded{readPolytope, readCloud,
+    const auto readSurface = [&](const SurfacePtr& /*null*/) -> Object {
+        readVerticesAndOrigin();
+        try {
+            geometry::SurfaceMesh surface = geometry::makeSurfaceMesh(name, std::move(vertices), arrayFrom(archive));
+            surface.originInFile = originInFile;
+            return std::make_shared<const geometry::SurfaceMesh>(std::move(surface));
+        } catch (const std::invalid_argument& invalid) {
+            throw std::runtime_error("an invalid surface: " + std::string(invalid.what()));
+        }
+    };
+    return std::visit(Overloaded{readPolytope, readCloud, readSurface,
                                  [&](const FieldPtr& /*null*/) -> Object {
                                      return std::make_shared<const fields::Field>(readField(name, archive, files));
                                  }},

@@ -16,6 +16,7 @@
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "polytopes/polytope.hpp"
 #include "store/cbor.hpp"
 #include "text/message_text.hpp"
@@ -214,6 +215,32 @@ struct RecordOf<slicing::FieldPtr> {
         if (!field) throwUnreadable("a field is not valid: " + field.error().message);
         if (hasSecond && !isFormula) readSecond(value.at(5), shape, *field);
         return std::make_shared<const fields::Field>(std::move(*field));
+    }
+};
+
+template <>
+struct RecordOf<slicing::SurfacePtr> {
+    static constexpr std::array<std::size_t, 1> kLengths{8};
+
+    // [version, name, vertices, 2-faces, and four times null, without which the record would have the length of a
+    // cloud's record]
+    static json encode(const geometry::SurfaceMesh& surface) {
+        return json({kRecordVersion, surface.name, encoded(surface.vertices), rows(surface.faces), nullptr, nullptr,
+                     nullptr, nullptr});
+    }
+
+    static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const DataFolderReader& /*open*/) {
+        for (std::size_t i = 4; i < value.size(); ++i) {
+            if (!value.at(i).is_null()) throwUnreadable("a surface has members that this program does not know");
+        }
+        try {
+            geometry::SurfaceMesh surface =
+                geometry::makeSurfaceMesh(readShortText(value.at(1)), verticesIn(value.at(2)), arrayIn(value.at(3)));
+            surface.originInFile = originInFile;
+            return std::make_shared<const geometry::SurfaceMesh>(std::move(surface));
+        } catch (const geometry::InvalidSurface& fault) {
+            throwUnreadable(std::string("a surface is not valid: ") + fault.what());
+        }
     }
 };
 

@@ -60,8 +60,8 @@ int readKeyword(Tokenizer& file) {
         at == std::string::npos ? std::string_view{} : std::string_view(keyword).substr(at + kKeyword.size());
     if (at != std::string::npos && letters.empty() && keyword.find('n') < at && !four)
         throwFileError(file.line(), inQuotes(word) +
-                                        " lists 2-faces but no cells; a file must begin with 4OFF and list cells, or "
-                                        "be a list of points x y z w, whose convex hull is shown");
+                                        " cannot be read; a file must begin with 4OFF, or be a list of points x y z w, "
+                                        "whose convex hull is shown");
     if (!four || !letters.empty() || !(rest.empty() || text::isDigit(rest.front())))
         throwFileError(file.line(), "the file must begin with 4OFF, not " + inQuotes(word));
     file.putBack(rest.size());
@@ -80,14 +80,15 @@ Header readHeader(Tokenizer& file) {
     header.edges = count(file.next(), "a number of edges");
     word = file.nextOnLine();
     if (word.empty()) {
-        // Three counts on a line: either the fourth follows on a line of its own, or there are no cells.
-        const std::size_t line = file.line();
+        // Three counts on a line: either the fourth follows on a line of its own, or there are no cells, as in files of
+        // Geomview.
+        const Tokenizer afterThree = file;
         word = file.next();
         const bool alone = !word.empty() && file.nextOnLine().empty();
-        if (!alone)
-            throwFileError(line,
-                           "the file has three counts, as in Geomview's 4OFF format without cells; four are needed: "
-                           "vertices, 2-faces, edges and cells. Its points can be loaded as a list of points");
+        if (!alone) {
+            file = afterThree;
+            return header;
+        }
     }
     header.cells = count(word, "a number of cells");
     return header;
@@ -180,7 +181,7 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& lay
               soup.cellSourcePositions);
     if (layouts[2] != Layout::continuous) file.skipLine();
     if (const auto rest = file.next(); !rest.empty())
-        throwFileError(file.line(), inQuotes(rest) + " follows the last cell");
+        throwFileError(file.line(), inQuotes(rest) + " follows the last " + (header.cells > 0 ? "cell" : "2-face"));
     return soup;
 }
 
@@ -232,6 +233,11 @@ Off4 readOff4(std::string_view text, std::size_t maxVertices) {
         if (shortRecord) throw FileError(*shortRecord);
         throw;
     }
+}
+
+bool listsCells(std::string_view text) {
+    Tokenizer file(text);
+    return readHeader(file).cells > 0;
 }
 
 bool isOff(std::string_view text) {

@@ -28,6 +28,10 @@ struct Off4 {
 /// whose line has too few words.
 Off4 readOff4(std::string_view text, std::size_t maxVertices);
 
+/// Returns whether a 4OFF file has cells, as its header says: the fourth count is not 0. In a file of Geomview, which
+/// has no cells, the header has only three counts. Reads only the header. Throws a FileError if it is malformed.
+bool listsCells(std::string_view text);
+
 /// Returns whether the first word of the file contains "OFF" in upper or lower case, as in 4OFF, COFF or 4off.
 bool isOff(std::string_view text);
 

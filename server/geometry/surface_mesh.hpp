@@ -1,0 +1,45 @@
+#pragma once
+// Surfaces in R⁴, as meshes of polygons.
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "geometry/cell_complex.hpp"
+#include "geometry/jagged_array.hpp"
+#include "geometry/reference_frame.hpp"
+
+namespace oval4d::geometry {
+
+/// A surface in R⁴: a cell complex without cells, whose 2-faces are triangles, quads or other polygons. Made by
+/// makeSurfaceMesh() or transformedTo(), and not changed afterward. A 2-face need not be flat: a slice joins the points
+/// where its edges are cut. An edge may lie in any number of 2-faces, so the surface may have a boundary and need be
+/// neither connected nor orientable nor a manifold. It may intersect itself.
+struct SurfaceMesh : CellComplex {};
+
+/// Thrown by makeSurfaceMesh() for vertices and 2-faces that do not form a valid surface.
+class InvalidSurface : public std::invalid_argument {
+  public:
+    /// `number` is the index of the invalid 2-face, or kNone if no single 2-face is the cause. `fault` says what is
+    /// wrong; what() returns it.
+    InvalidSurface(std::uint32_t number, const std::string& fault) : std::invalid_argument(fault), face(number) {}
+
+    std::uint32_t face;  ///< the constructor's `number`
+};
+
+/// Makes a surface from its vertices and the vertex loops of its 2-faces; computes its edges. Throws InvalidSurface if
+/// there are no 2-faces, if a 2-face has fewer than three vertices or lists a vertex twice, if an index is out of
+/// range, if a coordinate is not finite, or if all vertices are at the origin.
+SurfaceMesh makeSurfaceMesh(std::string name, std::vector<glm::dvec4> vertices, JaggedArray faces);
+
+/// Returns the surface in the coordinates of `frame`, with the serial number `serial`.
+SurfaceMesh transformedTo(const SurfaceMesh& surface, const ReferenceFrame& frame, std::uint64_t serial);
+
+/// Returns the memory that the surface occupies, in bytes, without its name.
+std::size_t memoryOf(const SurfaceMesh& surface);
+
+}  // namespace oval4d::geometry
