@@ -102,7 +102,7 @@ async def test_the_convex_hull_is_independent_of_position_and_scale(server):
 
 
 @pytest.mark.parametrize("format_, data, expected_text", [
-    ("off", "4OFF\n3 1 3\n", "line 2: the file has three counts, as in Geomview's 4OFF"),
+    ("off", "4OFF\n3 1 3\n", "line 2: the file is too short for its numbers of vertices, 2-faces and cells"),
     ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 nan\n", 1), "line 4: 'nan' is not a finite number"),
     ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 1.2\n", 1), "is not flat"),
     ("off", tesseract_file().rsplit("\n", 2)[0] + "\n", "the file ends before cell 7 of 8"),
@@ -110,7 +110,7 @@ async def test_the_convex_hull_is_independent_of_position_and_scale(server):
     ("points", "1 2 3 4\n1 2 3\n", "line 2: a point has 3 coordinates"),
     ("points", point_lines(p[:3] + (0,) for p in tesseract_vertices()), "all points lie in one hyperplane"),
     ("points", "1 2 3 4\n", "at least 5 points"),
-], ids=["counts of Geomview", "NaN", "nonplanar face", "truncated", "data after the end", "three coordinates",
+], ids=["only counts", "NaN", "nonplanar face", "truncated", "data after the end", "three coordinates",
         "one hyperplane", "too few points"])
 async def test_invalid_files_are_refused_and_change_nothing(server, format_, data, expected_text):
     async with Client(server) as client:

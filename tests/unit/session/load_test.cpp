@@ -1,7 +1,9 @@
 // Objects that are loaded into a session. Time steps that are appended are in time_steps_test.cpp.
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 
 #include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "session/example_fields.hpp"
 #include "session/load.hpp"
@@ -74,6 +77,78 @@ TEST(Load, TheFirstWordTellsTheFormat) {
     const auto wrong = readObject({"two points", "points", "CLOUD\n1 0 0 0\n"}, Limits{});
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().code, ErrorCode::bad_polytope);
+}
+
+TEST(Load, AFileWithoutCellsIsASurface) {
+    const std::string triangle = "1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n";
+    for (const char* header :
+         {"4OFF\n3 1 3 0\n", "4OFF\n3 1 3\n", "4off 3 1 3\n", "4OFF\n3 1 3 # as Geomview does\n"}) {
+        const std::string text = header + triangle;
+        ASSERT_EQ(detectFormat(text), "off");
+        const auto read = readObject({"triangle", "off", text}, Limits{});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_TRUE(read->warnings.empty());
+        EXPECT_TRUE(std::holds_alternative<slicing::SurfacePtr>(read->object));
+        EXPECT_EQ(slicing::elementCounts(read->object), (std::array<std::size_t, 4>{3, 3, 1, 0}));
+        EXPECT_EQ(slicing::infoOf(read->object).name, "triangle");
+    }
+    // The fourth count may stand on a line of its own.
+    std::string pentachoron = kPentachoron;
+    pentachoron.replace(pentachoron.find("5 10 7 5"), 8, "5 10 10\n5");
+    const auto solid = readObject({"p", "off", pentachoron}, Limits{});
+    ASSERT_TRUE(solid) << solid.error().message;
+    EXPECT_TRUE(std::holds_alternative<slicing::PolytopePtr>(solid->object));
+}
+
+TEST(Load, WarnsOfFaultsOfASurface) {
+    const auto read =
+        readObject({"s", "off", "4OFF\n5 1 7\n1 0 0 0\n9 9 9 9\n0 1 0 0\n0 0 1 0\n8 8 8 8\n3 0 2 3\n"}, Limits{});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->warnings, (std::vector<std::string>{"2 vertices lie on no 2-face and were left out",
+                                                        "the file states 7 edges, but its 2-faces have 3"}));
+    EXPECT_EQ(slicing::infoOf(read->object).circumradius, 1);
+    const auto far = readObject({"s", "off", "4OFF\n3 1 3\n1000 0 0 1\n1000 1 0 0\n1000 0 1 0\n3 0 1 2\n"}, Limits{});
+    ASSERT_TRUE(far) << far.error().message;
+    ASSERT_EQ(far->warnings.size(), 1U);
+    EXPECT_NE(far->warnings[0].find("far from the origin"), std::string::npos) << far->warnings[0];
+    EXPECT_LT(glm::distance(slicing::vertexInFile(far->object, 0), glm::dvec4(1000, 0, 0, 1)), 1e-9);
+}
+
+TEST(Load, RefusesInvalidSurfaces) {
+    Session session;
+    const std::string vertices = "4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+    const auto refused = [&](const std::string& text, const std::string& says) {
+        expectRefused(session, LoadObject{"s", "off", text}, ErrorCode::bad_polytope, says);
+    };
+    refused(vertices + "3 0 1 3\n", "line 6: 2-face 0 refers to vertex 3, but the last is vertex 2");
+    refused(vertices + "4 0 1 2 1\n", "line 6: 2-face 0 lists a vertex twice");
+    refused(vertices + "2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 6 are allowed");
+    refused(vertices + "3 0 1 2\n3 2 1 0\n", "line 7: '3' follows the last 2-face");
+    refused("4OFF\n1 0 0\n1 0 0 0\n", "the file lists neither 2-faces nor cells");
+    refused("4OFF\n3 1 3\n0 0 0 0\n0 0 0 0\n0 0 0 0\n3 0 1 2\n", "all vertices are at the origin");
+    expectRefused(session, LoadObject{"s", "off", vertices + "3 0 1 2\n"}, ErrorCode::too_large,
+                  "at most 2 are allowed", Limits{.maxVertices = 2});
+}
+
+// What is exported is a surface again, with the coordinates of the file.
+TEST(Load, ReadsASurfaceBack) {
+    LoadObject load{"s", "off", "4OFF\n4 2 5\n0.1 0 0 0\n0 1 0 0.3\n0 0 1 -2\n1 1 1 1\n3 0 1 2\n3 2 1 3\n"};
+    load.center = {geometry::Centering::OriginChoice::object};
+    const auto first = readObject(load, Limits{});
+    ASSERT_TRUE(first) << first.error().message;
+    const auto& surface = *std::get<slicing::SurfacePtr>(first->object);
+    load.data = slicing::write4Off(first->object, surface.vertices);
+    const auto again = readObject(load, Limits{});
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_TRUE(again->warnings.empty());
+    const auto& copy = *std::get<slicing::SurfacePtr>(again->object);
+    EXPECT_EQ(copy.faces, surface.faces);
+    EXPECT_EQ(copy.edges, surface.edges);
+    for (std::size_t v = 0; v < 4; ++v) {
+        for (int axis = 0; axis < 4; ++axis)
+            EXPECT_NEAR(slicing::vertexInFile(again->object, v)[axis], slicing::vertexInFile(first->object, v)[axis],
+                        1e-12);
+    }
 }
 
 TEST(Load, MayBeReadAhead) {

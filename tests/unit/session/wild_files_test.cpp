@@ -47,9 +47,8 @@ const auto kFiles = std::to_array<WildFile>({
     {"glued.txt", k5Cell},
     {"lower-case.off", k5Cell},
     {"nOFF.off",
-     "line 1: 'nOFF' lists 2-faces but no cells; a file must begin with 4OFF and list cells, or be a list of points x "
-     "y "
-     "z w, whose convex hull is shown"},
+     "line 1: 'nOFF' cannot be read; a file must begin with 4OFF, or be a list of points x y z w, whose convex hull is "
+     "shown"},
     {"wrong-line-number.off", "line 2: 'foo' is not a number of vertices"},
     {"utf16le.off", k5Cell},
     {"toward-cell-duoprism-4-decimals.txt", "9/18/15/6"},

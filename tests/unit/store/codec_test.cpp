@@ -4,6 +4,7 @@
 
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
+#include "geometry/surface_mesh.hpp"
 #include "store/cbor.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/store/support.hpp"
@@ -310,6 +311,39 @@ TEST(Codec, SurvivesDamage) {
         }
     }
     EXPECT_GT(unreadable, 1000);
+}
+
+TEST(Codec, BringsSurfacesBack) {
+    geometry::JaggedArray faces;
+    faces.add(std::vector<std::uint32_t>{0, 1, 2});
+    faces.add(std::vector<std::uint32_t>{2, 1, 0, 3});
+    geometry::SurfaceMesh surface = geometry::makeSurfaceMesh(
+        "s", {{1, 0, 0, 0}, {0, 1, 0, 0.25}, {0, 0, 1, -1.0 / 3}, {-1, 0, 2, 1e-9}}, std::move(faces));
+    for (const glm::dvec4& origin : {glm::dvec4(0), glm::dvec4(1, 2, 3, 1e6)}) {
+        surface.originInFile = origin;
+        const std::string record = encodeObjectRecord(std::make_shared<const geometry::SurfaceMesh>(surface));
+        EXPECT_FALSE(refersToFile(record));
+        const slicing::Object back = decodeObjectRecord(record);
+        EXPECT_EQ(encodeObjectRecord(back), record);
+        const auto& copy = *std::get<slicing::SurfacePtr>(back);
+        EXPECT_EQ(copy.name, "s");
+        EXPECT_EQ(copy.vertices, surface.vertices);
+        EXPECT_EQ(copy.faces, surface.faces);
+        EXPECT_EQ(copy.edges, surface.edges);
+        EXPECT_EQ(copy.originInFile, origin);
+    }
+}
+
+TEST(Codec, RefusesInvalidSurfaces) {
+    const auto recordOf = [](const std::string& faces, const std::string& last) {
+        return encodeCbor(nlohmann::json::parse(R"([1,"s",[[1,0,0,0],[0,1,0,0],[0,0,1,0]],)" + faces +
+                                                ",null,null,null," + last + ']'));
+    };
+    EXPECT_EQ(recordOf("[[0,1,2]]", "null")[0], '\x88') << "eight members, unlike the records of all other kinds";
+    EXPECT_NO_THROW(decodeObjectRecord(recordOf("[[0,1,2]]", "null")));
+    EXPECT_THROW(decodeObjectRecord(recordOf("[[0,1,2]]", "1")), UnreadableRecord) << "of a later version";
+    for (const char* faces : {"[]", "[[0,1]]", "[[0,1,3]]", "[[0,1,1]]", "[[0,1,-1]]", "[0,1,2]"})
+        EXPECT_THROW(decodeObjectRecord(recordOf(faces, "null")), UnreadableRecord) << faces;
 }
 
 TEST(Codec, FieldsKeepTheirSecondFunction) {

@@ -97,7 +97,7 @@ TEST_P(UnsoundFiles, AreRefusedWithTheLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, UnsoundFiles,
     testing::Values(UnsoundFile{"4OFF#", "OFF #", "must begin with 4OFF, not 'OFF'", 2},
-                    UnsoundFile{"5 10 7 5", "5 10 7", "the file has three counts, as in Geomview's", 3},
+                    UnsoundFile{"5 10 7 5", "5 10 7", "'4' follows the last 2-face", 20},
                     UnsoundFile{"5 10 7 5", "5 10 -7 5", "'-7' is not a number of edges", 3},
                     UnsoundFile{"5 10 7 5", "5 10 7 x", "'x' is not a number of cells", 3},
                     UnsoundFile{"5 10 7 5", "5 4000000000 7 5", "the file is too short for its numbers", 3},
@@ -169,7 +169,8 @@ TEST(Import, ReadsRecordsThatShareAndBreakLines) {
 
 TEST(Import, SaysThatAFileListsNoCells) {
     for (const char* text :
-         {"4OFF\n2 0 0 0\n1 2 3 4\n5 6 7 8\n", "4OFF\n5 1 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0\n3 0 1 2\n"})
+         {"4OFF\n2 0 0 0\n1 2 3 4\n5 6 7 8\n", "4OFF\n5 1 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0\n3 0 1 2\n",
+          "4OFF\n3 1 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n"})
         EXPECT_EQ(reasonOf(importOff4(text)), "the file lists no cells; its points can be loaded as a list of points");
 }
 

@@ -1,0 +1,171 @@
+"""Surfaces in R⁴: loading, slicing, drawing, exporting and storing them."""
+
+import math
+
+import meshes
+import png
+import pytest
+from harness import Server, run_oval4d
+from wire import Client, Refused
+
+SIZE = {"width": 480, "height": 270}
+
+
+def clifford_torus(columns, rows, header="{vertices} {faces} {edges} 0"):
+    """Returns a mesh of quads with vertices on the Clifford torus as 4OFF, and its vertices."""
+    points = [[math.cos(a), math.sin(a), math.cos(b), math.sin(b)]
+              for a in (2 * math.pi * i / columns for i in range(columns))
+              for b in (2 * math.pi * j / rows for j in range(rows))]
+    faces = [[i * rows + j, k * rows + j, k * rows + n, i * rows + n]
+             for i in range(columns) for j in range(rows)
+             for k, n in [((i + 1) % columns, (j + 1) % rows)]]
+    counts = header.format(vertices=len(points), faces=len(faces), edges=2 * len(faces))
+    records = [" ".join(map(repr, p)) for p in points] + ["4 " + " ".join(map(str, f)) for f in faces]
+    return "\n".join(["4OFF", counts, *records]) + "\n", points
+
+
+@pytest.mark.parametrize("header", ["{vertices} {faces} {edges} 0", "{vertices} {faces} {edges}"],
+                         ids=["four counts", "the counts of Geomview"])
+async def test_a_surface_is_cut_in_closed_curves(server, header):
+    text, _ = clifford_torus(12, 16, header)
+    async with Client(server, stream="none") as client:
+        done = await client.request("load", name="torus", format="off", data=text)
+        assert "warnings" not in done
+        polytope = (await client.request("get", what="state"))["polytope"]
+        assert [polytope[name] for name in ("vertices", "edges", "faces", "cells")] == [192, 384, 192, 0]
+        assert polytope["kinds"] == []
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.3, 1.1])
+        slices = await client.request("get", what="slices", **SIZE)
+        edges = 0
+        for one in slices["slices"]:
+            ends = [0] * len(one["vertices"])
+            for edge in one["edges"]:
+                for end in edge:
+                    ends[end] += 1
+            assert set(ends) <= {2} and len(one["faces"]) == 0
+            # A hyperplane can contain a vertex, which then has a number after those of the edges; likewise an edge.
+            assert all(0 <= source < 384 + 192 for source in one["of"]["vertices"])
+            assert all(0 <= source < 192 + 384 for source in one["of"]["edges"])
+            edges += len(one["edges"])
+        assert edges > 100
+
+
+async def test_a_surface_is_drawn_turned_projected_and_highlighted(server):
+    text, _ = clifford_torus(12, 16)
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=text)
+        last = png.pixels(await client.request_frame(**SIZE))
+        await client.request("key", key="y")
+        assert png.pixels(await client.request_frame(**SIZE)) != last
+        await client.request("undo")
+        assert png.pixels(await client.request_frame(**SIZE)) == last
+        for change in ({"highlight": {"element": "face", "number": 20}},
+                       {"highlight": {"element": "edge", "number": 7}}, {"shown": {"balls": False}},
+                       {"shown": {"coordinates": False}}, {"projection": "perspective"}, {"shown": {"bars": False}},
+                       {"view": "matrix"}):
+            await client.request("set", **change)
+            picture = png.pixels(await client.request_frame(**SIZE))
+            assert picture != last, change
+            last = picture
+
+
+async def test_a_surface_has_elements_but_no_cells(server):
+    text, _ = clifford_torus(12, 16)
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=text)
+        with pytest.raises(Refused, match="no cells"):
+            await client.request("set", hidden=[0])
+        with pytest.raises(Refused):
+            await client.request("set", highlight={"element": "cell", "number": 0})
+        measured = await client.request("measure", element="edge", number=0)
+        assert measured["length"] == pytest.approx(2 * math.sin(math.pi / 12))
+        critical = await client.request("get", what="critical")
+        assert [one["vertices"] for one in critical["sections"]] == [12] + 7 * [24] + [12]
+
+
+@pytest.mark.parametrize("data, message", [
+    ("4OFF\n3 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n", "the file lists neither 2-faces nor cells"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 3\n",
+     "line 6: 2-face 0 refers to vertex 3, but the last is vertex 2"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 1\n", "line 6: 2-face 0 lists a vertex twice"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 6 are allowed"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0\n0 0 1 0\n3 0 1 2\n", "line 4: vertex 1 has 3 of 4 coordinates"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: '3' follows the last 2-face"),
+    ("4OFF\n3 1 3\n0 0 0 0\n0 0 0 0\n0 0 0 0\n3 0 1 2\n", "all vertices are at the origin"),
+], ids=["no faces", "vertex out of range", "vertex twice", "two vertices", "three coordinates", "data after the end",
+        "no extent"])
+async def test_invalid_surfaces_are_refused(server, data, message):
+    async with Client(server, stream="none") as client:
+        with pytest.raises(Refused) as refused:
+            await client.request("load", name="s", format="off", data=data)
+        assert refused.value.code == "bad_polytope" and message in refused.value.text
+        assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
+
+
+async def test_the_number_of_vertices_is_limited():
+    text, _ = clifford_torus(12, 16)
+    with Server("--max-vertices", "191") as server:
+        async with Client(server, stream="none") as client:
+            with pytest.raises(Refused, match="at most 191 are allowed") as refused:
+                await client.request("load", name="s", format="off", data=text)
+            assert refused.value.code == "too_large"
+
+
+async def test_repairs_are_reported_as_warnings(server):
+    data = "4OFF\n5 1 7\n1 0 0 0\n9 9 9 9\n0 1 0 0\n0 0 1 0\n8 8 8 8\n3 0 2 3\n"
+    async with Client(server, stream="none") as client:
+        done = await client.request("load", name="s", format="off", data=data)
+        assert done["warnings"] == ["2 vertices lie on no 2-face and were left out",
+                                    "the file states 7 edges, but its 2-faces have 3"]
+        polytope = (await client.request("get", what="state"))["polytope"]
+        assert [polytope[name] for name in ("vertices", "edges", "faces", "cells")] == [3, 3, 1, 0]
+
+
+async def test_a_surface_is_restored_from_the_store(tmp_path):
+    text, _ = clifford_torus(5, 7)
+    store = f"sqlite:{tmp_path}/sessions.db"
+    with Server("--store", store) as server:
+        async with Client(server, stream="none") as client:
+            await client.request("load", name="torus", format="off", data=text, center=[0, 0, 0.25, 0])
+            picture = png.pixels(await client.request_frame(**SIZE))
+            welcome = client.welcome
+        server.stop()
+    with Server("--store", store) as server:
+        async with Client(server, stream="none", session=welcome["session"], token=welcome["token"]) as client:
+            assert png.pixels(await client.request_frame(**SIZE)) == picture
+            state = await client.request("get", what="state")
+            assert state["polytope"]["center"] == [0, 0, 0.25, 0]
+
+
+async def test_an_exported_surface_loads_as_the_same_surface(server):
+    text, _ = clifford_torus(9, 8)
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=text)
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
+        first = await client.request("get", what="slices")
+        done = await client.request("get", what="file", format="off")
+        file = client.messages[client.messages.index(done) - 1]
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="again", format="off", data=file.decode())
+        again = await client.request("get", what="slices")
+    for one, other in zip(first["slices"], again["slices"], strict=True):
+        assert one["of"] == other["of"] and one["edges"] == other["edges"]
+
+
+def test_the_command_line_renders_and_exports_a_surface(tmp_path):
+    file = tmp_path / "torus.off"
+    file.write_text(clifford_torus(12, 16)[0], encoding="utf-8")
+    done = run_oval4d("render", "-o", tmp_path / "picture.png", "--load", file, "--width", 480, "--height", 270)
+    assert done.returncode == 0, done.stderr
+    turn = ("--load", file, "--rotate", "xw,yz:0.39,1.42")
+    done = run_oval4d("export", *turn, "--format", "stl", "-o", "-")
+    assert done.returncode != 0 and b"no cells" in done.stderr and b"body=skeleton" in done.stderr
+    done = run_oval4d("export", *turn, "--body", "skeleton", "-o", tmp_path / "curves.stl")
+    assert done.returncode == 0, done.stderr
+    meshes.assert_closed_mesh(tmp_path / "curves.stl")
+    for name in ("slices.csv", "slices.svg", "slices.pdf"):
+        done = run_oval4d("export", *turn, "--of", "oval", "-o", tmp_path / name)
+        assert done.returncode == 0, done.stderr
+    for contents in ("coordinates", "projection", "matrix"):
+        done = run_oval4d("export", *turn, "--of", contents, "-o", tmp_path / f"{contents}.svg")
+        assert done.returncode == 0, done.stderr
