@@ -191,9 +191,13 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
 // the wrong order.
 std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
     for (int axis = 0; axis < 4; ++axis) {
+        if (box.min[axis] > box.max[axis]) {
+            return Error{ErrorCode::out_of_range, std::string("the ends of the box along ") + "xyzw"[axis] +
+                                                      " are in the wrong order: the smaller one comes first"};
+        }
         const bool wide = shape.at(static_cast<std::size_t>(axis)) > 1;
-        if (wide ? box.min[axis] < box.max[axis] : box.min[axis] <= box.max[axis]) continue;
-        return Error{ErrorCode::out_of_range, std::string("the box has no extent along ") + "xyzw"[axis]};
+        if (wide && box.min[axis] == box.max[axis])
+            return Error{ErrorCode::out_of_range, std::string("the box has no extent along ") + "xyzw"[axis]};
     }
     return {};
 }
@@ -283,8 +287,10 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
 }
 
 Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
-    auto field =
-        fields::fieldFromFormula(load.name, load.data, load.box.value_or(fields::kFormulaBox), load.secondFormula);
+    const fields::Box box = load.box.value_or(fields::kFormulaBox);
+    constexpr fields::Shape kAnyNumberOfSamples{2, 2, 2, 2};
+    if (auto error = checkBox(box, kAnyNumberOfSamples)) return std::move(*error);
+    auto field = fields::fieldFromFormula(load.name, load.data, box, load.secondFormula);
     if (!field) return field.error();
     return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), {}};
 }

@@ -87,7 +87,7 @@ SIDES = '[-1,1],[-1,1],[-1,1]'
 
 @pytest.mark.parametrize("box, code, text", [
     (f"[{SIDES},[1,1]]", "out_of_range", "along w"),
-    (f"[[1,-1],{SIDES}]", "out_of_range", "along x"),
+    (f"[[1,-1],{SIDES}]", "out_of_range", "along x are in the wrong order"),
     (f"[{SIDES},[-1e308,1e308]]", "out_of_range", "1e30"),
     (f"[{SIDES},[0,1e-400]]", "out_of_range", "along w"),
     (f"[{SIDES}]", "bad_message", "box"),

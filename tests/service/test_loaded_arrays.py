@@ -59,7 +59,7 @@ async def test_a_variable_is_chosen_by_its_name(server):
     ({"axes": 4}, "bad_message", "axes"),
     ({"variable": 4}, "bad_message", "variable"),
     ({"box": [[0, 1], [0, 1], [0, 1], [1, 1]]}, "out_of_range", "no extent along w"),
-    ({"box": [[1, 0], [0, 1], [0, 1], [0, 1]]}, "out_of_range", "no extent along x"),
+    ({"box": [[1, 0], [0, 1], [0, 1], [0, 1]]}, "out_of_range", "along x are in the wrong order"),
     ({"box": [[0, 1e31], [0, 1], [0, 1], [0, 1]]}, "bad_field", "1e30"),
     ({"box": [[0, 1]] * 3}, "bad_message", "box"),
     ({"append": 1}, "bad_message", "append"),
