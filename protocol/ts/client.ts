@@ -177,7 +177,7 @@ export class Client {
     }
 
     /** The number of bytes that wait to be sent to the server. */
-    get unsent(): number {
+    get unsentBytes(): number {
         return this.socket?.bufferedAmount ?? 0;
     }
 
@@ -272,17 +272,17 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsent } = this; // without the bytes of the test: that they are sent is no sign of a connection
+        const { unsentBytes } = this; // without the bytes of the test: that they are sent is no sign of a connection
         this.request({ type: "get", what: "state" }).catch(() => {});
-        this.awaitAnswer(unsent);
+        this.awaitAnswer(unsentBytes);
     }
 
     /** Waits for the answer to a test. While queued data are still being sent, the wait begins again. */
-    private awaitAnswer(unsent: number): void {
+    private awaitAnswer(unsentBytes: number): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(
             () => {
-                if (this.unsent < unsent) this.awaitAnswer(this.unsent);
+                if (this.unsentBytes < unsentBytes) this.awaitAnswer(this.unsentBytes);
                 else this.closed(1006, "the server does not answer");
             },
             (this.isAwaiting("file") ? kFileTestTimeout : kTestTimeout) * 1000,

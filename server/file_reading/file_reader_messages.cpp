@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 
-enum class Kind : std::uint8_t {
+enum class OutcomeKind : std::uint8_t {
     object,
     bad_polytope,
     bad_field,
@@ -34,13 +34,13 @@ enum class Kind : std::uint8_t {
     bad_expression
 };
 constexpr auto kErrors =
-    std::to_array<std::pair<Kind, ErrorCode>>({{Kind::bad_polytope, ErrorCode::bad_polytope},
-                                               {Kind::bad_field, ErrorCode::bad_field},
-                                               {Kind::unsupported_format, ErrorCode::unsupported_format},
-                                               {Kind::too_large, ErrorCode::too_large},
-                                               {Kind::out_of_range, ErrorCode::out_of_range},
-                                               {Kind::not_found, ErrorCode::not_found},
-                                               {Kind::bad_expression, ErrorCode::bad_expression}});
+    std::to_array<std::pair<OutcomeKind, ErrorCode>>({{OutcomeKind::bad_polytope, ErrorCode::bad_polytope},
+                                                      {OutcomeKind::bad_field, ErrorCode::bad_field},
+                                                      {OutcomeKind::unsupported_format, ErrorCode::unsupported_format},
+                                                      {OutcomeKind::too_large, ErrorCode::too_large},
+                                                      {OutcomeKind::out_of_range, ErrorCode::out_of_range},
+                                                      {OutcomeKind::not_found, ErrorCode::not_found},
+                                                      {OutcomeKind::bad_expression, ErrorCode::bad_expression}});
 
 [[noreturn]] void reject(const std::string& what) { throw std::runtime_error("a reader process sent " + what); }
 
@@ -96,13 +96,13 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
     ByteWriter archive(out);
     if (!outcome) {
         const auto& [code, message] = outcome.error();
-        const auto error = std::ranges::find(kErrors, code, &std::pair<Kind, ErrorCode>::second);
-        archive(error == kErrors.end() ? Kind::bad_polytope : error->first), archive(message);
+        const auto error = std::ranges::find(kErrors, code, &std::pair<OutcomeKind, ErrorCode>::second);
+        archive(error == kErrors.end() ? OutcomeKind::bad_polytope : error->first), archive(message);
         return;
     }
     out.reserve(
         sampleBytes(outcome->object, maxInMemory));  // so that a large array is not copied while the string grows
-    archive(Kind::object);
+    archive(OutcomeKind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);
     slicing::writeParts(outcome->object, archive, files, maxInMemory);
@@ -111,11 +111,11 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
 Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
                                                   const session::Limits& limits, const slicing::MappedFiles& files) {
     ByteReader archive(bytes);
-    Kind kind{};
+    OutcomeKind kind{};
     archive(kind);
-    const auto error = std::ranges::find(kErrors, kind, &std::pair<Kind, ErrorCode>::first);
+    const auto error = std::ranges::find(kErrors, kind, &std::pair<OutcomeKind, ErrorCode>::first);
     if (error != kErrors.end()) return Error{error->second, textFrom(archive)};
-    if (kind != Kind::object) reject("neither an object nor an error");
+    if (kind != OutcomeKind::object) reject("neither an object nor an error");
 
     std::size_t count = 0;
     archive(count);

@@ -13,7 +13,7 @@ class FocusSectionNamer {
   public:
     /// Slices the object at the focus and names the slice. A name is empty if the slice has none; names are valid until
     /// the process ends. Takes at most about as long as one slice of a picture.
-    slicing::SectionNames names(const session::State& state);
+    slicing::SectionNamePair names(const session::State& state);
 
   private:
     slicing::Slicer slicer_;

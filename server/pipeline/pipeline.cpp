@@ -14,7 +14,7 @@ Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::For
                    PictureWorkLimits limits)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), limits_(limits), workspace_(forkJoin) {}
 
-slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {
+slicing::SectionNamePair Pipeline::nameFocusSection(const session::State& state) {
     const parallel::ExclusiveUseAssertion::Use use(inUse_);
     return workspace_.sectionNamer.names(state);
 }

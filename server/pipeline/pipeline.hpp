@@ -46,8 +46,8 @@ class Pipeline {
 
     /// Returns the names of the section in the focus slice, for the `state` message. There are two, because the slice
     /// may have a name, such as "icosahedron", and so may the convex hull of those of its vertices that are vertices of
-    /// the object (see slicing::SectionNames). Each of them is empty if there is no such name.
-    slicing::SectionNames nameFocusSection(const session::State& state);
+    /// the object (see slicing::SectionNamePair). Each of them is empty if there is no such name.
+    slicing::SectionNamePair nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the
     /// slices exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that

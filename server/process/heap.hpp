@@ -4,11 +4,11 @@ namespace oval4d::process {
 
 /// Configures glibc's memory allocator for this process, and returns free memory to the operating system. Construct one
 /// object in main(), before the program allocates much memory.
-class Heap {
+class HeapTrimmer {
   public:
-    Heap();
-    Heap(const Heap&) = delete;
-    Heap& operator=(const Heap&) = delete;
+    HeapTrimmer();
+    HeapTrimmer(const HeapTrimmer&) = delete;
+    HeapTrimmer& operator=(const HeapTrimmer&) = delete;
 
     /// Returns free memory to the operating system, which takes milliseconds. Thread-safe.
     void returnFreeMemory();

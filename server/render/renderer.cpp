@@ -124,7 +124,7 @@ struct Renderer::Impl {
     void drawFog(const scene::Scene& scene, DepthRange depths);
 
     /// The surfaces of the nearer or of the farther slices, for drawing without OpenGL.
-    struct SurfacePass {
+    struct SurfaceHalf {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
     };
@@ -145,7 +145,7 @@ struct Renderer::Impl {
     ProjectionShapeCollector projectionCollector;
     ProjectionShapeCollector::Layers projectionLayers;
     SurfaceBatch surfaces;                     // for drawing with OpenGL
-    std::array<SurfacePass, 2> surfacePasses;  // the nearer slices; the farther slices
+    std::array<SurfaceHalf, 2> surfaceHalves;  // the nearer slices; the farther slices
     std::optional<FogPainter> fogPainter;      // made for the first picture with fog
 };
 
@@ -201,8 +201,8 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
-    auto& [near, far] = surfacePasses;
-    const auto prepare = [&](SurfacePass& pass, SurfaceBatch::DepthHalf half) {
+    auto& [near, far] = surfaceHalves;
+    const auto prepare = [&](SurfaceHalf& pass, SurfaceBatch::DepthHalf half) {
         DepthRange depths;  // needed only for OpenGL
         pass.batch.collect(scene, depths, half);
         pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
@@ -218,21 +218,21 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
-    const auto opaque = [](const SurfacePass& pass) { return std::span(pass.batch.opaqueIndices()); };
+    const auto opaque = [](const SurfaceHalf& pass) { return std::span(pass.batch.opaqueIndices()); };
     const auto add = [this](const ShapeBatch& batch, DepthUse depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
     add(layers.faces, DepthUse::written);
-    for (const SurfacePass* pass : {&near, &far})
+    for (const SurfaceHalf* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).first(pass->batch.fringesBegin()), Blending::none);
-    for (const SurfacePass* pass : {&near, &far})
+    for (const SurfaceHalf* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).subspan(pass->batch.fringesBegin()), Blending::alpha);
     add(layers.skeleton, DepthUse::written);
     if (scene.projectionPlacement.shown) {
         add(projectionLayers.solid, DepthUse::written);
         add(projectionLayers.translucent, DepthUse::tested);
     }
-    for (const SurfacePass* pass : {&far, &near})
+    for (const SurfaceHalf* pass : {&far, &near})
         shapeRasterizer.add(pass->rasterizer, pass->batch.translucentIndices(), Blending::alpha);
     add(layers.faded, DepthUse::tested);
 }
@@ -339,7 +339,7 @@ void Renderer::freeMemory() {
     impl_->projectionCollector = {};
     impl_->projectionLayers = {};
     impl_->surfaces = {};
-    impl_->surfacePasses = {};
+    impl_->surfaceHalves = {};
     if (impl_->fogPainter) impl_->fogPainter->freeMemory();
 }
 

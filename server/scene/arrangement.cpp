@@ -137,7 +137,7 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
 ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
                                      double top) {
     constexpr double kGap = 0.94;
-    const InitialViewSpace space(arrangement);
+    const InitialCameraSpace space(arrangement);
     const auto radiusAt = [&](double depthOfOval) {
         const glm::dvec3 p{0, 0, -depthOfOval};
         const double y = space.up(p) / space.depth(p);

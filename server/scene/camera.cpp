@@ -6,7 +6,7 @@
 
 namespace oval4d::scene {
 
-double Camera::sizeAtUnitDepth() const { return 0.5 / std::tan(fieldOfView / 2); }
+double Camera::focalLength() const { return 0.5 / std::tan(fieldOfView / 2); }
 
 glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 

@@ -22,7 +22,7 @@ struct Camera {
     double shiftX = 0, shiftY = 0;
 
     /// Returns the apparent size, in viewport heights, of a length of 1 at depth 1 in front of the eye.
-    double sizeAtUnitDepth() const;
+    double focalLength() const;
     /// Returns the matrix from world space to view space.
     glm::dmat4 view() const;
     /// Returns the matrix from view space to OpenGL clip space, including the shift. `aspect` is the viewport's width

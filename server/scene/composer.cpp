@@ -52,7 +52,7 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     layOutIfChanged(object, planes, focus, scene);
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
-    const double unit = scene.camera.sizeAtUnitDepth() * viewport.height * scene.sliceRadius / scene.circumradius;
+    const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
     // On a lattice that is coarser than the one for messages (evenStep()), thin bodies in small slices would fall
     // apart.
     const double coarsest = quality == slicing::Quality::full ? slicing::evenStep(scene.circumradius, quality)
@@ -140,7 +140,8 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     focusName.clear();
     const std::size_t edges = slicing::elementCounts(object)[1];
     if (edges == 0 || slicing::fieldIn(object) != nullptr || slice < 0 || slice >= slices.planes.count) return;
-    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice), sectionNamer_.nameOfVertices(slices, slice, edges)};
+    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice),
+                        sectionNamer_.nameOfObjectVertices(slices, slice, edges)};
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
         focusName = name;

@@ -48,7 +48,7 @@ class Composer {
     struct LayoutInput {
         geometry::Hyperplanes planes;
         int focus = 0;
-        LayoutContent content;
+        LayoutObjectInfo content;
         Look look;
         Viewport viewport;
         std::string focusName;

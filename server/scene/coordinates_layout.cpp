@@ -37,7 +37,7 @@ void layOutHistogram(double aspect, CoordinatesLayout& out) {
 
 }  // namespace
 
-void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesLayout& out) {
+void layOutCoordinates(const LayoutObjectInfo& content, double aspect, CoordinatesLayout& out) {
     if (content.isField) {
         layOutHistogram(aspect, out);
         return;

@@ -7,6 +7,6 @@ namespace oval4d::scene {
 
 /// Lays out the parallel coordinates of an object in a picture with this aspect ratio (width / height). Overwrites
 /// `out`.
-void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesLayout& out);
+void layOutCoordinates(const LayoutObjectInfo& content, double aspect, CoordinatesLayout& out);
 
 }  // namespace oval4d::scene

@@ -61,7 +61,7 @@ void LabelLayout::place(const Camera& camera) {
     const glm::dmat4 view = camera.view();
     const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
     const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
-    const double pixels = camera.sizeAtUnitDepth();
+    const double pixels = camera.focalLength();
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         SlicePlacement& placement = placements_[i];
         const double depth = -(view * glm::dvec4(placement.position, 1)).z;
@@ -79,7 +79,7 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
     if (arrangement_.labelsAreBeside) {
         const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
         const double depth = -(view * glm::dvec4(focus->position, 1)).z;
-        focus->labelAt += right * (fontSize(*focus) * nameWidth_ / 2 * depth / camera.sizeAtUnitDepth());
+        focus->labelAt += right * (fontSize(*focus) * nameWidth_ / 2 * depth / camera.focalLength());
     }
     const Box box = boxSeenBy(camera, view, aspect, *focus);
     if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
@@ -93,7 +93,7 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
 void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
     const auto count = static_cast<std::ptrdiff_t>(placements_.size());
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
-    const std::ptrdiff_t step = smallestStep(focus, camera.sizeAtUnitDepth());
+    const std::ptrdiff_t step = smallestStep(focus, camera.focalLength());
     const glm::dmat4 toView = camera.view();
     const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
     const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
@@ -103,8 +103,8 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
         const Box box = boxOf(i);
         if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
         if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
-        if (isMoved &&
-            (box.center.y < bottom + box.half.y || overlap(box, axes) || isOverSlice(i, box, camera, toView, aspect)))
+        if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
+                        overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
         // The labels of slices nearer to the focus slice are decided before this one, and so is the label at the same
         // distance if its index is less. Some of these labels are removed; this label must not overlap the others.
@@ -169,17 +169,17 @@ Box LabelLayout::boxAt(std::size_t i, double scale) const {
 }
 
 glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
-    return glm::dvec2(p) * (camera.sizeAtUnitDepth() / -p.z) +
+    return glm::dvec2(p) * (camera.focalLength() / -p.z) +
            glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
 }
 
-bool LabelLayout::isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
-                              double aspect) const {
+bool LabelLayout::overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+                                     double aspect) const {
     for (std::size_t j = 0; j < placements_.size(); ++j) {
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
         const double u = parameterOf(j, placements_.size());
-        const double radius = arrangement_.reach * arrangement_.reachAt(u) * camera.sizeAtUnitDepth() / -p.z;
+        const double radius = arrangement_.reach * arrangement_.reachAt(u) * camera.focalLength() / -p.z;
         if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
     }
     return false;

@@ -19,8 +19,8 @@ namespace oval4d::scene {
 /// Decides where the labels are and which of them are shown.
 class LabelLayout {
   public:
-    /// `decimals` is the number of decimals in the labels. `originW`: see LayoutContent. `arrangement` and `placements`
-    /// must outlive this object, which changes the labels in `placements`.
+    /// `decimals` is the number of decimals in the labels. `originW`: see LayoutObjectInfo. `arrangement` and
+    /// `placements` must outlive this object, which changes the labels in `placements`.
     LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
     /// Reduces the size of labels, so that they fit side by side in columns of this width, in viewport heights; see
@@ -84,8 +84,8 @@ class LabelLayout {
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
 
     // Returns whether the box of label i overlaps a slice other than slice i.
-    bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
-                     double aspect) const;
+    bool overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+                            double aspect) const;
 
     // Returns the box of a label, with the name of its section, as the camera sees it.
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
@@ -95,7 +95,7 @@ class LabelLayout {
     std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
 
     const Arrangement& arrangement_;
-    InitialViewSpace space_;
+    InitialCameraSpace space_;
     double width_ = 0;      // of the longest number, as a multiple of the font size
     double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;

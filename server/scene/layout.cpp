@@ -31,14 +31,14 @@ struct Circle {
 
 // Returns a circle that approximates the outline of a sphere. The approximation is good for spheres that are small and
 // near the optical axis.
-Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
+Circle circleOf(const glm::dvec3& position, double radius, const InitialCameraSpace& space) {
     const double depth = space.depth(position);
     return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};
 }
 
 // Returns the circles within which the slices are assumed to lie.
 std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const Arrangement& arrangement) {
-    const InitialViewSpace space(arrangement);
+    const InitialCameraSpace space(arrangement);
     std::vector<Circle> circles;
     for (std::size_t i = 0; i < placements.size(); ++i) {
         const double radius = arrangement.reach * arrangement.reachAt(parameterOf(i, placements.size()));
@@ -96,7 +96,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
                  const Arrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
-    const InitialViewSpace space(arrangement);
+    const InitialCameraSpace space(arrangement);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -173,7 +173,8 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
 }
 
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
-// `relativeBall`: LayoutContent::relativeBallRadius. The matrix has no balls and bars, so it ignores Look::thickness.
+// `relativeBall`: LayoutObjectInfo::relativeBallRadius. The matrix has no balls and bars, so it ignores
+// Look::thickness.
 MatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
@@ -211,7 +212,7 @@ std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) co
     return found;
 }
 
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, const Look& look,
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
             Viewport viewport, std::string_view focusName, Layout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
@@ -241,7 +242,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent&
         projection = projectionBeside(look.view, arrangement, planes.count, aspectOf(beside));
     }
     if (projection.shown)
-        circles.push_back(circleOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
+        circles.push_back(circleOf(projection.position, projection.radius, InitialCameraSpace(arrangement)));
     const Rect bounds = boundsOf(circles);
     const Rect inside = arrangement.isClearOfAxes ? clearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
                                                   : roomInside(room, bounds, labels);

@@ -125,19 +125,19 @@ struct Layout {
 };
 
 /// The properties of an object that determine the layout.
-struct LayoutContent {
+struct LayoutObjectInfo {
     std::size_t vertices = 0;
     bool isField = false;
     double originW = 0;             ///< the w of geometry::ObjectInfo::originInFile
     double relativeBallRadius = 0;  ///< slicing::relativeBallRadius(): the radius of balls at the thickness 1, as a
                                     ///< fraction of the radius of the object's circumscribed sphere
-    bool operator==(const LayoutContent&) const = default;
+    bool operator==(const LayoutObjectInfo&) const = default;
 };
 
 /// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the number n of the focus slice (see
 /// geometry::Hyperplanes); `focusName` is the text that follows w in the focus slice's label, if there is room for it.
 /// Overwrites `out` and reuses its memory.
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, const Look& look,
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
             Viewport viewport, std::string_view focusName, Layout& out);
 
 }  // namespace oval4d::scene

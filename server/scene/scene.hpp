@@ -84,7 +84,7 @@ struct Scene : Layout {
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
     slicing::PartsShowingElement highlight;    ///< the vertices and edges of slices that show the highlighted element
-    slicing::SectionNames sectionNames;        ///< of the section in the focus slice
+    slicing::SectionNamePair sectionNames;     ///< of the section in the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1

@@ -36,7 +36,7 @@ ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache
     : ObjectLoader(limits, cache, Mode::immediate, readObject) {}
 
 ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
-                           CriticalSearch search)
+                           CriticalSearchOptions search)
     : limits_(limits), cache_(cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
 
 Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {

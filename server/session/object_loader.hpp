@@ -27,7 +27,7 @@ namespace oval4d::session {
 using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& load, const Limits& limits)>;
 
 /// How a loader searches for critical values of w: those at which the type of the section changes.
-struct CriticalSearch {
+struct CriticalSearchOptions {
     slicing::CriticalCache* cache = nullptr;  ///< may be null; must outlive the loader
     /// The maximum search time: see CriticalOptions::time.
     std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
@@ -55,7 +55,7 @@ class ObjectLoader {
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
     /// Creates a loader that reads files with `reader`.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
-                 CriticalSearch search = {});
+                 CriticalSearchOptions search = {});
 
     /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
     /// computation of a convex hull exceeds a limit. Whether it does is known only during the computation.
@@ -114,7 +114,7 @@ class ObjectLoader {
     polytopes::PolytopeCache& cache_;
     Mode mode_;
     FileReader reader_;
-    CriticalSearch search_;
+    CriticalSearchOptions search_;
     // `field`: an array. `added`: the array whose time steps are added to it.
     struct Extension {
         slicing::Object field, added;

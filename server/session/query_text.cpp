@@ -31,14 +31,14 @@ std::string repaired(std::string_view query) {
 
 /// The rules of protocol/address.json: names of parameters to ignore, and of parameters whose values are not
 /// arithmetic.
-struct AddressRules {
+struct ParameterRules {
     std::vector<std::string> ignored, texts;
 };
 
-const AddressRules& rules() {
-    static const AddressRules read = [] {
+const ParameterRules& rules() {
+    static const ParameterRules read = [] {
         const auto table = nlohmann::json::parse(protocol_data::embeddedFile("address.json"));
-        return AddressRules{table.at("ignored"), table.at("texts")};
+        return ParameterRules{table.at("ignored"), table.at("texts")};
     }();
     return read;
 }

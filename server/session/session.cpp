@@ -246,7 +246,7 @@ Done apply(Session& session, const Command& command, const Limits& limits, Objec
     return std::visit(Applier(session, limits, loader), command);
 }
 
-std::size_t historyMemory(const Session& session) {
+std::size_t historyMemoryWithoutObjects(const Session& session) {
     return sizeof(State) * (session.undoSteps.size() + session.redoSteps.size());
 }
 

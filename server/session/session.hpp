@@ -125,7 +125,7 @@ std::size_t unsharedMemory(const slicing::Object& object);
 std::size_t ownObjectMemory(const Session& session);
 
 /// Returns the memory of a session's history in bytes, without the objects.
-std::size_t historyMemory(const Session& session);
+std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 

@@ -96,12 +96,12 @@ class Incidence {
 };
 
 // An orthonormal basis of the directions within an element.
-class Span {
+class OrthonormalBasis {
   public:
     /// Makes the basis of an element of this dimension from vectors between its points, by the Gram–Schmidt process.
     /// Each step takes the vector whose part perpendicular to the basis is longest, so that rounding errors of the
     /// points do not count as directions. Ignores parts whose length is at most `tolerance`. Overwrites the vectors.
-    Span(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
+    OrthonormalBasis(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
             if (glm::length(longest) <= tolerance) return;
@@ -138,16 +138,16 @@ glm::dvec4 directionIn(const Elements& object, const Element& element, const glm
     visitVertices(object, element, [&](const glm::dvec4& v) { points.push_back(v); });
     const glm::dvec4 center = std::accumulate(points.begin(), points.end(), glm::dvec4(0)) / double(points.size());
     for (glm::dvec4& point : points) point -= center;
-    const Span span(points, static_cast<std::size_t>(element.kind), tolerance);
-    const glm::dvec4 foot = span.perpendicular(center);
+    const OrthonormalBasis basis(points, static_cast<std::size_t>(element.kind), tolerance);
+    const glm::dvec4 foot = basis.perpendicular(center);
     if (glm::length(foot) > tolerance) return foot;
-    const glm::dvec4 near = span.perpendicular(glm::normalize(preferred));
+    const glm::dvec4 near = basis.perpendicular(glm::normalize(preferred));
     if (glm::length(near) > 1e-6) return near;
     glm::dvec4 best(0);
     for (int axis = 0; axis < 4; ++axis) {
         glm::dvec4 unit(0);
         unit[axis] = 1;
-        const glm::dvec4 part = span.perpendicular(unit);
+        const glm::dvec4 part = basis.perpendicular(unit);
         if (glm::length(part) > glm::length(best)) best = part;
     }
     return best;
@@ -198,8 +198,8 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
     const glm::dvec4 base = points.front();  // coordinates relative to a vertex of the element minimize cancellation
     for (glm::dvec4& point : points) point = toFile * (point - base);
-    const Span span(points, static_cast<std::size_t>(element.kind), 0);
-    const auto at = [&](std::uint32_t v) { return span.coordinates(toFile * (p.vertices[v] - base)); };
+    const OrthonormalBasis basis(points, static_cast<std::size_t>(element.kind), 0);
+    const auto at = [&](std::uint32_t v) { return basis.coordinates(toFile * (p.vertices[v] - base)); };
     const std::size_t index = element.index;
     switch (element.kind) {
         case ElementKind::vertex:

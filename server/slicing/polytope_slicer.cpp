@@ -414,7 +414,7 @@ void PolytopeSlicer::addLyingFaces(const geometry::CellComplex& complex, const S
             const Span span = cellSpan_[cell];
             standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) =
-                standsOnFace.at(i) || (span.from > plane && span.to <= plane && liesOnTop(complex, cell, out));
+                standsOnFace.at(i) || (span.from > plane && span.to <= plane && hasUpwardNormal(complex, cell, out));
         }
         if ((standsOnFace[0] && standsOnFace[1]) || (!bounds[0] && !bounds[1])) {
             touchingFaces_.push_back(f);
@@ -449,7 +449,8 @@ void PolytopeSlicer::addLyingFace(const geometry::CellComplex& complex, std::uin
 
 // Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w.
 // This is the case if its 2-faces, oriented as in this cell, enclose a positive volume.
-bool PolytopeSlicer::liesOnTop(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const {
+bool PolytopeSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell,
+                                     const SliceSet& out) const {
     double volume = 0;
     for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
         const auto loop = complex.faces[complex.cells.items[at]];

@@ -98,7 +98,7 @@ class PolytopeSlicer {
     bool lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out);
     void addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward);
-    bool liesOnTop(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
+    bool hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
     void traceCell(const geometry::CellComplex& complex, std::uint32_t cell);
     void removeCoincidingEdges(SliceSet& out);
     void placeLoops(SliceSet& out);

@@ -14,10 +14,10 @@
 #include "slicing/overloaded.hpp"
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
-// which do not depend on the orientation. These distances suffice for nameOfVertices(), which names a convex hull. A
-// slice, however, need not be the convex hull of its vertices. It is the hull if it has the edges of the hull and
-// equally many faces. Therefore nameOfSlice() also compares the number and the lengths of the edges, and the number of
-// faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as the
+// which do not depend on the orientation. These distances suffice for nameOfObjectVertices(), which names a convex
+// hull. A slice, however, need not be the convex hull of its vertices. It is the hull if it has the edges of the hull
+// and equally many faces. Therefore nameOfSlice() also compares the number and the lengths of the edges, and the number
+// of faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as the
 // cuboctahedron and the triangular orthobicupola (Johnson's J27).
 
 namespace oval4d::slicing {
@@ -171,7 +171,7 @@ std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {
     return {};
 }
 
-std::string_view SectionNamer::nameOfVertices(const SliceSet& slices, int slice, std::size_t edges) {
+std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges) {
     vertices_.clear();
     for (std::uint32_t v = slices.vertexBegin[slice]; v < slices.vertexBegin[slice + 1]; ++v) {
         if (slices.vertexSource[v] < edges) continue;

@@ -18,10 +18,10 @@ namespace oval4d::slicing {
 
 /// The two names of the section of an object by a hyperplane. They may differ: the slice also has vertices at the
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
-struct SectionNames {
+struct SectionNamePair {
     std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
-    std::string_view vertices;  ///< the result of SectionNamer::nameOfVertices()
-    bool operator==(const SectionNames&) const = default;
+    std::string_view vertices;  ///< the result of SectionNamer::nameOfObjectVertices()
+    bool operator==(const SectionNamePair&) const = default;
 };
 
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
@@ -55,7 +55,7 @@ class SectionNamer {
     /// `edges` is the number of edges of the polytope; it is 0 for a point cloud, so that all points of the slice
     /// count. The string is valid until the process ends. Takes time linear in the number of the slice's vertices, plus
     /// the time to compare the polytope's vertices with the named shapes.
-    std::string_view nameOfVertices(const SliceSet& slices, int slice, std::size_t edges);
+    std::string_view nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
 
     /// Returns whether `name`, a result of the functions above, is the name of a polyhedron, not of a point, segment or
     /// polygon.

@@ -97,7 +97,7 @@ std::size_t CachedSessions::unsaved() const {
     }));
 }
 
-std::vector<std::string> CachedSessions::openAndSaved() const {
+std::vector<std::string> CachedSessions::openAndEverSaved() const {
     std::vector<std::string> ids;
     for (const auto& [id, cached] : sessions_) {
         if (cached.everSaved && !cached.closed) ids.push_back(id);

@@ -83,7 +83,7 @@ class CachedSessions {
     /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
     /// Returns the ids of the sessions that clients have open and that have been in the store.
-    std::vector<std::string> openAndSaved() const;
+    std::vector<std::string> openAndEverSaved() const;
 
   private:
     std::map<std::string, CachedSession, std::less<>> sessions_;

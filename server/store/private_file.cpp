@@ -62,8 +62,8 @@ void makeFolders(const std::filesystem::path& folder) {
 
 enum class Permissions : std::uint8_t { leave, tighten };
 
-/// Checks that a file is safe to use (see requireOwnRegularFile()), and sets its mode to 0600 if `permissions` is
-/// `tighten`. Returns false if the file does not exist.
+/// Checks that a file is safe to use (see requireOwnRegularFileIfExists()), and sets its mode to 0600 if `permissions`
+/// is `tighten`. Returns false if the file does not exist.
 bool checkFile(const std::string& path, Permissions permissions) {
     // Closing an ordinary descriptor would release all locks of this process on the file; closing an O_PATH descriptor
     // does not.
@@ -102,7 +102,7 @@ void ensurePrivateFile(const std::string& path) {
 
 void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }
 
-void requireOwnRegularFile(const std::string& path) { checkFile(path, Permissions::leave); }
+void requireOwnRegularFileIfExists(const std::string& path) { checkFile(path, Permissions::leave); }
 
 std::string fileIdentity(const std::string& path) {
     struct stat status{};

@@ -104,7 +104,7 @@ std::int64_t SqliteStore::nowMilliseconds() const {
 }
 
 void SqliteStore::open() {
-    for (const char* beside : {"", "-wal", "-shm", "-journal"}) requireOwnRegularFile(path_ + beside);
+    for (const char* beside : {"", "-wal", "-shm", "-journal"}) requireOwnRegularFileIfExists(path_ + beside);
     refuseForeignFile(path_);
     ensurePrivateFile(path_);
     for (const char* beside : {"-wal", "-shm", "-journal"}) makePrivateIfExists(path_ + beside);

@@ -10,7 +10,7 @@
 namespace oval4d::store {
 
 void StoredObjectKeys::setStored(const std::string& session, const KeysBySerial& keys) {
-    ObjectRecords& objects = sessions_[session];
+    ObjectKeyStates& objects = sessions_[session];
     objects.clear();
     for (const auto& [serial, key] : keys) objects[serial] = {key, true};
 }
@@ -18,7 +18,7 @@ void StoredObjectKeys::setStored(const std::string& session, const KeysBySerial&
 std::vector<std::uint64_t> StoredObjectKeys::encode(const std::string& session, const PendingChanges& changes,
                                                     std::size_t maxUndo, RecordUpdate& update) {
     constexpr std::size_t kKeyBytes = 10;
-    ObjectRecords& objects = sessions_[session];
+    ObjectKeyStates& objects = sessions_[session];
     std::vector<std::uint64_t> added;
     std::set<std::uint64_t> used;
     const ObjectKeyLookup keyOf = [&](const slicing::Object& object) {
@@ -45,7 +45,7 @@ std::vector<std::uint64_t> StoredObjectKeys::encode(const std::string& session, 
 
 void StoredObjectKeys::saved(const std::string& session, const std::vector<std::uint64_t>& added,
                              const RecordUpdate& update) {
-    ObjectRecords& objects = sessions_[session];
+    ObjectKeyStates& objects = sessions_[session];
     for (const std::uint64_t serial : added) objects[serial].stored = true;
     std::erase_if(objects, [&](const auto& entry) {
         return std::ranges::find(update.dropped, entry.second.key) != update.dropped.end();

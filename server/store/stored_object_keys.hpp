@@ -41,13 +41,13 @@ class StoredObjectKeys {
     void forget(const std::string& session) { sessions_.erase(session); }
 
   private:
-    struct ObjectRecord {
+    struct ObjectKeyState {
         std::string key;
         bool stored = false;
     };
-    using ObjectRecords = std::map<std::uint64_t, ObjectRecord>;  // by ObjectInfo::serial
+    using ObjectKeyStates = std::map<std::uint64_t, ObjectKeyState>;  // by ObjectInfo::serial
 
-    std::map<std::string, ObjectRecords, std::less<>> sessions_;
+    std::map<std::string, ObjectKeyStates, std::less<>> sessions_;
 };
 
 }  // namespace oval4d::store

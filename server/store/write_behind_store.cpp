@@ -351,7 +351,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
         listener_.missing(job.id);
         return;
     } else {
-        dropTaken(job.id);
+        dropClaimed(job.id);
     }
     for (const Written& written : job.changes.waiting) written(result == SaveResult::saved);
 }
@@ -375,7 +375,7 @@ void WriteBehindStore::requeue(Job& job) {
 }
 
 /// Drops a session that another server has claimed.
-void WriteBehindStore::dropTaken(const std::string& id) {
+void WriteBehindStore::dropClaimed(const std::string& id) {
     std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
@@ -396,7 +396,7 @@ void WriteBehindStore::poll() {
     }
     try {
         if (now_() >= refreshAt_) refreshExpiry();
-        for (const std::string& id : timed("pulse", [&] { return store_->pollLostSessions(); })) dropTaken(id);
+        for (const std::string& id : timed("pulse", [&] { return store_->pollLostSessions(); })) dropClaimed(id);
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;
@@ -421,7 +421,7 @@ void WriteBehindStore::refreshExpiry() {
         const std::lock_guard lock(mutex_);
         pollAt_ = std::min(pollAt_, refreshAt_);
         for (const std::string& id : cached_.removeClosedBefore(now_() - settings_.expiry)) objects_.forget(id);
-        open = cached_.openAndSaved();
+        open = cached_.openAndEverSaved();
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
         const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
@@ -435,14 +435,14 @@ void WriteBehindStore::refreshExpiry() {
 
 void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done) {
     try {
-        done(claimOrFind(credentials));
+        done(findOrClaim(credentials));
     } catch (const std::exception& fault) {
         storeFailed(fault);
         done(kNoAnswer);
     }
 }
 
-WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
+WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(credentials.id)) {

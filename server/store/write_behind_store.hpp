@@ -131,11 +131,11 @@ class WriteBehindStore {
     void dropKeys(const std::string& id);
     void applyResult(Job& job, const RecordUpdate& update, SaveResult result);
     void requeue(Job& job);
-    void dropTaken(const std::string& id);
+    void dropClaimed(const std::string& id);
     void poll();
     void refreshExpiry();
     void fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
-    FetchResult claimOrFind(const SessionCredentials& credentials);
+    FetchResult findOrClaim(const SessionCredentials& credentials);
     template <typename Operation>
     auto timed(const char* name, Operation operation);
     void storeFailed(const std::exception& fault);

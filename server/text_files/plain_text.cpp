@@ -17,10 +17,10 @@ namespace {
 using namespace std::string_view_literals;
 
 /// A kind of file that is refused. A file of this kind begins with `signature`.
-struct Kind {
+struct RefusedFileKind {
     std::string_view signature, description;
 };
-constexpr auto kKinds = std::to_array<Kind>({
+constexpr auto kKinds = std::to_array<RefusedFileKind>({
     {"\x1F\x8B"sv, "is compressed with gzip; unpack it first"},
     {"BZh"sv, "is compressed with bzip2; unpack it first"},
     {"\xFD"
@@ -45,7 +45,7 @@ constexpr auto kKinds = std::to_array<Kind>({
 
 /// Kinds of text files without rows of numbers. Their signatures are compared with the start of the text in lowercase.
 /// The first signature must be the longest.
-constexpr auto kTextKinds = std::to_array<Kind>({
+constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
     {"<svg", "is an SVG picture"},
@@ -98,7 +98,7 @@ void normalizeSpace(std::string& text) {
 }  // namespace
 
 std::string plainText(std::string_view bytes) {
-    for (const Kind& kind : kKinds) {
+    for (const RefusedFileKind& kind : kKinds) {
         if (bytes.starts_with(kind.signature)) throwFileError(0, "the file " + std::string(kind.description));
     }
     std::string text;
@@ -118,7 +118,7 @@ std::string plainText(std::string_view bytes) {
         throwFileError(0, "the file is not text: byte " + std::to_string(zero + 1) + " is zero");
     std::string start = text.substr(text.find_first_not_of(" \t\n"), kTextKinds.front().signature.size());
     std::ranges::transform(start, start.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    for (const Kind& kind : kTextKinds) {
+    for (const RefusedFileKind& kind : kTextKinds) {
         if (start.starts_with(kind.signature)) throwFileError(0, "the file " + std::string(kind.description));
     }
     return text;

@@ -29,14 +29,14 @@ bool hasSeparatorInside(std::string_view line, char separator) {
 }
 
 // Counts of the columns between the tabs of a line.
-struct ColumnsBetweenTabs {
+struct TabColumnCounts {
     std::size_t filled = 0;      // the number of columns that are not empty
     std::size_t numbers = 0;     // the number of columns that are numbers
     bool decimalCommas = false;  // whether one of the numbers has a comma
 };
 
-ColumnsBetweenTabs columnsBetweenTabs(std::string_view line, TableRow& row) {
-    ColumnsBetweenTabs result;
+TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
+    TabColumnCounts result;
     split(line, '\t', row);
     for (const std::string_view column : row.columns) {
         if (!column.empty()) ++result.filled;
@@ -113,7 +113,7 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         const std::string_view content = withoutTexts(line->content, memory);
         if (!isRow(content, least)) continue;
         any = true;
-        const ColumnsBetweenTabs between = columnsBetweenTabs(content, row);
+        const TabColumnCounts between = countTabColumns(content, row);
         tabs = tabs || between.filled >= kMinColumns;  // otherwise, tabs may stand among blanks
         if (between.numbers >= kMinColumns) {          // then commas and semicolons elsewhere belong to texts
             decimalCommas = decimalCommas || between.decimalCommas;

@@ -24,7 +24,7 @@ std::string_view Tokenizer::next() {
         if (text_[at_] == '\n') {
             ++line_;
         } else if (!isBlank(text_[at_])) {
-            return word();
+            return readWord();
         }
     }
     return {};
@@ -33,14 +33,14 @@ std::string_view Tokenizer::next() {
 std::string_view Tokenizer::nextOnLine() {
     while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
     if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '#') return {};
-    return word();
+    return readWord();
 }
 
 void Tokenizer::skipLine() {
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
 }
 
-std::string_view Tokenizer::word() {
+std::string_view Tokenizer::readWord() {
     const std::size_t start = at_;
     while (at_ < text_.size() && text_[at_] != '\n' && !isBlank(text_[at_]) && text_[at_] != '#') ++at_;
     return text_.substr(start, at_ - start);

@@ -32,7 +32,7 @@ class Tokenizer {
     void putBack(std::size_t count) { at_ -= count; }
 
   private:
-    std::string_view word();
+    std::string_view readWord();
 
     std::string_view text_;
     std::size_t at_ = 0, line_ = 1;

@@ -21,18 +21,18 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
 
 // The sources of the elements of one or several slices: for each element, the index of the polytope's element that it
 // was cut from (see SliceSet).
-struct Sources {
+struct ElementSources {
     Numbers vertices, edges, faces;
 };
 
-Sources sourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
+ElementSources sourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
     return {part(slices.vertexSource, slices.vertexBegin[from], slices.vertexBegin[to]),
             part(slices.edgeSource, slices.edgeBegin[from], slices.edgeBegin[to]),
             part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to])};
 }
 
 template <typename W>
-void writeSources(W& w, const Sources& of) {
+void writeSources(W& w, const ElementSources& of) {
     w.key("of");
     w.beginObject();
     w.key("vertices");
@@ -58,7 +58,7 @@ void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32
 
 // Writes the visibility of each element, unless all elements are fully visible.
 template <typename W>
-void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const Sources& of) {
+void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const ElementSources& of) {
     if (visibilities.allVisible()) return;
     const auto write = [&](std::string_view name, Numbers elements, const std::vector<slicing::Visibility>& by) {
         std::vector<std::uint32_t> list;
@@ -90,14 +90,14 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
 
 // The triangles that clients draw in place of the faces of slices that need not be convex. Indices in a triangle count
 // from the first point of the triangle's slice.
-struct Fill {
+struct FillTriangles {
     std::vector<glm::dvec3> points;
     std::vector<Triple> triangles;
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 
 // Adds the triangles of one slice, except hidden ones.
-void addFill(const Scene& scene, std::size_t slice, Fill& fill) {
+void addFill(const Scene& scene, std::size_t slice, FillTriangles& fill) {
     const slicing::FilledFaces& from = scene.fill;
     const std::size_t begin = fill.points.size();
     for (std::uint32_t p = from.patchBegin[slice]; p < from.patchBegin[slice + 1]; ++p) {
@@ -118,7 +118,7 @@ void addFill(const Scene& scene, std::size_t slice, Fill& fill) {
 }
 
 template <typename W>
-void writeFill(W& w, const Fill& fill, const slicing::Visibilities& visibilities) {
+void writeFill(W& w, const FillTriangles& fill, const slicing::Visibilities& visibilities) {
     w.key("points");
     w.vectors(std::span<const glm::dvec3>(fill.points));
     w.key("triangles");
@@ -150,7 +150,7 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
 void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                    const slicing::Visibilities& visibilities, std::size_t i) {
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
-    const Sources of = sourcesOf(slices, i, i + 1);
+    const ElementSources of = sourcesOf(slices, i, i + 1);
     w.key("vertices");
     w.vectors(part(slices.vertices, slices.vertexBegin[i], slices.vertexBegin[i + 1]));
     w.key("edges");
@@ -170,7 +170,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.appendMembersOf(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
     if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
-        Fill fill;
+        FillTriangles fill;
         addFill(scene, i, fill);
         w.key("fill");
         w.beginObject();
@@ -252,7 +252,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
                                     const std::vector<std::uint32_t>& faceCells,
                                     const slicing::Visibilities& visibilities) {
     const std::size_t count = slices.vertexBegin.size() - 1;
-    const Sources of = sourcesOf(slices, 0, count);
+    const ElementSources of = sourcesOf(slices, 0, count);
     w.key("counts");
     w.beginObject();
     writeSizes(w, "vertices", slices.vertexBegin);
@@ -278,7 +278,7 @@ void SliceListWriter::writeColumns(BinaryWriter& w, std::string_view placements,
     w.appendMembersOf(placements);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities);
     if (!scene.fill.empty()) {
-        Fill fill;
+        FillTriangles fill;
         std::vector<std::uint32_t> points{0}, triangles{0};
         for (std::size_t i = 0; i < count; ++i) {
             addFill(scene, i, fill);

@@ -138,7 +138,7 @@ void writeSettings(JsonWriter& w, const session::State& state) {
 
 }  // namespace
 
-void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
     const scene::Scheme scheme = scene::schemeOn(state.look.background, viewer);
     JsonWriter w(out);
@@ -161,7 +161,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.endObject();
 }
 
-std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id, slicing::Quality quality, scene::Scheme viewer) {
     constexpr std::size_t kTypicalBytes = 1024;
     std::string out;

@@ -16,11 +16,11 @@ namespace oval4d::wire {
 /// `quality` is the quality of the picture that follows. `viewer` is the color scheme of this picture if the background
 /// is scene::Background::automatic; it determines the colors of cell types and of values in the message. The PNG files
 /// of frames contain the same text.
-std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
                          scene::Scheme viewer = scene::Scheme::dark);
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
-void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
                   scene::Scheme viewer = scene::Scheme::dark);
 

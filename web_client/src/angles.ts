@@ -22,7 +22,7 @@ export function editableAngle(radians: number): string {
  * Error if the text is blank.
  */
 export function angleExpression(text: string): string {
-    const typed = withoutBlanks(text).toLowerCase();
+    const typed = withoutBlanksAroundOperators(text).toLowerCase();
     if (typed === "") throw new Error("an angle is expected, such as 10° or pi/8");
     const withoutExponents = typed.replace(/(\d)e(?=[-+]?\d)/g, "$1");
     if (!/[\p{L}°]/u.test(withoutExponents)) return `deg(${typed})`;
@@ -30,6 +30,6 @@ export function angleExpression(text: string): string {
 }
 
 /** Removes the blanks around operators: the command line takes a value without blanks. */
-export function withoutBlanks(text: string): string {
+export function withoutBlanksAroundOperators(text: string): string {
     return text.trim().replace(/\s*([-−+*/^()°])\s*/g, "$1");
 }

@@ -65,7 +65,7 @@ export class App {
         resized: () => this.stageResized(),
         beforeDraw: () => {
             this.pointing.update();
-            this.focusPointDrag.update();
+            this.focusPointDrag.updateCursor();
         },
         graphicsChanged: (isAvailable) => this.renderingModeSwitch.graphicsChanged(isAvailable),
     });
@@ -99,7 +99,7 @@ export class App {
         joined: () => (this.state = undefined),
         loadField: async (field) => this.fieldPanel.adoptLoaded(field, await this.loadField(field, {})),
         reloadFile: (name) => this.fileLoading.reload(name),
-        viewShown: (revision) => this.welcomeLine.firstViewComplete(revision),
+        viewShown: (revision) => this.welcomeLine.firstVisitViewComplete(revision),
         tell: (messages) => this.notice.showAll(messages),
     });
     private readonly frameHitTesterCache = new FrameHitTesterCache(this.client, this.stage, () =>
@@ -237,7 +237,7 @@ export class App {
         window.addEventListener("popstate", () => this.session.joinSessionOfEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
-        if (this.session.useFirstView()) this.welcomeLine.show();
+        if (this.session.useFirstVisitView()) this.welcomeLine.show();
         this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the first connection
         this.client.connect();
     }

@@ -82,7 +82,7 @@ export class ColorControls {
         this.colorings.addEventListener("change", (event) => {
             this.applyChange({ color: (event.target as HTMLInputElement).value as Coloring });
         });
-        this.list.addEventListener("change", () => this.applyVisibilities());
+        this.list.addEventListener("change", () => this.applyChosenVisibilities());
         for (const [value, { label, title }] of Object.entries(kBackgrounds)) {
             const radio = element("input", { type: "radio", name: "background", value });
             this.backgrounds.append(element("label", { title }, radio, element("span", {}, label)));
@@ -145,7 +145,7 @@ export class ColorControls {
     }
 
     /** Applies the chosen visibilities; kinds of cells that are not listed keep their visibility. */
-    private applyVisibilities(): void {
+    private applyChosenVisibilities(): void {
         const { hidden, faded } = this.state!;
         const chosen = (visibility: Visibility, before: number[]): number[] => [
             ...this.rows.flatMap((row, kind) =>

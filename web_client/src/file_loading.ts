@@ -131,10 +131,10 @@ export class FileLoading {
 
     private async send(content: LoadContent): Promise<Done> {
         const answer = this.client.request({ type: "load", ...content });
-        const all = this.client.unsent;
+        const all = this.client.unsentBytes;
         const timer = setInterval(() => {
-            const { unsent } = this.client;
-            this.showSent(unsent > 0 ? Math.min(1 - unsent / all, 0.999) : 1);
+            const { unsentBytes } = this.client;
+            this.showSent(unsentBytes > 0 ? Math.min(1 - unsentBytes / all, 0.999) : 1);
         }, kProgressInterval);
         return await answer.finally(() => clearInterval(timer));
     }

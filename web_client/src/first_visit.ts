@@ -7,7 +7,7 @@ import { byId } from "./element";
 const kVisitedKey = "oval4d.visited"; // in localStorage
 
 /** Commands for the view of a first visit. The last rotation turns only a little, because keys may repeat it. */
-export const kFirstView = ["polytope 24-cell", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "rotate xy,zw"];
+export const kFirstVisitView = ["polytope 24-cell", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "rotate xy,zw"];
 
 /** Whether this browser opens the page for the first time. False if the browser forbids storage. */
 export function isFirstVisit(): boolean {
@@ -52,7 +52,7 @@ export class WelcomeLine {
     }
 
     /** Tells that the first view is complete from this revision on. */
-    firstViewComplete(revision: number): void {
+    firstVisitViewComplete(revision: number): void {
         this.since = revision;
         this.first = undefined;
     }

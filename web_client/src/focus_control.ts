@@ -5,7 +5,7 @@ import type { Client, State } from "@oval4d/protocol";
 
 const kSame = 1e-6; // spacings: values of w that differ by less count as equal
 
-interface Place {
+interface FocusAtRevision {
     w: number;
     revision: number;
 }
@@ -16,8 +16,8 @@ export class FocusControl {
     private continues = false; // whether the next move belongs to the undo step of the last one
     private isScheduled = false;
     private inFlight: number | undefined; // the w that has been sent and not answered
-    private answered: Place = { w: NaN, revision: 0 };
-    private seen: Place = { w: 0, revision: 0 }; // in the newest state
+    private answered: FocusAtRevision = { w: NaN, revision: 0 };
+    private seen: FocusAtRevision = { w: 0, revision: 0 }; // in the newest state
 
     /** `settled` is called when nothing is left to send, with the error if the last move failed. */
     constructor(
@@ -48,7 +48,7 @@ export class FocusControl {
     }
 
     /** Follows the focus of the session. Returns whether something other than this control has moved it. */
-    update({ revision, section: { w }, slices }: State): boolean {
+    recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {
         this.seen = { w, revision };
         const isSame = (other = NaN): boolean => Math.abs(w - other) <= kSame * slices.spacing;
         return revision >= this.answered.revision && !isSame(this.answered.w) && !isSame(this.inFlight);

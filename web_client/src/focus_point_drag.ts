@@ -20,12 +20,12 @@ export class FocusPointDrag {
     ) {
         followHover(drawing, (at) => {
             this.hovering = at;
-            this.update();
+            this.updateCursor();
         });
     }
 
     /** Shows the cursor for what is under the pointer. To be called when the picture changes. */
-    update(): void {
+    updateCursor(): void {
         if (this.hovering) this.showCursor(this.hovering);
     }
 

@@ -52,7 +52,7 @@ export class FocusSlider {
 
     update(state: State): void {
         this.state = state;
-        if (this.control.update(state)) this.stop();
+        if (this.control.recordAndCheckIfMovedElsewhere(state)) this.stop();
         this.criticalValues.update(state);
         const { name, vertices } = state.section;
         this.section.textContent = name || (vertices && `vertices: ${vertices}`);

@@ -43,12 +43,12 @@ export function usualFog([least, greatest]: [number, number], level: number, ins
 /** The text of a transfer function on the command line and in addresses. */
 export function textOfFog(points: FogPoint[]): string {
     const textOf = ({ value, opacity, color }: FogPoint): string =>
-        [value, opacity, ...(color === undefined ? [] : [hexOf(color)])].join(":");
+        [value, opacity, ...(color === undefined ? [] : [hexDigitsOf(color)])].join(":");
     return points.length === 0 ? "off" : points.map(textOf).join(",");
 }
 
 /** A color as six hexadecimal digits. */
-export function hexOf(color: number): string {
+export function hexDigitsOf(color: number): string {
     return color.toString(16).padStart(6, "0");
 }
 

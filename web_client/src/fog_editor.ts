@@ -5,7 +5,7 @@ import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
 
 import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
-import { type ValueDistribution, colorOf, distributionOf, hexOf, isTransferFunction } from "./fog";
+import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction } from "./fog";
 import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
@@ -152,7 +152,7 @@ export class FogEditor {
         const floor = kHeight - kMargin;
         const stops = places.map(([x], i) => {
             const offset = String((x - kMargin) / (kWidth - 2 * kMargin));
-            return shape("stop", { offset, "stop-color": `#${hexOf(colorOf(points, i, schemeOfPicture()))}` });
+            return shape("stop", { offset, "stop-color": `#${hexDigitsOf(colorOf(points, i, schemeOfPicture()))}` });
         });
         const gradient = shape("linearGradient", {
             ...{ id: "fog-colors", gradientUnits: "userSpaceOnUse" },
@@ -167,7 +167,7 @@ export class FogEditor {
             ...places.map(([x, y], i) => {
                 const place = { cx: String(x), cy: String(y) };
                 const handle = shape("g", { "data-point": String(i) });
-                const fill = `#${hexOf(colorOf(points, i, schemeOfPicture()))}`;
+                const fill = `#${hexDigitsOf(colorOf(points, i, schemeOfPicture()))}`;
                 handle.append(shape("circle", { ...place, r: "11", class: "reach" }), shape("circle", { ...place, r: "5", fill }));
                 return handle;
             }),
@@ -206,7 +206,8 @@ export class FogEditor {
                 if (document.activeElement === input || parseNumbers(input.value)[0] === number) continue;
                 input.value = String(number);
             }
-            if (document.activeElement !== row.color) row.color.value = `#${hexOf(colorOf(this.points, i, schemeOfPicture()))}`;
+            const color = `#${hexDigitsOf(colorOf(this.points, i, schemeOfPicture()))}`;
+            if (document.activeElement !== row.color) row.color.value = color;
             row.remove.disabled = this.points.length <= kMinFogPoints;
         });
     }

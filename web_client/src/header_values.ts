@@ -2,7 +2,7 @@
 
 import type { State } from "@oval4d/protocol";
 
-import { angleExpression, editableAngle, withoutBlanks } from "./angles";
+import { angleExpression, editableAngle, withoutBlanksAroundOperators } from "./angles";
 import { spokenColoring, spokenKinds } from "./color_controls";
 import { byId } from "./element";
 import { spokenLevels } from "./fields";
@@ -46,17 +46,17 @@ const kHeaderValues: HeaderValueDescription[] = [
     {
         ...description("w", "w", "Position of the focus slice", focusW),
         hint: "Any w: all hyperplanes move with the focus slice",
-        command: (text) => `set w=${withoutBlanks(text)}`,
+        command: (text) => `set w=${withoutBlanksAroundOperators(text)}`,
     },
     {
         ...description("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
         hint: "A length, for example 0.1 or 1/8",
-        command: (text) => `set spacing=${withoutBlanks(text)}`,
+        command: (text) => `set spacing=${withoutBlanksAroundOperators(text)}`,
     },
     {
         ...description("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
         hint: "An odd number",
-        command: (text) => `set slices=${withoutBlanks(text)}`,
+        command: (text) => `set slices=${withoutBlanksAroundOperators(text)}`,
     },
     {
         ...description("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>

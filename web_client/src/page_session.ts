@@ -3,7 +3,7 @@
 import type { Client, Credentials, RequestError, State } from "@oval4d/protocol";
 
 import type { FormulaWithBox } from "./fields";
-import { isFirstVisit, kFirstView } from "./first_visit";
+import { isFirstVisit, kFirstVisitView } from "./first_visit";
 import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
 
 interface PageSessionActions {
@@ -29,13 +29,13 @@ export class PageSession {
     ) {}
 
     /**
-     * On the first visit, makes kFirstView the initial view, unless the address names another view or a session.
+     * On the first visit, makes kFirstVisitView the initial view, unless the address names another view or a session.
      * Returns whether it has done so.
      */
-    useFirstView(): boolean {
+    useFirstVisitView(): boolean {
         const { credentials, lines, field } = this.view;
         if (credentials || lines.length > 0 || field || !isFirstVisit()) return false;
-        this.view.lines = [...kFirstView];
+        this.view.lines = [...kFirstVisitView];
         return true;
     }
 

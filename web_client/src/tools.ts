@@ -94,7 +94,7 @@ export class Tools {
         }
         const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOtherTab;
         this.root.replaceChildren(
-            this.groupToolbar([...kTabs.map((tab) => tab.title), kOtherTab]),
+            this.tabBar([...kTabs.map((tab) => tab.title), kOtherTab]),
             ...groups.map(({ name, title, content }) => {
                 const attributes = { "data-tab": tabOf(name), "data-group": name };
                 const controls = element("div", {}, ...content);
@@ -112,7 +112,7 @@ export class Tools {
         for (const button of this.projectionButtons) button.disabled = state.projection === "off";
     }
 
-    private groupToolbar(titles: string[]): HTMLElement {
+    private tabBar(titles: string[]): HTMLElement {
         const buttons = titles.map((title) => {
             const button = element("button", { type: "button" }, title);
             button.addEventListener("click", () => choose(title));

@@ -76,7 +76,7 @@ export class Tour {
         const middle = { x: (box.left + box.right - width) / 2, y: (top + bottom - height) / 2 };
         const right = innerWidth - kGap - width;
         const lowest = innerHeight - kGap - height;
-        const x = clamp(middle.x, right);
+        const x = clampToWindow(middle.x, right);
         const places = [
             { x: box.left - kGap - width, y: middle.y },
             { x: box.right + kGap, y: middle.y },
@@ -85,13 +85,13 @@ export class Tour {
         ];
         const fits = (at: { x: number; y: number }): boolean =>
             at.x >= kGap && at.x <= right && at.y >= kGap && at.y <= lowest;
-        const place = places.find(fits) ?? { x, y: clamp(top + 0.35 * (bottom - top) - height / 2, lowest) };
+        const place = places.find(fits) ?? { x, y: clampToWindow(top + 0.35 * (bottom - top) - height / 2, lowest) };
         this.root.style.left = `${place.x}px`;
         this.root.style.top = `${place.y}px`;
     }
 }
 
-function clamp(value: number, max: number): number {
+function clampToWindow(value: number, max: number): number {
     return Math.max(kGap, Math.min(value, max));
 }
 

@@ -81,7 +81,7 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
         for (int row = 0; row < CoordinateHistograms::kRows; ++row) {
             const auto first =
                 histogram.tones().subspan(CoordinateHistograms::index(row, k, 0), CoordinateHistograms::kPanel);
-            panel.tones.insert(panel.tones.end(), first.begin(), first.end());
+            panel.alphas.insert(panel.alphas.end(), first.begin(), first.end());
         }
         drawing.groups.push_back({"histogram-" + name, {std::move(panel)}});
         for (std::size_t i = 0; i < settings.levels.size(); ++i) {

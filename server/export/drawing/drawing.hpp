@@ -55,15 +55,15 @@ struct TextLine {
 /// upper and lower edges.
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
-    std::vector<std::uint8_t> tones;   ///< opacities from 0 to 255, row by row from the top
+    std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
     int columns = 1;                   ///< must be at least 2, and so must rows()
     std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, and
                                        ///< interpolated between these positions
 
-    int rows() const { return static_cast<int>(tones.size()) / columns; }
-    std::uint8_t tone(int row, int column) const {
-        return tones[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                     static_cast<std::size_t>(column)];
+    int rows() const { return static_cast<int>(alphas.size()) / columns; }
+    std::uint8_t alpha(int row, int column) const {
+        return alphas[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(column)];
     }
 };
 using Shape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;

@@ -50,9 +50,9 @@ class Paper {
 
     double height() const { return height_; }
     /// Returns the length in the drawing of one world unit at this point of view space.
-    double scaleAt(const glm::dvec3& seen) const { return camera_.sizeAtUnitDepth() * height_ / -seen.z; }
+    double scaleAt(const glm::dvec3& seen) const { return camera_.focalLength() * height_ / -seen.z; }
     glm::dvec2 operator()(const glm::dvec3& seen) const {
-        const glm::dvec2 at = glm::dvec2(seen) * (camera_.sizeAtUnitDepth() / -seen.z) +
+        const glm::dvec2 at = glm::dvec2(seen) * (camera_.focalLength() / -seen.z) +
                               glm::dvec2((0.5 + camera_.shiftX) * aspect_, 0.5 + camera_.shiftY);
         return {at.x * height_, (1 - at.y) * height_};
     }

@@ -87,7 +87,7 @@ class PageWriter {
         const auto width = static_cast<HPDF_UINT>(density.columns), height = static_cast<HPDF_UINT>(density.rows());
         const auto image = HPDF_LoadRawImageFromMem(document_, colors.data(), width, height, HPDF_CS_DEVICE_RGB, 8);
         const auto mask =
-            HPDF_LoadRawImageFromMem(document_, density.tones.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
+            HPDF_LoadRawImageFromMem(document_, density.alphas.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
         // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;

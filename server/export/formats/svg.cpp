@@ -30,7 +30,7 @@ std::string opacityOf(std::string_view name, double opacity) {
 /// outlines of all pixels of this tone.
 std::string densityPaths(const DensityImage& density) {
     constexpr int kTones = 32;
-    const auto toneAt = [&](int row, int column) { return (density.tone(row, column) * kTones + 127) / 255; };
+    const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
     std::array<std::string, kTones + 1> paths;
     for (int column = 0; column < density.columns; ++column) {
         for (int row = 0, end = 0; row < density.rows(); row = end) {

@@ -242,7 +242,7 @@ class Parser {
     // Adds a node for a name in the definition of another name. Fails unless the name is defined earlier.
     Index earlierName(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
-        if (const auto found = definitionOf(name)) return add(found->kind, {}, found->index);
+        if (const auto found = resolve(name)) return add(found->kind, {}, found->index);
         failAt(byte, "nothing before this is called " + text::inQuotes(name) + suggestion(name) +
                          "; a definition may use only names that are defined before it");
     }
@@ -255,7 +255,7 @@ class Parser {
             failAt(start, text::inQuotes(name) + " has a meaning already, so no constant can be called so");
         if (name.size() > kMaxNameLength)
             failAt(start, "a name may have at most " + std::to_string(kMaxNameLength) + " characters");
-        if (definitionOf(name)) failAt(start, text::inQuotes(name) + " has a value already");
+        if (resolve(name)) failAt(start, text::inQuotes(name) + " has a value already");
         if (!take("=")) fail("'=' is expected after " + name);
         skipBlanks();
         const std::size_t valueStart = at_;
@@ -294,14 +294,14 @@ class Parser {
         for (const Index operand : tree.operands) expressions_.operands.push_back(operand + nodeOffset);
         return nodeOffset;
     }
-    struct Definition {
+    struct ResolvedName {
         Kind kind;  // constant or expression
         Index index;
     };
     void resolveNames(SyntaxTree& formula) const {
-        std::vector<Definition> definitions;
+        std::vector<ResolvedName> definitions;
         for (const auto& [name, byte] : uses_) {
-            const auto found = definitionOf(name);
+            const auto found = resolve(name);
             if (!found) failAt(byte, "nothing is called " + text::inQuotes(name) + explanation(name));
             definitions.push_back(*found);
         }
@@ -312,12 +312,12 @@ class Parser {
             node.index = index;
         }
     }
-    std::optional<Definition> definitionOf(std::string_view name) const {
+    std::optional<ResolvedName> resolve(std::string_view name) const {
         for (std::size_t i = 0; i < constants_.size(); ++i)
-            if (constants_[i].name == name) return Definition{Kind::constant, static_cast<Index>(i)};
+            if (constants_[i].name == name) return ResolvedName{Kind::constant, static_cast<Index>(i)};
         const auto& expressions = expressions_.expressions;
         for (std::size_t i = 0; i < expressions.size(); ++i)
-            if (expressions[i].name == name) return Definition{Kind::expression, static_cast<Index>(i)};
+            if (expressions[i].name == name) return ResolvedName{Kind::expression, static_cast<Index>(i)};
         return {};
     }
 

@@ -22,7 +22,7 @@ const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size t
 
 Result<bool> inflated(GzipReader::Wrapper wrapper, std::span<const std::byte> chunk, std::span<std::byte> to) {
     GzipReader reader(chunk, wrapper);
-    if (!reader.fill(to) || !reader.isAtEnd()) return kDamaged;
+    if (!reader.fill(to) || !reader.verifyEnd()) return kDamaged;
     return true;
 }
 

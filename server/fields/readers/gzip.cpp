@@ -66,7 +66,7 @@ Result<bool> GzipReader::fill(std::span<std::byte> to) {
     return true;
 }
 
-bool GzipReader::isAtEnd() {
+bool GzipReader::verifyEnd() {
     inflate_state& inflate = state_->inflate;
     std::uint8_t more = 0;
     for (int part = 0; part < 2; ++part) {  // the checksum may be in the next part of the input

@@ -35,7 +35,7 @@ class GzipReader {
 
     /// Returns whether all decompressed bytes have been read and their checksum is correct. If bytes are left, skips
     /// one of them, so nothing should be read afterward.
-    bool isAtEnd();
+    bool verifyEnd();
 
   private:
     struct State;

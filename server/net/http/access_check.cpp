@@ -58,7 +58,7 @@ std::optional<std::string> sessionIn(const std::string& path) {
     return {};
 }
 
-bool isRestricted(const RequestTarget& target) {
+bool isCrossSiteRestricted(const RequestTarget& target) {
     return target.path.starts_with("/api/") || target.path.starts_with("/ws");
 }
 
@@ -67,7 +67,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
     AccessCheckInput fields = accessFieldsOf(request, target);
     // Everybody may load the page's own files. The Origin of such a request is not checked, because it differs from
     // Host behind a proxy that changes Host.
-    if (!isRestricted(target)) fields.origin = {};
+    if (!isCrossSiteRestricted(target)) fields.origin = {};
     const auto now = AddressAccount::Clock::now();
     switch (access.check(fields)) {
         case AccessControl::Verdict::bad_host:
@@ -94,7 +94,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
     // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
     if (access.requiresToken() && !client.mayTryToken(now))
         return tooManyReply("too many wrong tokens; try again in a minute\n");
-    if (isRestricted(target) && access.isCrossSite(fields))
+    if (isCrossSiteRestricted(target) && access.isCrossSite(fields))
         return refusalReply(403, "pages of other sites may not request this (--allow-origin)\n");
     cookie = access.cookieFor(fields);
     return {};

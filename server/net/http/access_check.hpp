@@ -22,7 +22,7 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request);
 
 /// Returns whether pages of other sites must not request this target: the API and WebSockets, which cause work or
 /// reveal data.
-bool isRestricted(const RequestTarget& target);
+bool isCrossSiteRestricted(const RequestTarget& target);
 
 /// Checks the access rules, and counts a wrong token against the client's rate limit. If the request is refused,
 /// returns the reply. Otherwise, returns an empty optional, and sets `cookie` to the value of Set-Cookie for the reply,

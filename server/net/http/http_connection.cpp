@@ -339,7 +339,7 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
 /// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
 /// embed replies of the API, because browsers do not tell which page embeds a picture.
 std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
-    return isRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
+    return isCrossSiteRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
 
 /// Replies to a request and closes the connection, because it is uncertain where a further request would begin.

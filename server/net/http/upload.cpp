@@ -129,15 +129,16 @@ Reply uploadErrorReply(const Error& error) {
 UploadedBody::UploadedBody(const AddressAccountPtr& client) {
     const int file = memfd_create("oval4d-upload", MFD_CLOEXEC | MFD_ALLOW_SEALING);
     if (file < 0) throw std::system_error(errno, std::generic_category(), "an upload cannot be received");
-    held_ = std::make_shared<Held>(client->byteAccount().forceReserve(0), file);
+    reservedFile_ = std::make_shared<ReservedFile>(client->byteAccount().forceReserve(0), file);
 }
 
 std::optional<Error> UploadedBody::append(std::string_view bytes) {
     const std::size_t size = size_ + bytes.size();
-    if (size > held_->bytes.size() && !held_->bytes.growTo(size + kReserved) && !held_->bytes.growTo(size))
+    if (size > reservedFile_->bytes.size() && !reservedFile_->bytes.growTo(size + kReserved) &&
+        !reservedFile_->bytes.growTo(size))
         return kTooManyBytes;
     while (!bytes.empty()) {
-        const ssize_t written = write(held_->file.descriptor(), bytes.data(), bytes.size());
+        const ssize_t written = write(reservedFile_->file.descriptor(), bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) return Error{ErrorCode::internal, "the server has no memory for this upload"};
         bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -147,10 +148,10 @@ std::optional<Error> UploadedBody::append(std::string_view bytes) {
 }
 
 std::shared_ptr<const fields::FileHandle> UploadedBody::finish() {
-    held_->bytes.resize(size_);
+    reservedFile_->bytes.resize(size_);
     // Prevent the process that reads the file from changing its size.
-    fcntl(held_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
-    return {held_, &held_->file};
+    fcntl(reservedFile_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
+    return {reservedFile_, &reservedFile_->file};
 }
 
 }  // namespace oval4d::net

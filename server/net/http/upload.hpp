@@ -61,12 +61,12 @@ class UploadedBody {
     std::shared_ptr<const fields::FileHandle> finish();
 
   private:
-    struct Held {
-        Held(ByteBudget::Reservation reserved, int descriptor) : bytes(std::move(reserved)), file(descriptor) {}
+    struct ReservedFile {
+        ReservedFile(ByteBudget::Reservation reserved, int descriptor) : bytes(std::move(reserved)), file(descriptor) {}
         ByteBudget::Reservation bytes;
         fields::FileHandle file;
     };
-    std::shared_ptr<Held> held_;
+    std::shared_ptr<ReservedFile> reservedFile_;
     std::size_t size_ = 0;
 };
 

@@ -10,16 +10,16 @@ HeldSession::HeldSession(AddressAccountPtr client, session::Session opened)
     : value(std::move(opened)),
       client_(std::move(client)),
       objectMemory_(session::ownObjectMemory(value)),
-      reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemory(value))) {}
+      reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemoryWithoutObjects(value))) {}
 
 void HeldSession::updateReservation(bool objectsChanged) {
     if (objectsChanged) objectMemory_ = session::ownObjectMemory(value);
-    const std::size_t bytes = objectMemory_ + session::historyMemory(value);
+    const std::size_t bytes = objectMemory_ + session::historyMemoryWithoutObjects(value);
     if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {
         session::forgetOlderHalf(value);
         objectMemory_ = session::ownObjectMemory(value);
     }
-    reservation_.resize(objectMemory_ + session::historyMemory(value));
+    reservation_.resize(objectMemory_ + session::historyMemoryWithoutObjects(value));
 }
 
 }  // namespace oval4d::net

@@ -199,7 +199,7 @@ asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyO
 
 /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred).
 std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
-    const session::CriticalSearch search{&services_.critical, services_.options.file.time};
+    const session::CriticalSearchOptions search{&services_.critical, services_.options.file.time};
     return std::make_shared<session::ObjectLoader>(services_.options.session, services_.polytopes,
                                                    session::ObjectLoader::Mode::deferred, fileReader(services_),
                                                    search);
@@ -230,7 +230,7 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
                 // waits for this command; it would notice too late that the client has left.
                 if (peer) peer->watchWhileExecuting();
             }
-            if (auto refused = co_await loadPending(by, loader, std::move(search))) {
+            if (auto refused = co_await completePending(by, loader, std::move(search))) {
                 done = std::move(*refused);
                 break;
             }
@@ -267,7 +267,7 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
 }
 
 /// Registers a search for the critical values of w of the current object (see slicing/critical/), so that it can be
-/// stopped. loadPending() runs it.
+/// stopped. completePending() runs it.
 std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::shared_ptr<Peer>& peer) {
     assertOnStrand();
     return searches_.add(peer, session_.current, services_.exportWorkers.stopToken());
@@ -275,9 +275,9 @@ std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::sha
 
 /// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it; `search` is then
 /// its registration, otherwise null. Returns an error if there is no room for the result, else an empty optional.
-asio::awaitable<std::optional<Error>> LiveSession::loadPending(AddressAccountPtr by,
-                                                               std::shared_ptr<session::ObjectLoader> loader,
-                                                               std::shared_ptr<CriticalSearchHandle> search) {
+asio::awaitable<std::optional<Error>> LiveSession::completePending(AddressAccountPtr by,
+                                                                   std::shared_ptr<session::ObjectLoader> loader,
+                                                                   std::shared_ptr<CriticalSearchHandle> search) {
     auto reservation = held_->client()->byteAccount().reserve(loader->bytesNeeded());
     if (!reservation) co_return kTooManyBytes;
     if (loader->pendingNeedsFile()) {
@@ -401,7 +401,7 @@ asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCritical(std::sha
     auto found = loader->criticalSections(asked);
     if (!loader->isPending()) co_return found;
     auto search = registerSearch(peer);
-    if (auto refused = co_await loadPending(peer->client(), loader, std::move(search))) co_return *refused;
+    if (auto refused = co_await completePending(peer->client(), loader, std::move(search))) co_return *refused;
     co_return loader->criticalSections(asked);
 }
 

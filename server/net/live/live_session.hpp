@@ -109,9 +109,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<Result<Applied>> perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                     const session::Command& command, bool awaitStore);
     std::shared_ptr<session::ObjectLoader> makeLoader() const;
-    boost::asio::awaitable<std::optional<Error>> loadPending(AddressAccountPtr by,
-                                                             std::shared_ptr<session::ObjectLoader> loader,
-                                                             std::shared_ptr<CriticalSearchHandle> search);
+    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
+                                                                 std::shared_ptr<session::ObjectLoader> loader,
+                                                                 std::shared_ptr<CriticalSearchHandle> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void scheduleSave();
     /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is

@@ -35,7 +35,7 @@ struct Snapshot {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
     slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
-    slicing::SectionNames section;                      ///< the names of the section in the focus slice
+    slicing::SectionNamePair section;                   ///< the names of the section in the focus slice
     SharedBytes stateText;                              ///< the `state` message for viewers who prefer dark pictures
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;

@@ -158,7 +158,7 @@ constexpr auto kNotations = std::to_array<NotationRow>({
                      "or antiprism",
         .examples = "`s4s3s x`, `s2s5s x`",
         .edges = "2",
-        .parse = snubPrismNamed,
+        .parse = snubPrismDiagramNamed,
     },
     {
         .polytopes = "a duoprism, including those of star polygons; a single polygon stands for two",

@@ -47,7 +47,7 @@ std::optional<DesignOrError> prismNamed(const NameWords& text) {
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
 
-std::optional<DesignOrError> snubPrismNamed(const NameWords& text) {
+std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
     const std::string wanted = text::normalizedName(text.joinedFrom(0));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         const std::string own(base.linearNotation);

@@ -19,6 +19,6 @@ std::optional<DesignOrError> prismNamed(const NameWords& text);
 
 /// Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns std::nullopt for
 /// other texts.
-std::optional<DesignOrError> snubPrismNamed(const NameWords& text);
+std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text);
 
 }  // namespace oval4d::polytopes

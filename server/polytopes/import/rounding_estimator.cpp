@@ -66,10 +66,10 @@ void RoundingEstimator::add(std::string_view word, int axis, double value) {
     if (digits.significant == 0) return;  // a zero does not show how it was rounded
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
-    if (single_ && value != 0) addSingle(digits.last, digits.lastNonzero, axis, value);
+    if (single_ && value != 0) updateSingleEvidence(digits.last, digits.lastNonzero, axis, value);
 }
 
-void RoundingEstimator::addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value) {
+void RoundingEstimator::updateSingleEvidence(int lastPlace, int lastNonzeroPlace, int axis, double value) {
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);

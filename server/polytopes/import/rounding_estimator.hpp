@@ -38,7 +38,7 @@ class RoundingEstimator {
 
   private:
     glm::dvec4 unit() const;  // per axis: the unit of the last digit
-    void addSingle(int lastPlace, int lastNonzeroPlace, int axis, double value);
+    void updateSingleEvidence(int lastPlace, int lastNonzeroPlace, int axis, double value);
 
     glm::dvec4 largest_{0};                            // per axis: the largest absolute value of a coordinate
     int digits_ = 0;                                   // the maximum number of significant digits

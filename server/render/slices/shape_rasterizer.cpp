@@ -58,22 +58,22 @@ struct ShapeRasterizer::Impl {
         }
     };
     /// Working memory for drawing some of the rows.
-    struct Band {
+    struct Workspace {
         std::vector<int> left, right;
         std::vector<ShapeVertex> clipped;
         std::vector<PatchCorner> corners;
     };
 
     int middleRow() const;
-    void drawRows(const RowRange& rows, Band& band) const;
-    void drawPatches(const PatchCanvas& part, const Layer& layer, Band& band) const;
+    void drawRows(const RowRange& rows, Workspace& workspace) const;
+    void drawPatches(const PatchCanvas& part, const Layer& layer, Workspace& workspace) const;
 
     PatchCanvas canvas;
     std::uint32_t background = 0;
     PixelArea depthArea{{0, 0}, {0, 0}};
     std::vector<Layer> layers;
     std::vector<float> nearness;
-    std::array<Band, 2> bands;
+    std::array<Workspace, 2> workspaces;
 };
 
 ShapeRasterizer::ShapeRasterizer() : impl_(std::make_unique<Impl>()) {}
@@ -116,10 +116,10 @@ void ShapeRasterizer::setDepthArea(const PixelArea& area) {
 void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
     Impl& m = *impl_;
     const int height = m.canvas.height;
-    if (forkJoin == nullptr) return m.drawRows({0, height}, m.bands[0]);
+    if (forkJoin == nullptr) return m.drawRows({0, height}, m.workspaces[0]);
     const int middle = m.middleRow();
-    const auto drawLower = [&] { m.drawRows({0, middle}, m.bands[0]); };
-    const auto drawUpper = [&] { m.drawRows({middle, height}, m.bands[1]); };
+    const auto drawLower = [&] { m.drawRows({0, middle}, m.workspaces[0]); };
+    const auto drawUpper = [&] { m.drawRows({middle, height}, m.workspaces[1]); };
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
 }
 
@@ -141,13 +141,13 @@ int ShapeRasterizer::Impl::middleRow() const {
     return static_cast<int>(mean * canvas.height);
 }
 
-void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Band& band) const {
-    for (std::vector<int>* bounds : {&band.left, &band.right})
+void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace) const {
+    for (std::vector<int>* bounds : {&workspace.left, &workspace.right})
         bounds->resize(static_cast<std::size_t>(canvas.height) + PatchCanvas::kLanes);
     PatchCanvas part = canvas;
     part.rows = rows;
-    part.left = band.left.data();
-    part.right = band.right.data();
+    part.left = workspace.left.data();
+    part.right = workspace.right.data();
     const auto startOf = [&](int y) { return static_cast<std::ptrdiff_t>(y) * canvas.width; };
     std::fill(canvas.pixels + startOf(rows.begin), canvas.pixels + startOf(rows.end), background);
     const auto& [from, to] = depthArea;
@@ -155,7 +155,7 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Band& band) const {
         std::fill(canvas.nearness + startOf(y) + from.x, canvas.nearness + startOf(y) + to.x, 0.0F);
     for (const Layer& layer : layers) {
         if (layer.shapes != nullptr) {
-            drawPatches(part, layer, band);
+            drawPatches(part, layer, workspace);
         } else {
             layer.surfaces->draw({canvas.width, canvas.height, rows.begin, rows.end, canvas.pixels, canvas.nearness},
                                  layer.triangles, layer.blending);
@@ -163,17 +163,17 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Band& band) const {
     }
 }
 
-void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const Layer& layer, Band& band) const {
+void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const Layer& layer, Workspace& workspace) const {
     const float pixelSize = 1 / layer.shapes->projection().focalLength();
     for (const Patch& patch : layer.patches()) {
         std::span<const ShapeVertex> vertices = layer.shapes->vertices().subspan(patch.first, patch.count);
         if (std::ranges::any_of(vertices, [](const ShapeVertex& v) { return v.clip.z < kNearPlane; })) {
-            cutAtNearPlane(vertices, band.clipped);
-            vertices = band.clipped;
+            cutAtNearPlane(vertices, workspace.clipped);
+            vertices = workspace.clipped;
         }
         if (vertices.size() < 3) continue;
-        band.corners.resize(vertices.size());
-        drawPatch(part, vertices, band.corners, patch.form, layer.depth, pixelSize);
+        workspace.corners.resize(vertices.size());
+        drawPatch(part, vertices, workspace.corners, patch.form, layer.depth, pixelSize);
     }
 }
 

@@ -99,7 +99,7 @@ bool ClosedSurfaceSlicer::touchesBoundary(const CellRange& range) const {
            glm::any(glm::equal(range.end, lattice_.pointCounts() - 1));
 }
 
-double ClosedSurfaceSlicer::signedValueOf(float sample) const {
+double ClosedSurfaceSlicer::applySign(float sample) const {
     return std::isfinite(sample) ? sign_ * static_cast<double>(sample) : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -124,7 +124,7 @@ void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
                         };
                         heights[corner] = (height(0) + height(1)) + (height(2) + height(3));
                         const int index = p.x + points.x * (p.y + points.y * (p.z + points.z * p.w));
-                        values[corner] = signedValueOf(samples[static_cast<std::size_t>(index)]);
+                        values[corner] = applySign(samples[static_cast<std::size_t>(index)]);
                     }
                     cutCell(cell, heights, values);
                 }
@@ -155,7 +155,7 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         if (holes != 0) {
             if (std::has_single_bit(holes)) {
                 findCrossings(cut, above);
-                capHole(cut, above, static_cast<std::size_t>(std::countr_zero(holes)));
+                addCapAtNanCorner(cut, above, static_cast<std::size_t>(std::countr_zero(holes)));
             }
             continue;
         }
@@ -207,11 +207,11 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
 
 // Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to this corner if the pentatope
 // on the other side of the facet has values at all of its corners.
-void ClosedSurfaceSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
+void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
         return;
-    if (std::isnan(signedValueOf(lattice_.sample(other)))) return;
+    if (std::isnan(applySign(lattice_.sample(other)))) return;
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         for (std::size_t face = 0; face < 4; ++face) {
             if (tetrahedron.facets[face] == hole) addCap(cut, tetrahedron, face, true);

@@ -100,7 +100,7 @@ class ClosedSurfaceSlicer {
     void cutBrick(const CellRange& range);
     void cutCell(glm::ivec4 cell, const std::array<double, 16>& heights, const std::array<double, 16>& values);
     void cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary);
-    void capHole(const CutPentatope& cut, unsigned above, std::size_t hole);
+    void addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole);
     void findCrossings(CutPentatope& cut, unsigned above) const;
     void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);
     void addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face, bool reversed);
@@ -108,7 +108,7 @@ class ClosedSurfaceSlicer {
     std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);
     glm::dvec3 position(const CutPentatope& cut, const PentatopeEdge& edge) const;
     std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
-    double signedValueOf(float sample) const;
+    double applySign(float sample) const;
 
     FieldLattice lattice_;
     // The state of the current slice. If the body is above the level, values and level are negated, so that the body is

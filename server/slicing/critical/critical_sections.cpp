@@ -119,10 +119,10 @@ class Correspondence {
     }
 
   private:
-    using Partners = std::vector<bool>;  // per part: whether it has a partner
+    using HasPartner = std::vector<bool>;  // per part: whether it has a partner
 
     // Counts the components without a partner.
-    std::size_t count(const SurfaceParts& parts, const Partners& partners) const {
+    std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
             const double volume = parts.parts[i].volume;
@@ -140,8 +140,8 @@ class Correspondence {
     glm::ivec3 cellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
 
     // Returns for each part of the surface `own` whether it has a partner in the surface `other`.
-    Partners partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
-                      const SurfaceParts& otherParts) const {
+    HasPartner partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
+                        const SurfaceParts& otherParts) const {
         std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
         for (std::uint32_t i = 0; i < other.points.size(); ++i) {
             const std::uint32_t part = otherParts.ofPoint[i];
@@ -166,7 +166,7 @@ class Correspondence {
             ++points[part];
             if (isNear(own.points[i])) ++near[part];
         }
-        Partners result;
+        HasPartner result;
         for (std::size_t i = 0; i < points.size(); ++i) result.push_back(2 * near[i] > points[i]);
         return result;
     }
@@ -174,7 +174,7 @@ class Correspondence {
     const SectionCutter& cutter_;
     double reach_;
     SurfaceParts partsA_, partsB_;
-    Partners toB_, toA_;
+    HasPartner toB_, toA_;
 };
 
 /// An interval of w in which the topology of one level changes.

@@ -76,7 +76,7 @@ CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t
 }
 
 struct Cases {
-    std::array<CubeCase, 256> usual, separated;
+    std::array<CubeCase, 256> usual, joined;
 };
 
 const Cases& cases() {
@@ -84,9 +84,9 @@ const Cases& cases() {
         const std::array<Face, 6> faces = makeFaces();
         Cases made;
         for (unsigned inside = 0; inside < 256; ++inside) {
-            made.usual[inside] = made.separated[inside] = makeCase(inside, faces, CubeCase::kNoFace);
+            made.usual[inside] = made.joined[inside] = makeCase(inside, faces, CubeCase::kNoFace);
             const std::uint8_t merging = made.usual[inside].mergingFace;
-            if (merging != CubeCase::kNoFace) made.separated[inside] = makeCase(inside, faces, merging);
+            if (merging != CubeCase::kNoFace) made.joined[inside] = makeCase(inside, faces, merging);
         }
         return made;
     }();
@@ -97,6 +97,6 @@ const Cases& cases() {
 
 const CubeCase& cubeCase(std::uint8_t inside) { return cases().usual[inside]; }
 
-const CubeCase& separatedCubeCase(std::uint8_t inside) { return cases().separated[inside]; }
+const CubeCase& joinedCubeCase(std::uint8_t inside) { return cases().joined[inside]; }
 
 }  // namespace oval4d::slicing

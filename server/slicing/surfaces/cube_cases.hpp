@@ -32,7 +32,7 @@ struct CubeCase {
     std::array<std::uint8_t, 12> patchOfEdge{};  ///< per edge: its patch; kNoPatch if both ends are on the same side
     /// The face whose corners are alternately inside and outside, and whose four edges belong to the same patch;
     /// kNoFace if there is no such face. If this face is also the mergingFace of the cube on its other side, the
-    /// surface would touch itself along an edge there. In this case, use separatedCubeCase() for both cubes.
+    /// surface would touch itself along an edge there. In this case, use joinedCubeCase() for both cubes.
     std::uint8_t mergingFace = kNoFace;
 };
 
@@ -42,6 +42,6 @@ const CubeCase& cubeCase(std::uint8_t inside);
 
 /// Like cubeCase(), but joins the inside corners of the mergingFace, if the cube has one. The edges of this face then
 /// belong to two patches.
-const CubeCase& separatedCubeCase(std::uint8_t inside);
+const CubeCase& joinedCubeCase(std::uint8_t inside);
 
 }  // namespace oval4d::slicing

@@ -27,8 +27,8 @@ struct FunctionPoints {
     /// Sets points i … i + size.x · size.y · size.z − 1 to those of a box-shaped part of a lattice; x varies fastest.
     /// `first` is the lower corner of the box, in the slice's coordinates. `steps` are the vectors to the next points
     /// along x, y and z, in the function's coordinates.
-    void setBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
-                const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
+    void setPointsInBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
+                        const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
         setPoint(i, section, first);
         for (int c = 0; c < 4; ++c) {
             float* out = &coordinates[static_cast<std::size_t>(c)][i];

@@ -254,22 +254,22 @@ void SurfaceExtractor::activate(glm::ivec3 block) {
 void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                     const Options& options) {
     // Blocks are collected until they fill a batch.
-    struct Part {
+    struct BatchedBlock {
         const Block* block;
         glm::ivec3 first;   // the lattice point at its lower end
         std::size_t begin;  // the index of its first point in the batch
     };
     constexpr std::size_t kCapacity = FunctionPoints::kCapacity;
     FunctionPoints points;
-    std::array<Part, kCapacity> parts{};
+    std::array<BatchedBlock, kCapacity> batched{};
     std::array<float, kCapacity> values{};
     std::array<std::uint8_t, kCapacity> inside{};
     std::array<bool, kCapacity> inDomain{};  // set only for the points of blocks at walls
-    std::size_t partCount = 0, size = 0;
+    std::size_t batchedCount = 0, size = 0;
     const auto sample = [&] {
         function.evaluate(points.batch(size), std::span(values).first(size));
         findInside(std::span(values).first(size), options, std::span(inside).first(size));
-        for (const auto& [block, first, begin] : std::span(parts).first(partCount)) {
+        for (const auto& [block, first, begin] : std::span(batched).first(batchedCount)) {
             const auto row = static_cast<std::size_t>(block->needed.x);
             std::size_t at = begin;
             for (int k = 0; k < block->needed.z; ++k) {
@@ -285,7 +285,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
                 }
             }
         }
-        partCount = size = 0;
+        batchedCount = size = 0;
     };
     // The steps to the next point along x, y and z, in the function's coordinates.
     std::array<glm::vec4, 3> steps;
@@ -296,10 +296,10 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
         const std::size_t count = static_cast<std::size_t>(needed.x) * static_cast<std::size_t>(needed.y) *
                                   static_cast<std::size_t>(needed.z);
         if (size + count > kCapacity) sample();
-        points.setBox(size, section, position(first), steps, needed);
+        points.setPointsInBox(size, section, position(first), steps, needed);
         if (block.walls != 0)
             moveOntoWalls(section, first, needed, size, points, std::span(inDomain).subspan(size, count));
-        parts[partCount++] = {&block, first, size};
+        batched[batchedCount++] = {&block, first, size};
         size += count;
     });
     sample();
@@ -451,15 +451,15 @@ bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level,
 void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, glm::ivec3 place) {
     const std::uint8_t inside = insideCorners(place, level);
     const CubeCase* patches = &cubeCase(inside);
-    bool separated = false;
+    bool joined = false;
     if (patches->mergingFace != CubeCase::kNoFace) {
         const unsigned face = patches->mergingFace;
         glm::ivec3 neighbor = place;
         neighbor[static_cast<int>(face / 2)] += face % 2 == 1 ? 1 : -1;
-        separated = blockOf(neighbor).isActive && cubeCase(insideCorners(neighbor, level)).mergingFace == (face ^ 1U);
-        if (separated) patches = &separatedCubeCase(inside);
+        joined = blockOf(neighbor).isActive && cubeCase(insideCorners(neighbor, level)).mergingFace == (face ^ 1U);
+        if (joined) patches = &joinedCubeCase(inside);
     }
-    Cube cube{index(place), inside, separated, {}, static_cast<std::uint32_t>(positions_.size())};
+    Cube cube{index(place), inside, joined, {}, static_cast<std::uint32_t>(positions_.size())};
     if (const std::uint8_t walls = blockOf(place).walls; walls != 0 || !placePoints(*patches, cube, place))
         placePointsAtWalls(section, *patches, walls, place, cube);
     cubeAt_[cube.at] = static_cast<std::uint32_t>(cubes_.size());
@@ -683,7 +683,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const Cube& around = cubes_[cubeAt_[index(other)]];
-                const CubeCase& patches = around.separated ? separatedCubeCase(around.inside) : cubeCase(around.inside);
+                const CubeCase& patches = around.joined ? joinedCubeCase(around.inside) : cubeCase(around.inside);
                 corners[i] = firstPoint + around.firstPoint + patches.patchOfEdge[edgeNumber(axis, u, v)];
             }
             if (!complete) continue;

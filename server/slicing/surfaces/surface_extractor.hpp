@@ -74,7 +74,7 @@ class SurfaceExtractor {
     struct Cube {
         std::uint32_t at;                 // the lattice index of its corner 0
         std::uint8_t inside;              // a bit for each corner: whether it is inside the body
-        bool separated;                   // whether its case is separatedCubeCase(inside)
+        bool joined;                      // whether its case is joinedCubeCase(inside)
         std::array<std::uint8_t, 3> cap;  // per edge from corner 0: 1 if a cap crosses the edge
         std::uint32_t firstPoint;         // the index in positions_ of its first point
     };

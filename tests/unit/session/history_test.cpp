@@ -266,7 +266,7 @@ TEST(History, TheOlderHalfIsForgotten) {
         next.slices.focus = i + 1;
         commit(session, std::move(next), limits);
     }
-    EXPECT_EQ(historyMemory(session), 7 * sizeof(State));
+    EXPECT_EQ(historyMemoryWithoutObjects(session), 7 * sizeof(State));
     forgetOlderHalf(session);
     ASSERT_EQ(session.undoSteps.size(), 3U);
     EXPECT_EQ(session.undoSteps.front().slices.focus, 4);

@@ -99,7 +99,7 @@ const Sections kSections[] = {
 };
 
 // Coxeter, Regular Polytopes, table V, lists the vertices. His irregular sections have no name here.
-TEST(SectionNames, ofTheRegularPolytopesThroughTheirVertices) {
+TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
     SectionNamer namer;
     for (const Sections& sections : kSections) {
         SCOPED_TRACE(std::string(sections.polytope) + " beginning with an element of dimension " +
@@ -112,7 +112,7 @@ TEST(SectionNames, ofTheRegularPolytopesThroughTheirVertices) {
         for (const double w : levels) {
             const SliceSet cut = cutAt(p, orientation, w);
             slices.emplace_back(namer.nameOfSlice(cut, 0));
-            vertices.emplace_back(namer.nameOfVertices(cut, 0, p.edges.size()));
+            vertices.emplace_back(namer.nameOfObjectVertices(cut, 0, p.edges.size()));
         }
         const auto complete = [&](Names names) {
             for (std::size_t i = names.size(); i < levels.size(); ++i) names.push_back(names[levels.size() - 1 - i]);
@@ -123,7 +123,7 @@ TEST(SectionNames, ofTheRegularPolytopesThroughTheirVertices) {
     }
 }
 
-TEST(SectionNames, betweenTheVerticesAreThoseOfTheUniformSectionsOnly) {
+TEST(SectionNamePair, betweenTheVerticesAreThoseOfTheUniformSectionsOnly) {
     struct Row {
         const char* polytope;
         int first;
@@ -147,7 +147,7 @@ TEST(SectionNames, betweenTheVerticesAreThoseOfTheUniformSectionsOnly) {
 }
 
 // The names of cells are found from their faces, and do not depend on this class.
-TEST(SectionNames, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
+TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
     Names polytopes{"snub 24-cell", "rectified 600-cell", "runcitruncated 16-cell", "omnitruncated 24-cell"};
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
         if (isConvex(solid)) polytopes.push_back(std::string(solid.name) + " prism");
@@ -168,14 +168,14 @@ TEST(SectionNames, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
             const double w = offsets[cell] / glm::length(normals[cell]);
             const SliceSet cut = cutAt(p, ontoW(normals[cell]), w);
             EXPECT_EQ(nameOfSlice(cut), p.cellTypes[type].name);
-            EXPECT_EQ(SectionNamer().nameOfVertices(cut, 0, p.edges.size()), p.cellTypes[type].name);
+            EXPECT_EQ(SectionNamer().nameOfObjectVertices(cut, 0, p.edges.size()), p.cellTypes[type].name);
             ++seen[p.cellTypes[type].name];
         }
     }
     EXPECT_EQ(seen.size(), 18U + 17 + 17);
 }
 
-TEST(SectionNames, dependNeitherOnTheOrientationNorOnTheSize) {
+TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
     std::mt19937 random(41);
     std::normal_distribution<double> normal;
     SectionNamer namer;
@@ -191,12 +191,12 @@ TEST(SectionNames, dependNeitherOnTheOrientationNorOnTheSize) {
             const double scale = std::exp(5 * normal(random));
             for (glm::dvec3& v : cut.vertices) v = v * scale + glm::dvec3(scale, 0, -scale);
             EXPECT_EQ(namer.nameOfSlice(cut, 0), sections.slices[i]);
-            EXPECT_EQ(namer.nameOfVertices(cut, 0, p.edges.size()), sections.vertices[i]);
+            EXPECT_EQ(namer.nameOfObjectVertices(cut, 0, p.edges.size()), sections.vertices[i]);
         }
     }
 }
 
-TEST(SectionNames, areFoundForEachSliceOfASet) {
+TEST(SectionNamePair, areFoundForEachSliceOfASet) {
     const polytopes::Polytope& p = named("8-cell");
     SliceSet slices;
     PolytopeSlicer().slice(p, ontoW({1, 1, 1, 1}), {-5, 11, 0.5}, slices);
@@ -207,7 +207,7 @@ TEST(SectionNames, areFoundForEachSliceOfASet) {
                             "truncated tetrahedron", "tetrahedron", "tetrahedron", "point", ""}));
 }
 
-TEST(SectionNames, areNotThoseOfStretchedSolids) {
+TEST(SectionNamePair, areNotThoseOfStretchedSolids) {
     const polytopes::Polytope& p = named("600-cell");
     SliceSet cut = cutAt(p, beginningWith(p, 0), 0.9 * p.circumradius);
     ASSERT_EQ(nameOfSlice(cut), "icosahedron");
@@ -215,7 +215,7 @@ TEST(SectionNames, areNotThoseOfStretchedSolids) {
     for (const auto& [stretch, name] : {std::pair{1 + 1e-8, "icosahedron"}, {1 + 1e-4, ""}, {1.01, ""}, {2.0, ""}}) {
         for (std::size_t i = 0; i < vertices.size(); ++i) cut.vertices[i] = vertices[i] * glm::dvec3(1, stretch, 1);
         EXPECT_EQ(nameOfSlice(cut), name) << stretch;
-        EXPECT_EQ(SectionNamer().nameOfVertices(cut, 0, 0), name) << stretch;
+        EXPECT_EQ(SectionNamer().nameOfObjectVertices(cut, 0, 0), name) << stretch;
     }
 }
 
@@ -251,7 +251,7 @@ Points verticesOf(std::string_view name) {
 
 // If caps of these solids are turned by half of their symmetry, the result has the same faces and the same
 // circumradius: Johnson's solids J27, J34, J37, J72 and J73.
-TEST(SectionNames, areNotThoseOfSolidsWithTurnedCaps) {
+TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
     struct Row {
         const char *solid, *axis;  // the axis runs through the first vertex of the solid with this name
         int order;                 // of the rotations around the axis
@@ -278,12 +278,12 @@ TEST(SectionNames, areNotThoseOfSolidsWithTurnedCaps) {
             ASSERT_EQ(slice.edges.size(), sliceOf(solid).edges.size());
             const std::string name = halves == 1 ? "" : row.solid;
             EXPECT_EQ(nameOfSlice(slice), name);
-            EXPECT_EQ(SectionNamer().nameOfVertices(slice, 0, 0), name);
+            EXPECT_EQ(SectionNamer().nameOfObjectVertices(slice, 0, 0), name);
         }
     }
 }
 
-TEST(SectionNames, areNotThoseOfStars) {
+TEST(SectionNamePair, areNotThoseOfStars) {
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
         if (isConvex(solid)) continue;
         SCOPED_TRACE(solid.name);
@@ -294,7 +294,7 @@ TEST(SectionNames, areNotThoseOfStars) {
     }
 }
 
-TEST(SectionNames, areNotThoseOfCompounds) {
+TEST(SectionNamePair, areNotThoseOfCompounds) {
     // Two tetrahedra have the vertices of a cube.
     SliceSet slice = sliceOf(verticesOf("cube"));
     ASSERT_EQ(nameOfSlice(slice), "cube");

@@ -143,7 +143,7 @@ function drawHistogram(
     const leftOf = (k: number): number => (layout.left + k * layout.line_step) * height;
     const width = layout.panel * height;
     density.update(picture);
-    for (let k = 0; k < 4; ++k) density.drawPanel(pen, k, leftOf(k), zero - amplitude, width, 2 * amplitude);
+    for (let k = 0; k < 4; ++k) density.drawHistogramPanel(pen, k, leftOf(k), zero - amplitude, width, 2 * amplitude);
 
     const thickness = Math.max(1, Math.round(layout.line_width * height));
     const focus = picture.slices.find((slice) => slice.focus);

@@ -39,7 +39,14 @@ export class DensityImage {
     }
 
     /** Draws panel k of a histogram such that the centers of its outermost pixels lie on the edges of the rectangle. */
-    drawPanel(pen: CanvasRenderingContext2D, k: number, x: number, y: number, width: number, height: number): void {
+    drawHistogramPanel(
+        pen: CanvasRenderingContext2D,
+        k: number,
+        x: number,
+        y: number,
+        width: number,
+        height: number,
+    ): void {
         const columns = this.canvas.width / 4;
         const left = k * columns + 0.5;
         pen.drawImage(this.canvas, left, 0.5, columns - 1, this.canvas.height - 1, x, y, width, height);

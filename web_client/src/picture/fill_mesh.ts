@@ -40,7 +40,7 @@ export class FillMesh {
             points += fill.points.length / 3;
             corners += fill.triangles.length;
         }
-        this.reserve(points, corners);
+        this.resizeBuffers(points, corners);
         for (const part of this.parts) this.writeFill(part, picture);
         this.shapes.markChanged();
         this.paint(picture, highlighted);
@@ -78,9 +78,9 @@ export class FillMesh {
         this.geometry.setDrawRange(0, used);
     }
 
-    private reserve(points: number, corners: number): void {
-        const indexGrown = this.index.reserve(corners);
-        if (!this.shapes.reserve(points) && !indexGrown && this.geometry.index) return;
+    private resizeBuffers(points: number, corners: number): void {
+        const indexGrown = this.index.resize(corners);
+        if (!this.shapes.resize(points) && !indexGrown && this.geometry.index) return;
         this.shapes.attachTo(this.geometry);
         this.geometry.setIndex(this.index.attribute);
     }

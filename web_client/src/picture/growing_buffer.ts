@@ -22,7 +22,7 @@ export class GrowingBuffer<T extends Numbers> {
     }
 
     /** Sets the number of items, all of which must then be written; returns true if a larger buffer was allocated. */
-    reserve(items: number): boolean {
+    resize(items: number): boolean {
         this.used = items;
         if (items <= this.attribute.count) return false;
         this.attribute = this.allocate(2 ** Math.ceil(Math.log2(items)));

@@ -124,7 +124,7 @@ class MeshTest {
             projected[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
             projected[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
             projected[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
-            this.viewCamera.toScreen(projected, at);
+            this.viewCamera.cameraToScreen(projected, at);
         }
     }
 

@@ -31,7 +31,7 @@ export class PaintersOrder {
     constructor(private readonly elements: SliceElements) {}
 
     /** Sets which parts are painted, and makes room for the elements of a new picture. */
-    setParts(parts: SolidParts): void {
+    update(parts: SolidParts): void {
         this.shown = parts;
         const { vertexCount, edgeCount, faceCount } = this.elements;
         this.vertexInFront = ensureCapacity(this.vertexInFront, vertexCount);

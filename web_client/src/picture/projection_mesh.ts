@@ -49,14 +49,14 @@ export class ProjectionMesh {
         const { parts, position } = projection;
         this.position = position;
         this.barRadius = Math.max(...parts.map((part) => part.bar));
-        this.reserve(parts);
+        this.resizeBuffers(parts);
         this.used = this.count = 0;
         let solids = 0;
         const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
             const addQuad = (opacity: number, depthKind: number): void => {
                 if (opacity === 0) this.used -= 4;
-                else if (i > 0 || opacity < 1) this.addTranslucent(4, depthKind);
+                else if (i > 0 || opacity < 1) this.addTranslucentShape(4, depthKind);
                 else for (const corner of kQuadTriangles) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
             const point = (v: number): [number, number, number] => [
@@ -158,18 +158,18 @@ export class ProjectionMesh {
                 this.shapes.setShape(this.used, kFace);
                 this.shapes.setColor(this.used, colorOf(tints[f]!), opacity);
             }
-            this.addTranslucent(begin[f + 1]! - begin[f]!, kMiddle);
+            this.addTranslucentShape(begin[f + 1]! - begin[f]!, kMiddle);
         }
     }
 
     /** Adds a translucent shape that consists of the last `vertices` vertices. */
-    private addTranslucent(vertices: number, depthKind: number): void {
+    private addTranslucentShape(vertices: number, depthKind: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;
         this.depthKind[this.count++] = depthKind;
     }
 
-    private reserve(parts: ObjectProjection["parts"]): void {
+    private resizeBuffers(parts: ObjectProjection["parts"]): void {
         let [quads, faces, corners] = [0, 0, 0];
         for (const part of parts) {
             quads += part.vertices.length / 3 + part.edges.length / 2;
@@ -181,9 +181,9 @@ export class ProjectionMesh {
         }
         this.depthKind = ensureCapacity(this.depthKind, quads + faces);
         this.nearness = ensureCapacity(this.nearness, quads + faces);
-        const solidGrown = this.solidIndex.reserve(6 * quads);
-        const translucentGrown = this.translucentIndex.reserve(6 * quads + 3 * corners);
-        const grown = this.shapes.reserve(4 * quads + corners);
+        const solidGrown = this.solidIndex.resize(6 * quads);
+        const translucentGrown = this.translucentIndex.resize(6 * quads + 3 * corners);
+        const grown = this.shapes.resize(4 * quads + corners);
         if (!grown && !solidGrown && !translucentGrown && this.solid.index) return;
         this.shapes.attachTo(this.solid);
         this.shapes.attachTo(this.translucent);

@@ -23,9 +23,9 @@ export class ShapeBuffers {
      * Makes room for this many vertices. Returns true if a buffer was reallocated; the caller must then call
      * attachTo().
      */
-    reserve(vertices: number): boolean {
+    resize(vertices: number): boolean {
         let grown = false;
-        for (const buffer of [this.at, this.to, this.shape, this.color]) grown = buffer.reserve(vertices) || grown;
+        for (const buffer of [this.at, this.to, this.shape, this.color]) grown = buffer.resize(vertices) || grown;
         return grown;
     }
 

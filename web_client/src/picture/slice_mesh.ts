@@ -27,7 +27,7 @@ export class SliceMesh {
     update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;
         elements.update(picture);
-        this.reserve();
+        this.resizeBuffers();
         const { scene } = picture;
         const { shown } = scene;
         // Without balls, the bars are joined by balls of their own radius.
@@ -44,7 +44,7 @@ export class SliceMesh {
         this.writeFaces();
         this.shapes.markChanged();
         this.paint(picture, highlighted);
-        this.order.setParts({ ...shown, faces: shown.faces && faces });
+        this.order.update({ ...shown, faces: shown.faces && faces });
     }
 
     /** Writes the colors of the picture last passed to update(). */
@@ -92,10 +92,10 @@ export class SliceMesh {
         else this.geometry.setDrawRange(fartherIndexCount, this.count - fartherIndexCount);
     }
 
-    private reserve(): void {
+    private resizeBuffers(): void {
         const { vertexCount, edgeCount, cornerCount } = this.elements;
-        const indexGrown = this.index.reserve(6 * vertexCount + 6 * edgeCount + 3 * cornerCount);
-        const grown = this.shapes.reserve(4 * vertexCount + 4 * edgeCount + cornerCount);
+        const indexGrown = this.index.resize(6 * vertexCount + 6 * edgeCount + 3 * cornerCount);
+        const grown = this.shapes.resize(4 * vertexCount + 4 * edgeCount + cornerCount);
         if (!grown && !indexGrown && this.geometry.index) return;
         this.shapes.attachTo(this.geometry);
         this.geometry.setIndex(this.index.attribute);

@@ -139,19 +139,19 @@ export class SurfacePainter {
             bytes += Math.ceil(part.groups.triangles.byteLength / 4) * 4; // 32-bit indices must begin at multiples of 4
         }
         gl.bindVertexArray(arrays);
-        this.reserve("points", 12 * points);
+        this.bindAndReserve("points", 12 * points);
         for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.points);
-        this.reserve("normals", 12 * points);
+        this.bindAndReserve("normals", 12 * points);
         for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.normals);
-        this.reserve("colors", this.hasColors(0) ? 4 * points : 0);
+        this.bindAndReserve("colors", this.hasColors(0) ? 4 * points : 0);
         for (const { surface, firstPoint } of parts) {
             if (surface.colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.colors);
         }
-        this.reserve("capColors", this.hasColors(1) ? 4 * points : 0);
+        this.bindAndReserve("capColors", this.hasColors(1) ? 4 * points : 0);
         for (const { surface, firstPoint } of parts) {
             if (surface.cap_colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.cap_colors);
         }
-        this.reserve("triangles", bytes);
+        this.bindAndReserve("triangles", bytes);
         for (const { groups, firstByte } of parts) {
             gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, firstByte, groups.triangles);
         }
@@ -166,7 +166,7 @@ export class SurfacePainter {
     }
 
     /** Binds a buffer. If it has fewer than this many bytes, makes it larger; its contents are then lost. */
-    private reserve(name: BufferName, bytes: number): void {
+    private bindAndReserve(name: BufferName, bytes: number): void {
         const { gl } = this;
         const target = name === "triangles" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
         const entry = this.resources!.buffers[name];

@@ -63,7 +63,7 @@ export class ViewCamera {
     }
 
     /** Projects the camera coordinates x, y, z that begin at points[at]; writes the pixels x, y after them. */
-    toScreen(points: Float32Array, at: number): void {
+    cameraToScreen(points: Float32Array, at: number): void {
         const f = this.projection.elements;
         const depth = -points[at + 2]!;
         points[at + 3] = (((f[0]! * points[at]!) / depth - f[8]! + 1) / 2) * this.width;
