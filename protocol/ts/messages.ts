@@ -227,7 +227,7 @@ export interface KeyRequest {
     ctrl?: boolean;
 }
 /**
- * Loads a polytope and shows it. A set message can select it again by its name.
+ * Loads an object and shows it. A set message can select it again by its name.
  */
 export interface LoadRequest {
     type: "load";
@@ -236,11 +236,11 @@ export interface LoadRequest {
      */
     id?: number;
     /**
-     * Must not be a name of the catalogue. A polytope that was loaded under the same name is replaced.
+     * Must not be a name of the catalogue. An object that was loaded under the same name is replaced.
      */
     name: string;
     /**
-     * "off": 4OFF. "points": one point x y z w per line; the polytope is their convex hull. "cloud": the optional word CLOUD, then one point x y z w [radius] per line; each is shown as a ball. "formula": a function of x, y, z, w, also called t, and r = sqrt(x^2+y^2+z^2), such as x^2+y^2-z^2 < w; named constants follow it, as in x*y-a; a=0.5.
+     * "off": 4OFF, of a polytope or, without cells, of a surface. "points": one point x y z w per line; the polytope is their convex hull. "cloud": the optional word CLOUD, then one point x y z w [radius] per line; each is shown as a ball. "formula": a function of x, y, z, w, also called t, and r = sqrt(x^2+y^2+z^2), such as x^2+y^2-z^2 < w; named constants follow it, as in x*y-a; a=0.5.
      */
     format?: string;
     /**
@@ -276,7 +276,7 @@ export interface LoadRequest {
      */
     values_variable?: string;
     /**
-     * The point of the file's coordinates about which a polytope or points turn and around which their slices lie: "object", their center; "origin"; or x, y, z, w. If it is absent, the center of an object that is far from the origin, else the origin.
+     * The point of the file's coordinates about which a polytope, a surface or points turn and around which their slices lie: "object", their center; "origin"; or x, y, z, w. If it is absent, the center of an object that is far from the origin, else the origin.
      */
     center?: string | [number, number, number, number];
     /**
@@ -816,7 +816,7 @@ export interface CriticalSection {
      */
     change: "vertices" | "appears" | "vanishes" | "merge" | "split" | "handle" | "cavity";
     /**
-     * Of a polytope or a point cloud: the number of vertices in the hyperplane.
+     * Of a polytope, a surface or a point cloud: the number of vertices in the hyperplane.
      */
     vertices?: number;
     /**

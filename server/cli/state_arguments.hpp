@@ -40,11 +40,11 @@ void writeOutput(const std::string& path, std::string_view bytes);
 inline constexpr const char* kStateHelp =
     "All other options describe the state, as for :set and the query of frame.png:\n"
     "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single --background white\n"
-    "--load FILE shows a polytope from a 4OFF file, the points of a file whose first word is CLOUD,\n"
+    "--load FILE shows a polytope or a surface from a 4OFF file, the points of a file whose first word is CLOUD,\n"
     "a field from an array (npy, netcdf, hdf5, nifti; with --axes tzyx --box X0,X1,Y0,Y1,Z0,Z1,W0,W1\n"
     "--variable NAME), or the convex hull of any other list of points. --values FORMULA, or for arrays\n"
     "--values_variable NAME, is a second function whose values color the surfaces. --center object|origin|\n"
-    "X,Y,Z,W is the point about which a polytope or points turn.\n"
+    "X,Y,Z,W is the point about which a polytope, a surface or points turn.\n"
     "A picture that oval4d has made, or a state as JSON, is shown again; other options change it.\n"
     "--rotate may be repeated; the rotations are applied in the order given.";
 

@@ -60,10 +60,10 @@ class Budget {
             throw ExportRefused{
                 {ExportRefusal::Cause::too_long, "the export was canceled because the server is stopping"}};
         if (mustStop()) {
-            throw ExportRefused{
-                {ExportRefusal::Cause::too_long, "the export takes longer than the allowed " +
-                                                     std::to_string(static_cast<int>(limits_.time.count())) +
-                                                     " s; export only the focus slice, or a solid body"}};
+            throw ExportRefused{{ExportRefusal::Cause::too_long,
+                                 "the export takes longer than the allowed " +
+                                     std::to_string(static_cast<int>(limits_.time.count())) +
+                                     " s; export only the focus slice or, if the object has cells, a solid body"}};
         }
     }
     /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
@@ -71,9 +71,10 @@ class Budget {
     void checkTrianglesAndMemory(std::size_t total) const {
         if (total > limits_.triangles) {
             throw ExportRefused{
-                {ExportRefusal::Cause::too_large, "the file would have about " + std::to_string(total) +
-                                                      " triangles; at most " + std::to_string(limits_.triangles) +
-                                                      " are allowed; export only the focus slice, or a solid body"}};
+                {ExportRefusal::Cause::too_large,
+                 "the file would have about " + std::to_string(total) + " triangles; at most " +
+                     std::to_string(limits_.triangles) +
+                     " are allowed; export only the focus slice or, if the object has cells, a solid body"}};
         }
         checkRoom(kBytesOfTriangle * total);
     }

@@ -201,10 +201,9 @@ class Exporter {
         budget_.checkTrianglesAndMemory(static_cast<std::size_t>(coarse / (cube * cube)));
         const double largest = kCoarseCube * radii_.bar;
         if (largest < kLeastFieldStep * grid_.step()) {
-            throw ExportRefused{
-                {ExportRefusal::Cause::no_body,
-                 "the bars of this object are too thin for a file; export a larger body, or a solid one "
-                 "(body=solid)"}};
+            throw ExportRefused{{ExportRefusal::Cause::no_body,
+                                 std::string("the bars of this object are too thin for a file; export a larger body") +
+                                     (hasCells() ? ", or a solid one (body=solid)" : "")}};
         }
         cube_ = std::max(cube * radii_.bar, std::min(largest, kGoodFieldStep * grid_.step()));
     }

@@ -78,7 +78,9 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.slices = &slices;
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
-    out.facesMayCross = isField || !info.convex;
+    const auto counts = slicing::elementCounts(object);
+    const bool isSurface = counts[1] > 0 && counts[3] == 0;  // its slices are curves
+    out.facesMayCross = isField || !info.convex || isSurface;
     out.faceOpacity = out.facesMayCross ? 1 : out.style().faceOpacity;
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);

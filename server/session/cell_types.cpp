@@ -65,6 +65,7 @@ Result<CellTypeList> parseCellTypes(std::string_view text) {
 }
 
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object) {
+    if (object.cellTypes.empty()) return Error{ErrorCode::out_of_range, "the " + object.name + " has no cells"};
     CellTypeList named;
     for (std::uint32_t type = 0; type < object.cellTypes.size(); ++type) {
         if (object.cellTypes[type].name == text) named.push_back(type);

@@ -208,11 +208,22 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
             out.length = glm::distance(at(p.edges[index][0]), at(p.edges[index][1]));
             break;
         case ElementKind::face: {
+            // The norm of the area bivector, whose components are the areas of the projections to the coordinate
+            // planes. It does not depend on the first vertex, even if the 2-face is not flat.
             const auto loop = p.faces[index];
-            glm::dvec3 area(0);
-            for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-                area += glm::cross(at(loop[i]) - at(loop[0]), at(loop[i + 1]) - at(loop[0])) / 2.0;
-            out.area = glm::length(area);
+            const auto place = [&](std::uint32_t v) { return toFile * (p.vertices[v] - base); };
+            double square = 0;
+            for (int r = 0; r < 3; ++r) {
+                for (int s = r + 1; s < 4; ++s) {
+                    double twice = 0;
+                    for (std::size_t i = 0; i < loop.size(); ++i) {
+                        const glm::dvec4 a = place(loop[i]), b = place(loop[(i + 1) % loop.size()]);
+                        twice += a[r] * b[s] - a[s] * b[r];
+                    }
+                    square += twice * twice / 4;
+                }
+            }
+            out.area = std::sqrt(square);
             break;
         }
         case ElementKind::cell: {

@@ -124,16 +124,23 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
     };
     pointOfVertex_.assign(vertices_.size(), kNone);
     pointOfEdge_.assign(end - begin, kNone);
+    const auto addVertex = [&](std::uint32_t v) {
+        // A source number e or E + v of the slice vertex (see SliceSet) becomes F + e or F + E + v (see PlanarSection).
+        if (pointOfVertex_[v] == kNone)
+            pointOfVertex_[v] = add(vertices_[v], faces + slices.vertexSource[firstVertex + v]);
+        return pointOfVertex_[v];
+    };
+    const bool isCurve = slices.faceBegin[slice] == slices.faceBegin[slice + 1];
     for (std::uint32_t e = 0; e < end - begin; ++e) {
         const auto [a, b] = slices.edges[begin + e];
+        // An edge in the hyperplane belongs to a face, which cutFaces() cuts. An edge of a curve belongs to none.
+        if (isCurve && distance_[a] == 0 && distance_[b] == 0) {
+            addVertex(a);
+            addVertex(b);
+        }
         if (isAbove(a) == isAbove(b)) continue;
         if (distance_[a] == 0 || distance_[b] == 0) {
-            const std::uint32_t v = distance_[a] == 0 ? a : b;
-            // A source number e or E + v of the slice vertex (see SliceSet) becomes F + e or F + E + v (see
-            // PlanarSection).
-            if (pointOfVertex_[v] == kNone)
-                pointOfVertex_[v] = add(vertices_[v], faces + slices.vertexSource[firstVertex + v]);
-            pointOfEdge_[e] = pointOfVertex_[v];
+            pointOfEdge_[e] = addVertex(distance_[a] == 0 ? a : b);
         } else {
             glm::dvec4 p = vertices_[a] + distance_[a] / (distance_[a] - distance_[b]) * (vertices_[b] - vertices_[a]);
             p[axis] = at;

@@ -47,7 +47,11 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
     if (known != images_.end()) return known->image;
-    const std::size_t vertices = slicing::elementCounts(source)[0];
+    // In units of a vertex with its share of the other elements, because a record may list many 2-faces of few
+    // vertices.
+    constexpr std::size_t kBytesOfVertex = 100;
+    const std::size_t vertices =
+        std::max(slicing::elementCounts(source)[0], slicing::memoryOf(source) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
     vertexBudget_ -= vertices;
     images_.push_back({source, frame, slicing::transformedTo(source, frame)});

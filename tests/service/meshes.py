@@ -146,6 +146,8 @@ def read_vtk(data, type_):
             result[name.lower()] = [float(number) for number in whole.get(name).split()]
     else:
         assert int(piece.get("NumberOfPoints")) == len(result["Points"]["points"])
-        assert int(piece.get("NumberOfPolys")) == len(result["Polys"]["offsets"])
-        assert all(0 <= p < len(result["Points"]["points"]) for p in result["Polys"]["connectivity"])
+        for name in ("Verts", "Lines", "Polys"):
+            list_ = result.get(name, {"offsets": [], "connectivity": []})
+            assert int(piece.get(f"NumberOf{name}")) == len(list_["offsets"])
+            assert all(0 <= p < len(result["Points"]["points"]) for p in list_["connectivity"])
     return result

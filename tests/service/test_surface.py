@@ -1,11 +1,13 @@
 """Surfaces in R⁴: loading, slicing, drawing, exporting and storing them."""
 
+import io
 import math
 
 import meshes
 import png
 import pytest
 from harness import Server, run_oval4d
+from PIL import Image
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
@@ -83,12 +85,75 @@ async def test_a_surface_has_elements_but_no_cells(server):
         assert [one["vertices"] for one in critical["sections"]] == [12] + 7 * [24] + [12]
 
 
+async def test_the_bars_of_curves_need_a_depth_buffer(server):
+    """The curves frame no convex body, so that no order of drawing is right for all views."""
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=clifford_torus(12, 16)[0])
+        assert (await client.request("get", what="slices", **SIZE))["scene"]["opacity"] == 1
+
+
+async def test_the_nearer_of_two_crossing_bars_is_in_front(server):
+    """The slice w = 0 has a bar from z = −1 to 1, which passes through (0, 0, 0), and in two of three cases a bar that
+    passes through (0, 0, z)."""
+    def crossing(z, reach, w):
+        vertices = ["-1 -0.2 -1 0", "1 0.2 1 0", "0 0 0 1", f"0 {-reach} {z} {w}", f"0 {reach} {z} {w}", f"0 0 {z} 1"]
+        return "\n".join(["4OFF", "6 2 6", *vertices, "3 0 1 2", "3 3 4 5"]) + "\n"
+
+    async with Client(server, stream="none") as client:
+        seen = {}
+        for case, data in {"behind": crossing(-0.5, 1, 0), "in front": crossing(0.5, 1, 0),
+                           "absent": crossing(0.5, 0.6, 0.8)}.items():
+            await client.request("load", name="bars", format="off", data=data)
+            await client.request("set", view="single", shown={"balls": False, "coordinates": False}, thickness=3,
+                                 slices={"count": 1}, highlight={"element": "face", "number": 0})
+            picture = Image.open(io.BytesIO(await client.request_frame(width=400, height=400))).convert("RGB")
+            seen[case] = sum(red > green + 60 for red, green, _ in picture.getdata())  # in the color of highlights
+        assert seen["behind"] > 0.99 * seen["absent"] > 1.1 * seen["in front"] > 100, seen
+
+
+async def test_the_area_of_a_face_that_is_not_flat_does_not_depend_on_its_first_vertex(server):
+    corners = ["1 0 0 1", "0 1 0 -1", "-1 0 0 1", "0 -1 0 -1"]
+    async with Client(server, stream="none") as client:
+        for first in range(4):
+            loop = " ".join(str((first + i) % 4) for i in range(4))
+            await client.request("load", name="saddle", format="off", center="origin",
+                                 data="\n".join(["4OFF", "4 1 4", *corners, f"4 {loop}"]) + "\n")
+            measured = await client.request("measure", element="face", number=0)
+            assert measured["area"] == pytest.approx(2)  # its projection to the plane of x and y is a square of area 2
+
+
+async def test_a_planar_section_shows_the_curves_in_its_plane(server):
+    """The slice w = 0 of the graph of w = x² − y², z = 2xy, is two lines, each in one plane of two axes."""
+    steps = [-1, -0.5, 0, 0.5, 1]
+    points = [f"{x} {y} {2 * x * y} {x * x - y * y}" for x in steps for y in steps]
+    faces = [f"4 {5 * i + j} {5 * i + j + 5} {5 * i + j + 6} {5 * i + j + 1}" for i in range(4) for j in range(4)]
+    data = "\n".join(["4OFF", f"{len(points)} {len(faces)} 0", *points, *faces]) + "\n"
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="square", format="off", data=data, center="origin")
+        await client.request("set", view="matrix")
+        matrix = (await client.request("get", what="slices", **SIZE))["matrix"]
+        found = {"".join("xyzw"[axis] if isinstance(axis, int) else axis for axis in section["axes"]):
+                 len(section["points"]) for section in matrix["sections"]}
+        assert found["xw"] >= 5 and found["yw"] >= 5, found
+
+
+async def test_vtp_contains_the_curves(server):
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=clifford_torus(12, 16)[0])
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
+        slices = (await client.request("get", what="slices"))["slices"]
+        done = await client.request("get", what="file", format="vtp", of="oval")
+        data = meshes.read_vtk(client.messages[client.messages.index(done) - 1], "PolyData")
+        assert len(data["Lines"]["offsets"]) == sum(len(one["edges"]) for one in slices) == len(data["CellData"]["w"])
+        assert set(data["CellData"]) == {"n", "w"} and len(data["Points"]["points"]) > 100
+
+
 @pytest.mark.parametrize("data, message", [
     ("4OFF\n3 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n", "the file lists neither 2-faces nor cells"),
     ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 3\n",
      "line 6: 2-face 0 refers to vertex 3, but the last is vertex 2"),
     ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 1\n", "line 6: 2-face 0 lists a vertex twice"),
-    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 6 are allowed"),
+    ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 3 are allowed"),
     ("4OFF\n3 1 3\n1 0 0 0\n0 1 0\n0 0 1 0\n3 0 1 2\n", "line 4: vertex 1 has 3 of 4 coordinates"),
     ("4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: '3' follows the last 2-face"),
     ("4OFF\n3 1 3\n0 0 0 0\n0 0 0 0\n0 0 0 0\n3 0 1 2\n", "all vertices are at the origin"),

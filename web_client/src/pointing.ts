@@ -37,7 +37,9 @@ export class Pointing {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         // The state may be newer than the picture, and of another object.
-        if (polytope?.cells !== hitTester.picture.scene.colors.cells.length) return undefined;
+        const { coordinates, scene } = hitTester.picture;
+        if (polytope?.cells !== scene.colors.cells.length) return undefined;
+        if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
         const vertex = hitTester.vertexInColumnAt(x * ratio, y * ratio, size);
         if (vertex !== undefined) return { element: "vertex", number: vertex };

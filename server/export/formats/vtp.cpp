@@ -16,12 +16,21 @@ namespace oval4d::exports {
 
 namespace {
 
+/// The elements of slices that the file lists: those of the highest dimension.
+enum class Elements : std::uint8_t { vertices, edges, faces };
+
+Elements elementsOf(const slicing::Object& object) {
+    const auto counts = slicing::elementCounts(object);
+    return counts[3] > 0 ? Elements::faces : counts[1] > 0 ? Elements::edges : Elements::vertices;
+}
+
 /// The arrays of the file.
 struct PolyData {
+    Elements elements = Elements::faces;
     std::vector<float> points, normals;               // three numbers for each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
-    std::vector<std::int64_t> corners, ends;          // the points of the polygons; where the corners of each end
-    std::vector<std::int32_t> n, cell;
+    std::vector<std::int64_t> corners, ends;          // the points of the elements; where the corners of each end
+    std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
     std::vector<double> w, level;
     std::vector<std::uint8_t> cap;
 };
@@ -35,20 +44,39 @@ glm::dvec3 placeOf(const SceneInput& source, int slice) {
     return source.scene.placements[static_cast<std::size_t>(slice)].position / source.scene.scale;
 }
 
-void addFaces(const SceneInput& source, int slice, PolyData& out) {
+void addElements(const SceneInput& source, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
     const glm::dvec3 place = placeOf(source, slice);
     const auto i = static_cast<std::size_t>(slice);
     const auto first = static_cast<std::int64_t>(out.points.size() / 3);
     for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v)
         appendVector(out.points, slices.vertices[v] + place);
-    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
-        for (std::uint32_t c = slices.cornerBegin[f]; c < slices.cornerBegin[f + 1]; ++c)
-            out.corners.push_back(first + slices.corners[c]);
+    const auto endElement = [&] {
         out.ends.push_back(static_cast<std::int64_t>(out.corners.size()));
-        out.cell.push_back(static_cast<std::int32_t>(source.scene.cellOfFace(f)));
         out.n.push_back(slices.planes.first + slice);
         out.w.push_back(slicing::infoOf(source.object).originInFile.w + slices.planes.w(slice));
+    };
+    switch (out.elements) {
+        case Elements::vertices:
+            for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
+                out.corners.push_back(first + v - slices.vertexBegin[i]);
+                endElement();
+            }
+            break;
+        case Elements::edges:
+            for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
+                for (const std::uint32_t end : slices.edges[e]) out.corners.push_back(first + end);
+                endElement();
+            }
+            break;
+        case Elements::faces:
+            for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+                for (std::uint32_t c = slices.cornerBegin[f]; c < slices.cornerBegin[f + 1]; ++c)
+                    out.corners.push_back(first + slices.corners[c]);
+                endElement();
+                out.cell.push_back(static_cast<std::int32_t>(source.scene.cellOfFace(f)));
+            }
+            break;
     }
 }
 
@@ -124,9 +152,12 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
 }
 
 std::string written(const PolyData& data, bool isField, bool hasSecond) {
-    std::string out = "<Piece NumberOfPoints=\"" + std::to_string(data.points.size() / 3) +
-                      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-                      std::to_string(data.ends.size()) + "\">\n";
+    const auto countOf = [&](Elements elements) {
+        return "=\"" + std::to_string(data.elements == elements ? data.ends.size() : 0) + '"';
+    };
+    std::string out = "<Piece NumberOfPoints=\"" + std::to_string(data.points.size() / 3) + "\" NumberOfVerts" +
+                      countOf(Elements::vertices) + " NumberOfLines" + countOf(Elements::edges) +
+                      " NumberOfStrips=\"0\" NumberOfPolys" + countOf(Elements::faces) + ">\n";
     if (isField) {
         out += "<PointData Scalars=\"value\" Normals=\"normals\">\n";
         appendArray(out, "value", data.values);
@@ -136,18 +167,23 @@ std::string written(const PolyData& data, bool isField, bool hasSecond) {
         out += "</PointData>\n<CellData Scalars=\"level\">\n";
         appendArray(out, "level", data.level);
         appendArray(out, "cap", data.cap);
-    } else {
+    } else if (data.elements == Elements::faces) {
         out += "<CellData Scalars=\"cell\">\n";
         appendArray(out, "cell", data.cell);
+    } else {
+        out += "<CellData Scalars=\"w\">\n";
     }
     appendArray(out, "n", data.n);
     appendArray(out, "w", data.w);
     out += "</CellData>\n<Points>\n";
     appendArray(out, "points", data.points, 3);
-    out += "</Points>\n<Polys>\n";
+    const std::string list = data.elements == Elements::vertices ? "Verts"
+                             : data.elements == Elements::edges  ? "Lines"
+                                                                 : "Polys";
+    out += "</Points>\n<" + list + ">\n";
     appendArray(out, "connectivity", data.corners);
     appendArray(out, "offsets", data.ends);
-    return out + "</Polys>\n</Piece>\n";
+    return out + "</" + list + ">\n</Piece>\n";
 }
 
 }  // namespace
@@ -156,16 +192,18 @@ std::string vtp(const SceneInput& source) {
     const fields::Field* const field = slicing::fieldIn(source.object);
     const bool isField = field != nullptr;
     PolyData data;
+    if (!isField) data.elements = elementsOf(source.object);
     std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {
         source.budget.checkTime();
         source.budget.checkTrianglesAndMemory(data.ends.size());
         const std::size_t before = data.ends.size();
-        isField ? addSurface(source, i, data) : addFaces(source, i, data);
+        isField ? addSurface(source, i, data) : addElements(source, i, data);
         if (data.ends.size() == before) empty.push_back(i);
     }
     if (!empty.empty()) {
-        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, "without faces",
+        const char* const fault = data.elements == Elements::faces ? "without faces" : "empty";
+        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
                                                     slicing::infoOf(source.object).originInFile.w));
     }
     return vtkFile("PolyData", "", written(data, isField, isField && field->second != nullptr));

@@ -132,9 +132,14 @@ void readVertices(Tokenizer& file, const Header& header, Layout layout, std::vec
     }
 }
 
-// Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number n ≥
-// `least`, followed by n indices that are less than `below`.
-void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_t below, std::size_t least,
+// The least and the greatest number of indices in a record.
+struct SizeRange {
+    std::size_t least, most;
+};
+
+// Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number within
+// `sizes`, followed by this number of indices that are less than `below`.
+void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
                const std::string& what, const Noun& member, geometry::JaggedArray& lists,
                std::vector<PolygonSoup::SourcePosition>& positions) {
     lists.begin.reserve(std::size_t{records} + 1);
@@ -147,11 +152,10 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
             throwFileError(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
         const std::size_t line = file.line();
         const std::uint32_t size = parseCount(first, line, "the size of " + owner);
-        // The limit bounds memory. It is 2 · `below`, not `below`, because a loop may pass through a vertex more than
-        // once; repair() splits it there.
-        if (size < least || size > 2 * below) {
+        if (size < sizes.least || size > sizes.most) {
             throwFileError(line, owner + " has " + std::to_string(size) + " " + member.many + "; " +
-                                     std::to_string(least) + " to " + std::to_string(2 * below) + " are allowed");
+                                     std::to_string(sizes.least) + " to " + std::to_string(sizes.most) +
+                                     " are allowed");
         }
         list.clear();
         for (std::uint32_t j = 0; j < size; ++j) {
@@ -175,10 +179,13 @@ using Layouts = std::array<Layout, 3>;
 PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
-    readLists(file, layouts[1], header.faces, header.vertices, 3, "2-face", {"vertex", "vertices"}, soup.faces,
-              soup.faceSourcePositions);
-    readLists(file, layouts[2], header.cells, header.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells,
-              soup.cellSourcePositions);
+    // The greatest sizes bound memory. The loop of a polytope's 2-face may pass through a vertex more than once, where
+    // repair() splits it.
+    const std::size_t mostCorners = std::size_t{header.vertices} * (header.cells > 0 ? 2 : 1);
+    readLists(file, layouts[1], header.faces, header.vertices, {3, mostCorners}, "2-face", {"vertex", "vertices"},
+              soup.faces, soup.faceSourcePositions);
+    readLists(file, layouts[2], header.cells, header.faces, {4, 2 * std::size_t{header.faces}}, "cell",
+              {"2-face", "2-faces"}, soup.cells, soup.cellSourcePositions);
     if (layouts[2] != Layout::continuous) file.skipLine();
     if (const auto rest = file.next(); !rest.empty())
         throwFileError(file.line(), inQuotes(rest) + " follows the last " + (header.cells > 0 ? "cell" : "2-face"));

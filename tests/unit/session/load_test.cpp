@@ -121,8 +121,8 @@ TEST(Load, RefusesInvalidSurfaces) {
         expectRefused(session, LoadObject{"s", "off", text}, ErrorCode::bad_polytope, says);
     };
     refused(vertices + "3 0 1 3\n", "line 6: 2-face 0 refers to vertex 3, but the last is vertex 2");
-    refused(vertices + "4 0 1 2 1\n", "line 6: 2-face 0 lists a vertex twice");
-    refused(vertices + "2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 6 are allowed");
+    refused(vertices + "3 0 1 1\n", "line 6: 2-face 0 lists a vertex twice");
+    refused(vertices + "2 0 1\n", "line 6: 2-face 0 has 2 vertices; 3 to 3 are allowed");
     refused(vertices + "3 0 1 2\n3 2 1 0\n", "line 7: '3' follows the last 2-face");
     refused("4OFF\n1 0 0\n1 0 0 0\n", "the file lists neither 2-faces nor cells");
     refused("4OFF\n3 1 3\n0 0 0 0\n0 0 0 0\n0 0 0 0\n3 0 1 2\n", "all vertices are at the origin");

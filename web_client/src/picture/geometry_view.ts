@@ -119,7 +119,8 @@ export class GeometryView {
         this.fogPainter.update(picture);
         this.sliceMesh.update(picture, !filled && !isField, highlighted);
         this.fillDrawing.visible = filled;
-        this.drawing.material = filled || isField ? this.solidMaterial : this.paintedMaterial;
+        const needsDepths = filled || isField || picture.scene.opacity === 1; // see `opacity` in protocol/README.md
+        this.drawing.material = needsDepths ? this.solidMaterial : this.paintedMaterial;
         this.sortedOrbit = undefined;
         const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
