@@ -113,7 +113,7 @@ export interface Surface {
     cap: Uint8Array;
     /** The color of each point, 0xRRGGBB; present only with the coloring "growth" or "value". */
     colors?: Uint32Array;
-    /** The color of each point where it is a corner of a cap; present only if the caps are colored by value. */
+    /** For each point, the color that it has in triangles of caps; present only if the caps are colored by value. */
     cap_colors?: Uint32Array;
 }
 

@@ -45,7 +45,7 @@ class LabelLayout {
     /// smallestStep()). Also removes a label if it is behind the eye, if it extends beyond the picture, or if it
     /// overlaps the kept label of a slice nearer to the focus slice. If the viewer has moved the camera (`isMoved`),
     /// also removes a label if it overlaps another slice or the axes symbol (whose box is `axes`), or if it extends
-    /// below `bottom`, the upper edge of the coordinates.
+    /// below `bottom`, the upper edge of the parallel coordinates, which are drawn below the slices.
     void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
 
   private:

@@ -137,8 +137,9 @@ Result<std::monostate> apply(Session& session, const Command& command, const Lim
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kRotationRepeatsPerSecond = 6;
 /// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
-/// goal. Adds no undo step, because one undo step covers the whole motion. Changes nothing if the object does not move,
-/// or turns so slowly that its orientation stays the same: a continuous rotation by the angle 0 has no effect.
+/// goal. Adds no undo step, because one undo step covers the whole motion. Increases the revision only if the
+/// orientation or the remaining turn changes: not if the object is at rest, if it turns by the angle 0, or if the step
+/// is lost to rounding.
 void advance(Session& session, double seconds);
 
 }  // namespace oval4d::session

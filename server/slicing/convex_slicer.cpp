@@ -37,8 +37,8 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
     return true;
 }
 
-// Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
-// the lower half gives the position of the upper half in `out`.
+// Cuts with the lower and the upper half of the hyperplanes at the same time. Requires that no vertex lies in a
+// hyperplane: then Sweep::maxSize() is exact, so it is known before cutting where in `out` the upper half begins.
 bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;

@@ -44,7 +44,7 @@ inline void writeCounts(JsonWriter& w, const Counts& counts) {
     w.member("cells", counts[3]);
 }
 
-/// Writes a value of a setting, or of a member that messages share, as JSON.
+/// Writes one value as JSON: of a setting, or of a member that occurs in messages of several types.
 template <typename Number>
 void writeValue(JsonWriter& w, const Number& number) {
     w.value(number);

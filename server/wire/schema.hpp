@@ -17,11 +17,11 @@ namespace oval4d::wire {
 /// `bad_message` for all other faults.
 std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
 
-/// Returns a schema, or a part of one, in which each reference to another file is replaced by the schema to which it
-/// refers, together with the keywords beside the reference. If both have a keyword, the value beside the reference is
-/// used, except that `properties`, `items` and `required` are combined. The parameter
-/// `reference` is the name of a file in protocol/schema/, which may be followed by '#' and a JSON pointer (RFC 6901),
-/// as in "settings.schema.json#/properties/view". Throws nlohmann::json::exception if there is no such file or part.
+/// Reads the schema, or the part of one, that `reference` names: a file in protocol/schema/, which may be followed by '#'
+/// and a JSON pointer (RFC 6901), as in "settings.schema.json#/properties/view". In the result, each "$ref" to another
+/// file is replaced by the schema to which it refers, and the keywords beside the "$ref" are added to this schema. If
+/// both have a keyword, the one beside the "$ref" is used, except that `properties`, `items` and `required` are combined.
+/// Throws nlohmann::json::exception if there is no such file or part.
 nlohmann::json readSchema(const std::string& reference);
 
 }  // namespace oval4d::wire

@@ -47,7 +47,10 @@ export class PageSession {
         else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
     }
 
-    /** Returns to the session of the present entry of the browser's history, when Back or Forward keeps the page. */
+    /**
+     * Joins the session that belongs to the current entry of the browser's history. Must be called after Back or Forward
+     * has changed the entry without reloading the page.
+     */
     joinSessionOfEntry(): void {
         const credentials = sessionOfEntry();
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);

@@ -49,7 +49,7 @@ class Paper {
           height_(kDrawingWidth / aspect_) {}
 
     double height() const { return height_; }
-    /// Returns the length in the drawing of one world unit at this point of view space.
+    /// Returns how long one world unit is in the drawing if it lies at the point `seen`, in view space.
     double scaleAt(const glm::dvec3& seen) const { return camera_.focalLength() * height_ / -seen.z; }
     glm::dvec2 operator()(const glm::dvec3& seen) const {
         const glm::dvec2 at = glm::dvec2(seen) * (camera_.focalLength() / -seen.z) +

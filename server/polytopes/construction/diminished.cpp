@@ -55,8 +55,7 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
         newVertex[v] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(whole.vertices[v]);
     }
-    // A tetrahedron with one removed vertex contributes a triangle to the cell that replaces this vertex. A tetrahedron
-    // with two removed vertices contributes an edge to the polygon between the two cells that replace them.
+    // Divides the corners of a cell into the removed and the remaining ones.
     const auto partition = [&](const std::set<std::uint32_t>& corners) {
         std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> lostAndKept;
         for (const std::uint32_t v : corners) (removed[v] ? lostAndKept.first : lostAndKept.second).push_back(v);
@@ -83,6 +82,9 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
         }
         const auto [lost, remaining] = partition(corners);
         if (lost.empty()) cells.add(kept);
+        // A tetrahedron with one removed vertex contributes a triangle to the cell that replaces this vertex. A
+        // tetrahedron with two removed vertices contributes an edge to the polygon between the two cells that replace
+        // them.
         if (lost.size() == 1) cellOfLost[lost[0]].push_back(kept.at(0));
         if (lost.size() == 2) between[{lost[0], lost[1]}].push_back({newVertex[remaining[0]], newVertex[remaining[1]]});
     }

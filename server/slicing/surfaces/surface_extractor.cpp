@@ -679,7 +679,8 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 glm::ivec3 other = place;
                 other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
                 other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
-                // Always true if the values of the function keep to the bounds of boundsIn().
+                // A surface passes through all cubes around an edge that it crosses, so that their blocks are active,
+                // unless boundsIn() has returned wrong bounds. Then the triangles at this edge are omitted.
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const Cube& around = cubes_[cubeAt_[index(other)]];

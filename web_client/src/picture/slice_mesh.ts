@@ -76,7 +76,10 @@ export class SliceMesh {
         shapes.color.markChanged();
     }
 
-    /** Orders all elements for this camera. `projection` is the position with which select() compares the slices. */
+    /**
+     * Orders all elements for this camera, from far to near. `projection` is the position of the whole object's
+     * projection: select() can choose the slices behind it, or those in front of it.
+     */
     sortForCamera(viewCamera: ViewCamera, projection: Vector = [0, 0, 0]): void {
         this.count = this.order.writeIndices(viewCamera, this.index.array, projection);
         this.index.used = this.count;
