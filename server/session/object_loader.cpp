@@ -80,9 +80,9 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
     if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{} || elementsOf(source) <= kSmall)
         return slicing::transformedTo(source, frame);
     const auto made = std::ranges::find_if(
-        transformed_, [&](const TransformedObject& each) { return each.source == source && each.frame == frame; });
-    if (made != transformed_.end()) return made->object;
-    pending_ = TransformedObject{source, frame};
+        objectsInFrames_, [&](const ObjectInFrame& each) { return each.source == source && each.frame == frame; });
+    if (made != objectsInFrames_.end()) return made->object;
+    pending_ = ObjectInFrame{source, frame};
     return kLater;
 }
 
@@ -120,8 +120,9 @@ void ObjectLoader::completePending(std::stop_token stop) {
     } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
         extended_ = appendTimeSteps(extension->field, extension->added, limits_);
         extendedFrom_ = extension->field;
-    } else if (const auto* wanted = std::get_if<TransformedObject>(&pending_)) {
-        transformed_.push_back({wanted->source, wanted->frame, slicing::transformedTo(wanted->source, wanted->frame)});
+    } else if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_)) {
+        objectsInFrames_.push_back(
+            {wanted->source, wanted->frame, slicing::transformedTo(wanted->source, wanted->frame)});
     } else if (const auto* arguments = std::get_if<CriticalArguments>(&pending_)) {
         critical_ = search(*arguments, std::move(stop));
         searched_ = arguments->object;
@@ -148,7 +149,7 @@ std::size_t ObjectLoader::bytesNeeded() const {
     if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;
-    if (const auto* wanted = std::get_if<TransformedObject>(&pending_))
+    if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_))
         return kPerTransformedElement * elementsOf(wanted->source);
     const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
@@ -185,7 +186,7 @@ std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
         seconds += perByte * static_cast<double>(file.data.size() + (file.file ? file.file->size() : 0));
     } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
         seconds += kArrayByte * static_cast<double>(slicing::memoryOf(extension->field));
-    } else if (const auto* wanted = std::get_if<TransformedObject>(&pending_)) {
+    } else if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_)) {
         seconds += kTransformedElement * static_cast<double>(elementsOf(wanted->source));
     } else if (isSearchPending()) {
         seconds += kSearch;

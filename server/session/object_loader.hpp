@@ -101,7 +101,7 @@ class ObjectLoader {
     std::vector<std::string> warnings() const;
 
   private:
-    struct TransformedObject {
+    struct ObjectInFrame {
         slicing::Object source;
         geometry::ReferenceFrame frame;
         slicing::Object object = {};  // `source` in `frame`; null while it is pending
@@ -119,7 +119,7 @@ class ObjectLoader {
     struct Extension {
         slicing::Object field, added;
     };
-    std::variant<std::monostate, polytopes::Design, const LoadObject*, TransformedObject, Extension, CriticalArguments>
+    std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInFrame, Extension, CriticalArguments>
         pending_;
     std::string builtName_;  // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
@@ -128,7 +128,7 @@ class ObjectLoader {
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    std::vector<TransformedObject> transformed_;  // two elements if a command changes the object and the frame
+    std::vector<ObjectInFrame> objectsInFrames_;  // two elements if a command changes the object and the frame
 };
 
 }  // namespace oval4d::session

@@ -25,7 +25,7 @@ class ActiveList {
 
     /// Removes all elements. Makes room for up to `elements` new ones, and for the hyperplanes 0 … `planes` − 1.
     void clear(std::size_t elements, int planes) {
-        added_.resize(elements + 1);
+        unsorted_.resize(elements + 1);
         end_.assign(planes + 1, 0);
         count_ = activeCount_ = begun_ = 0;
     }
@@ -33,7 +33,7 @@ class ActiveList {
     /// element if from = to.
     void add(std::uint32_t number, std::int32_t from, std::int32_t to) {
         const std::uint32_t one = from < to ? 1 : 0;
-        added_[count_] = {{number, to}, from};
+        unsorted_[count_] = {{number, to}, from};
         end_[from] += one;
         count_ += one;
     }
@@ -51,11 +51,11 @@ class ActiveList {
     std::uint32_t size() const { return activeCount_; }
 
   private:
-    struct Added {
+    struct UnsortedEntry {
         Entry entry;
         std::int32_t from;
     };
-    std::vector<Added> added_;
+    std::vector<UnsortedEntry> unsorted_;
     std::vector<Entry> sorted_, active_;
     // Per hyperplane: before sort(), the number of elements whose first hyperplane it is; afterward, the end of the
     // range of these elements in sorted_.
@@ -70,7 +70,8 @@ inline void ActiveList::sort(std::span<const int> steps) {
     std::uint32_t* end = end_.data();
     std::uint32_t total = 0;
     for (const int step : steps) total += std::exchange(end[step], total);
-    for (const Added& added : std::span(added_.data(), count_)) sorted_[end[added.from]++] = added.entry;
+    for (const UnsortedEntry& unsorted : std::span(unsorted_.data(), count_))
+        sorted_[end[unsorted.from]++] = unsorted.entry;
 }
 
 inline std::span<const ActiveList::Entry> ActiveList::advance(int step) {

@@ -26,7 +26,7 @@ class GradientLoops : private ValueLoops<Math> {
                 compute(*next, outputRegister(block, next->result), a, b, block.size);
                 continue;
             }
-            Partials partials;
+            ValuesAndPartials partials;
             computePartials(*next, partials, a, b, block.size);
             for (unsigned axis = 0; axis < 4; ++axis) {
                 const bool byA = (next->axesOfA >> axis & 1U) != 0, byB = (next->axesOfB >> axis & 1U) != 0;
@@ -72,18 +72,18 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     // The values of an operation, and its partial derivatives with respect to its operands.
-    struct Partials {
+    struct ValuesAndPartials {
         float value[kGradientBlockPoints], byA[kGradientBlockPoints], byB[kGradientBlockPoints];
     };
-    struct Partial {
+    struct ValueAndPartials {
         float value, byA, byB;
     };
 
     // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
     // operands. `byA` and `byB`: whether these derivatives may differ from 0; if not, they are not read. min and max
     // take the derivative of one operand, even if the other derivative is not finite.
-    static void combine(const Instruction& instruction, const Partials& partials, bool byA, bool byB, float* out,
-                        const float* ofA, const float* ofB, Size size) {
+    static void combine(const Instruction& instruction, const ValuesAndPartials& partials, bool byA, bool byB,
+                        float* out, const float* ofA, const float* ofB, Size size) {
         const Number zero{0};
         if (instruction.operation == Operation::min || instruction.operation == Operation::max) {
             const auto choose = [&](auto left, auto right) {
@@ -123,17 +123,18 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     template <typename F, typename A, typename B>
-    static void fill(F f, Partials& out, A a, B b, Size size) {
+    static void fill(F f, ValuesAndPartials& out, A a, B b, Size size) {
 #pragma omp simd
         for (Size i = 0; i < size; ++i) {
-            const Partial partial = f(a[i], b[i]);
+            const ValueAndPartials partial = f(a[i], b[i]);
             out.value[i] = partial.value;
             out.byA[i] = partial.byA;
             out.byB[i] = partial.byB;
         }
     }
     template <typename F>
-    static void fill(F f, const Instruction& instruction, Partials& out, const float* a, const float* b, Size size) {
+    static void fill(F f, const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
+                     Size size) {
         const Number number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
@@ -146,28 +147,31 @@ class GradientLoops : private ValueLoops<Math> {
     }
     // Computes byA from the operand and the value.
     template <typename F>
-    static void derive(F f, Partials& out, const float* a, Size size) {
+    static void derive(F f, ValuesAndPartials& out, const float* a, Size size) {
 #pragma omp simd
         for (Size i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
     }
 
-    static void computePartials(const Instruction& instruction, Partials& out, const float* a, const float* b,
+    static void computePartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
                                 Size size) {
         switch (instruction.operation) {
             case Operation::add:
-                return fill([](float x, float y) { return Partial{x + y, 1, 1}; }, instruction, out, a, b, size);
+                return fill([](float x, float y) { return ValueAndPartials{x + y, 1, 1}; }, instruction, out, a, b,
+                            size);
             case Operation::subtract:
-                return fill([](float x, float y) { return Partial{x - y, 1, -1}; }, instruction, out, a, b, size);
+                return fill([](float x, float y) { return ValueAndPartials{x - y, 1, -1}; }, instruction, out, a, b,
+                            size);
             case Operation::multiply:
-                return fill([](float x, float y) { return Partial{x * y, y, x}; }, instruction, out, a, b, size);
+                return fill([](float x, float y) { return ValueAndPartials{x * y, y, x}; }, instruction, out, a, b,
+                            size);
             case Operation::divide:
-                return fill([](float x, float y) { return Partial{x / y, 1 / y, -(x / y) / y}; }, instruction, out, a,
-                            b, size);
+                return fill([](float x, float y) { return ValueAndPartials{x / y, 1 / y, -(x / y) / y}; }, instruction,
+                            out, a, b, size);
             case Operation::mod:
                 return fill(
                     [](float x, float y) {
                         const float whole = __builtin_floorf(x / y);
-                        return Partial{x - y * whole, 1, -whole};
+                        return ValueAndPartials{x - y * whole, 1, -whole};
                     },
                     instruction, out, a, b, size);
             case Operation::min:
@@ -185,26 +189,26 @@ class GradientLoops : private ValueLoops<Math> {
                 return unaryPartials(instruction, out, a, size);
         }
     }
-    static Partial choice(bool choosesFirst, float x, float y) {
+    static ValueAndPartials choice(bool choosesFirst, float x, float y) {
         return {choosesFirst ? x : y, choosesFirst ? 1.0F : 0.0F, 0};
     }
 
-    static void arctangent2Partials(const Instruction& instruction, Partials& out, const float* a, const float* b,
-                                    Size size) {
+    static void arctangent2Partials(const Instruction& instruction, ValuesAndPartials& out, const float* a,
+                                    const float* b, Size size) {
         fill(
             [](float y, float x) {
                 const float squares = x * x + y * y;
-                return Partial{0, x / squares, -y / squares};
+                return ValueAndPartials{0, x / squares, -y / squares};
             },
             instruction, out, a, b, size);
         binary(instruction, out.value, a, b, size);
     }
 
     // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a, which is 0 for a = 0 < b.
-    static void powerPartials(const Instruction& instruction, Partials& out, const float* a, const float* b,
+    static void powerPartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
                               Size size) {
         if (instruction.axesOfB != 0) {
-            fill([](float x, float) { return Partial{0, 0, x}; }, instruction, out, a, b, size);
+            fill([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b, size);
             Math::unary(Operation::log, out.byB, out.byB, size);
         }
         binary(instruction, out.value, a, b, size);
@@ -225,7 +229,7 @@ class GradientLoops : private ValueLoops<Math> {
         for (Size i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
     }
 
-    static void unaryPartials(const Instruction& instruction, Partials& out, const float* a, Size size) {
+    static void unaryPartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, Size size) {
         switch (instruction.operation) {
             case Operation::copy:
                 return derive([](float, float) { return 1.0F; }, out, a, size);

@@ -8,7 +8,7 @@ import type { WebGLRenderer } from "three";
 import type { Slice, Slices, Surface, SurfaceLevel, Vector } from "@oval4d/protocol";
 
 import { makeProgram } from "./shader_program";
-import { TriangleGroups } from "./triangle_groups";
+import { TrianglesByLevel } from "./triangles_by_level";
 import type { ViewCamera } from "./view_camera";
 
 const kLight = `
@@ -74,7 +74,7 @@ interface SliceSurfaces {
     slice: Slice;
     surface: Surface;
     position: Vector;
-    groups: TriangleGroups;
+    groups: TrianglesByLevel;
     depth: number; // of the slice's origin, along the camera's axis
     firstPoint: number;
     firstByte: number; // the offset of the slice's indices in the buffer, in bytes
@@ -285,7 +285,7 @@ function isOpaque({ opacity }: SurfaceLevel): boolean {
 }
 
 function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
-    return { slice, surface, position: [0, 0, 0], groups: new TriangleGroups(), depth: 0, firstPoint: 0, firstByte: 0 };
+    return { slice, surface, position: [0, 0, 0], groups: new TrianglesByLevel(), depth: 0, firstPoint: 0, firstByte: 0 };
 }
 
 function makeResources(gl: WebGL2RenderingContext): Resources {

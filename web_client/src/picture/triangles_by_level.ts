@@ -6,7 +6,7 @@ import type { Integers, Surface } from "@oval4d/protocol";
 const kMaxLevels = 4; // of a field, as in protocol/README.md
 const kGroups = 2 * kMaxLevels;
 
-export class TriangleGroups {
+export class TrianglesByLevel {
     /** Three indices of points for each triangle, group by group. Valid until the arrays of the surface change. */
     triangles: Integers = new Uint8Array(0);
     private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
