@@ -48,8 +48,8 @@ struct Field : geometry::ObjectInfo {
     glm::dmat4 toFunction{1};
     std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; if
                                                         ///< isTransformed, a parallelepiped
-    bool isTransformed = false;                    ///< whether transformedTo() made this field; it shares the functions
-                                                   ///< of the original
+    bool isTransformed = false;                    ///< whether transformedTo() made this field, which then shares the
+                                                   ///< functions of the original
     double initialLevel = 0;                       ///< the only level that is shown at first
     Inside initialInside = Inside::below;          ///< which side of the levels is inside at first
     std::string formula;                           ///< the text of the formula; empty if there is none

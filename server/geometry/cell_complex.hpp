@@ -14,8 +14,8 @@
 namespace oval4d::geometry {
 
 /// A cell complex in R⁴: vertices, edges, 2-faces and cells, some of which may be missing. It need not be a manifold.
-/// All kinds of objects that have edges are derived from it, so that slicing, projecting and measuring need one code
-/// for them. Indices are 0-based and have 32 bits.
+/// Every kind of object that has edges is derived from CellComplex, so that one implementation of slicing, projecting
+/// and measuring serves all of them. Indices are 0-based and have 32 bits.
 struct CellComplex : ObjectInfo {
     std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
     std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
@@ -23,7 +23,7 @@ struct CellComplex : ObjectInfo {
     JaggedArray faceEdges;                                ///< the edges of each 2-face; edge i joins the vertices
                                                           ///< i and i + 1 of its loop
     JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
-    std::vector<std::int8_t> cellSigns;                   ///< parallel to cells.items: +1 if the vertex loop of the
+    std::vector<std::int8_t> cellSigns;                   ///< per entry of cells.items: +1 if the vertex loop of the
                                                           ///< 2-face is counterclockwise seen from outside the cell,
                                                           ///< else −1; a 2-face has opposite signs in its two cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
@@ -32,8 +32,8 @@ struct CellComplex : ObjectInfo {
     bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
 };
 
-/// Sets `edges` and `faceEdges` from the vertex loops of the 2-faces, in which no vertex may follow itself. `edges`
-/// must be empty.
+/// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. The caller must ensure that
+/// no vertex follows itself in a loop.
 void findEdges(CellComplex& complex);
 
 /// Returns whether every 2-face is a convex polygon. A 2-face that is not flat is not convex.

@@ -8,8 +8,8 @@
 
 namespace oval4d::geometry {
 
-/// Which point of the file's coordinates becomes the origin of an object. The object turns about its origin, its size
-/// is measured from there, and its slices lie around it.
+/// Says which point of a file becomes the origin of the object that is loaded from the file. The object turns about its
+/// origin, its size is measured from there, and its slices lie around it.
 struct Centering {
     enum class OriginChoice : std::uint8_t {
         automatic,  ///< like `object` if the object is far from the origin of the file (see newOriginFor()); else

@@ -17,8 +17,7 @@ struct Hyperplanes {
     /// thickness of the slices of a point cloud.
     std::vector<double> listed = {};
 
-    /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1: that of the hyperplane
-    /// n = first + i.
+    /// Returns the w coordinate of the hyperplane with the index i (0 … count − 1), for which n = first + i.
     double w(int i) const {
         return listed.empty() ? offset + (first + i) * spacing : listed[static_cast<std::size_t>(i)];
     }

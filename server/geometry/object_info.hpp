@@ -22,11 +22,11 @@ struct ObjectInfo {
     std::uint64_t serial = 0;    ///< unique among the objects in this process; the key of an object in caches
     double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin; for a point cloud
                                  ///< without extent, see makePointCloud()
-    glm::dvec4 originInFile{0};  ///< the object's origin in the coordinates of its file; after transformedTo(), in
-                                 ///< these coordinates mapped by the frame of reference. 0 unless loading moved the
-                                 ///< object (see Centering)
-    bool convex = true;          ///< false for a polytope that is not the boundary of a convex body: the faces of
-                                 ///< its slices may cross each other; true for all other kinds of objects
+    glm::dvec4 originInFile{0};  ///< the point of the object's file that became the origin of the object, in the
+                                 ///< coordinates of the file; transformedTo() maps this point like a vertex. 0
+                                 ///< unless loading moved the object (see Centering)
+    bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; the faces
+                                 ///< of its slices may cross each other
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };

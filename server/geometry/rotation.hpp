@@ -72,8 +72,8 @@ class Rotation {
     explicit Rotation(const Turn& turn);
 
     /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as a
-    /// rotation matrix if each of its entries differs by at most `tolerance` from the entry of the rotation that is
-    /// computed from M.
+    /// rotation matrix if each of its entries differs by at most `tolerance` from the corresponding entry of the matrix
+    /// of the result.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
     /// Returns the rotation with exactly these quaternions. Does not normalize them again; therefore a stored rotation

@@ -37,7 +37,8 @@ class FairScheduler {
 
     /// The scheduler's data about one flow, which the caller stores with the flow.
     struct FlowState {
-        Seconds finish{0};                              ///< F of the job that started last
+        /// S of the next job if the flow is waiting; else F of the job that started last.
+        Seconds finish{0};
         std::optional<typename Queue::iterator> entry;  ///< position in the queue; empty unless the flow is waiting
         std::size_t running = 0;                        ///< number of running jobs
     };

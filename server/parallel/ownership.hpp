@@ -24,8 +24,8 @@ class ThreadOwnerAssertion {
 #endif
 };
 
-/// Checks that an object is used by at most one thread at a time, which may be any thread. A copy of it starts as not
-/// in use.
+/// Checks that an object is used by at most one thread at a time, which may be any thread. Use as a member of that
+/// object. A copy of the object starts as not in use.
 class ExclusiveUseAssertion {
   public:
     /// Marks the object as in use as long as this Use exists. The constructor asserts that no other Use of the same

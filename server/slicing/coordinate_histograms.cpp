@@ -73,7 +73,8 @@ void CoordinateHistograms::chooseRange(std::span<const double> levels) {
         range = {std::min(range.least, level), std::max(range.greatest, level)};
     }
     if (!(range.least < range.greatest)) {
-        // The value of a constant function is in the middle row.
+        // All values are equal, as those of a constant function. The range is centered at this value, which is then in
+        // the middle row.
         const double reach = std::max(std::abs(range.least), 1.0);
         range = {range.least - reach, range.least + reach};
     }

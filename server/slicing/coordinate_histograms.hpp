@@ -63,7 +63,8 @@ class CoordinateHistograms {
     /// values visible beside common ones.
     std::span<const std::uint8_t> tones() const { return tones_; }
 
-    /// Returns the index of a row, an axis (0 … 3) and a column of its panel in weights() and tones().
+    /// Returns the index in weights() and tones() of the entry in this row, and in this column of the axis's panel.
+    /// `axis` is 0 … 3 for x, y, z, w.
     static constexpr std::size_t index(int row, int axis, int column) {
         return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(axis * kPanel + column);
     }

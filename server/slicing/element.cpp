@@ -98,9 +98,10 @@ class Incidence {
 // An orthonormal basis of the directions within an element.
 class OrthonormalBasis {
   public:
-    /// Makes the basis of an element of this dimension from vectors between its points, by the Gram–Schmidt process.
-    /// Each step takes the vector whose part perpendicular to the basis is longest, so that rounding errors of the
-    /// points do not count as directions. Ignores parts whose length is at most `tolerance`. Overwrites the vectors.
+    /// Makes the basis of an element with this dimension from vectors that span the directions within the element, by
+    /// the Gram–Schmidt process. Each step takes the vector whose part perpendicular to the basis is longest, so that
+    /// rounding errors of the points do not count as directions. Ignores parts whose length is at most `tolerance`.
+    /// Overwrites the vectors.
     OrthonormalBasis(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
@@ -209,7 +210,8 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
             break;
         case ElementKind::face: {
             // The norm of the area bivector, whose components are the areas of the projections to the coordinate
-            // planes. It does not depend on the first vertex, even if the 2-face is not flat.
+            // planes. The norm does not depend on which vertex of the loop is the first, even if the 2-face is not
+            // flat.
             const auto loop = p.faces[index];
             const auto place = [&](std::uint32_t v) { return toFile * (p.vertices[v] - base); };
             double square = 0;

@@ -49,11 +49,11 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
 geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
-/// `orientation`. If that element already points to +w, returns the next element that it considers instead, in the
-/// order of indices; after the last comes the first. Therefore a caller that turns each result to +w visits one element
-/// after another. If `incident` is given, considers only elements that contain it or are contained in it; among
-/// elements of its own kind, considers only `incident` itself. Returns std::nullopt if there is no element to consider.
-/// Takes time linear in the size of the object.
+/// `orientation`. If `incident` is given, considers only elements that contain `incident` or are contained in it; among
+/// elements of the kind of `incident`, considers only `incident` itself. If the closest element already points to +w,
+/// returns instead the considered element with the next greater index or, after the last one, the first. Therefore a
+/// caller that turns each result to +w visits one element after another. Returns std::nullopt if there is no element to
+/// consider. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident = {});
 

@@ -39,9 +39,9 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
-    // Directed by their cellSigns, the loops of the 2-faces are all counterclockwise or all clockwise in the
-    // hyperplane, as seen from outside the cell, depending on which side of the cell faces toward +w. They are
-    // counterclockwise if the signed volume of the cell is positive.
+    // If each loop whose entry in cellSigns is −1 is reversed, the loops of all 2-faces have the same direction in the
+    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w: it is
+    // counterclockwise if the signed volume of the cell is positive, else clockwise.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];

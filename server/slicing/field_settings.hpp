@@ -27,7 +27,8 @@ struct FogPoint {
 /// The least and the greatest number of control points of a transfer function.
 inline constexpr std::size_t kMinFogPoints = 2, kMaxFogControlPoints = 8;
 
-/// The levels at which the surfaces of a field are shown, which side of them is inside, and the fog in the slices.
+/// How a field is shown: the levels whose surfaces are shown, which side of a level is inside, and the fog in the
+/// slices.
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
     fields::Inside inside = fields::Inside::below;

@@ -23,9 +23,10 @@ class FieldSlicer {
     explicit FieldSlicer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), domains_(forkJoin) {}
 
     /// Slices `field` rotated by `orientation`. The vertices, edges and faces of `out` are those of the slices of the
-    /// domain. `detail.steps` and `detail.fogSteps` each have one entry per slice or are empty. Fog is sampled only if
-    /// neither `detail.fogSteps` nor `settings.fog` is empty. Overwrites `out` and reuses its memory. Throws
-    /// std::runtime_error if the samples are in a file that can no longer be read.
+    /// domain. `detail.steps` and `detail.fogSteps` must each have one entry per slice, or be empty. If `detail.steps`
+    /// is empty, no surfaces are extracted; if `detail.fogSteps` or `settings.fog` is empty, no fog is sampled.
+    /// Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples are in a file that can no
+    /// longer be read.
     void slice(const fields::Field& field, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 
@@ -37,8 +38,8 @@ class FieldSlicer {
         double step = 0, share = 0;
         double fogStep = 0;  // the lattice step of the fog; 0: sample no fog
     };
-    // Extracts the surfaces and samples the fog of one slice. `worker` is the index of the extractor and section to
-    // use.
+    // Extracts the surfaces and samples the fog of one slice. `worker` is the index in extractors_ and sections_ of the
+    // objects to use.
     void process(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
                  const SurfaceDetail& detail, const Task& task, int slice, SliceSet& out, std::size_t worker);
     static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);

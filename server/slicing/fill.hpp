@@ -20,8 +20,8 @@ namespace oval4d::slicing {
 /// A patch is a filled face. Slice i has the patches patchBegin[i] … patchBegin[i + 1] − 1. A patch consists of pieces:
 /// convex polygons that do not overlap, unless the patch is filled roughly (see FaceFiller::fill()). Patch p has the
 /// pieces pieceBegin[p] … pieceBegin[p + 1] − 1. Piece k is the loop corners[cornerBegin[k]] …
-/// corners[cornerBegin[k + 1] − 1]. Seen from outside, it is counterclockwise where the winding number is positive, and
-/// clockwise where it is negative.
+/// corners[cornerBegin[k + 1] − 1]. Seen from outside, a piece is counterclockwise if the winding number inside it is
+/// positive, and clockwise if the winding number is negative.
 struct FilledFaces {
     struct Patch {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset

@@ -1,7 +1,7 @@
 #pragma once
 // The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new kind
 // needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
-// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. If it is derived from
+// session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. If the new kind is derived from
 // geometry::CellComplex, only code that stores and reads objects distinguishes it from other cell complexes. All other
 // code uses these functions; some of the other code also asks whether an object is a point cloud or a field
 // (fieldIn()), because only fields have levels and fog.
@@ -102,9 +102,9 @@ std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
 /// of the object's own vertices. ObjectInfo::originInFile, the point of the object's file that is the origin of the
-/// object, is added to each of them. Therefore an import of the new file gives the polytope as in the object's file,
-/// turned about this point. The file of a surface lists no cells, and that of a point cloud has only vertices; the file
-/// of a field contains the domain.
+/// object, is added to each of them. Therefore an import of the new file gives the object as in its own file, turned
+/// about this point. The file of a surface lists no cells, and that of a point cloud has only vertices; the file of a
+/// field contains the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

@@ -256,7 +256,7 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
         archive(typeOfCell);
         if (typeOfCell.size() != cells.size()) throw std::runtime_error("cell types that do not match the cells");
         try {
-            // Rejects indices that are out of range, and cells that are not closed surfaces.
+            // makePolytope() rejects indices that are out of range, and cells that are not closed surfaces.
             Polytope polytope = polytopes::makePolytope(name, std::move(vertices), std::move(faces), std::move(cells),
                                                         std::move(typeOfCell));
             polytope.originInFile = originInFile;

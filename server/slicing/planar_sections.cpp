@@ -57,8 +57,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // Two axes are perpendicular to the plane. The one that comes first in kFirstAxis is the axis of its first
-            // hyperplane, so that each plane is cut once.
+            // Two axes are perpendicular to the plane. The one that comes first in kFirstAxis is the axis of the
+            // plane's first hyperplane, so that each plane is cut only once.
             const auto firstAxis = std::ranges::find_if_not(kFirstAxis, contains);
             if (*firstAxis != first) continue;
             out[i].axes = axes;
@@ -133,7 +133,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
     const bool isCurve = slices.faceBegin[slice] == slices.faceBegin[slice + 1];
     for (std::uint32_t e = 0; e < end - begin; ++e) {
         const auto [a, b] = slices.edges[begin + e];
-        // An edge in the hyperplane belongs to a face, which cutFaces() cuts. An edge of a curve belongs to none.
+        // An edge in the hyperplane belongs to a face, which cutFaces() cuts. An edge of a curve belongs to no face, so
+        // its ends are added here.
         if (isCurve && distance_[a] == 0 && distance_[b] == 0) {
             addVertex(a);
             addVertex(b);

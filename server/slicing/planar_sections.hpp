@@ -1,7 +1,7 @@
 #pragma once
 // The sections of an object by six planes through a given point, one parallel to each pair of coordinate axes: the
 // panels of a HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of
-// many variables", 1993). The sections are exact: a slice is cut by a second hyperplane.
+// many variables", 1993). The sections are exact: each is computed by cutting a slice by a second hyperplane.
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ namespace oval4d::slicing {
 struct PlanarSection {
     /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w. axes[0] < axes[1].
     std::array<int, 2> axes{};
-    std::vector<glm::dvec2> points;  ///< their coordinates along the two axes
+    std::vector<glm::dvec2> points;  ///< the coordinates of each point along the two axes
     std::vector<std::uint32_t> pointSource;
     std::vector<float> ballScale, ballOpacity;        ///< per point, as in SliceSet
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: its two points
@@ -72,9 +72,12 @@ class PlanarSlicer {
     Slicer slicer_;
     SliceSet slice_;                    // the slice by a hyperplane z = const or y = const
     std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is cut
-    // Per vertex: its signed distance from the second hyperplane; 0 if it is within kOnPlaneTolerance.
+    // Per vertex: its signed distance from the second hyperplane. Except for a point cloud, distances of at most
+    // kOnPlaneTolerance circumradii are stored as 0.
     std::vector<double> distance_;
-    std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
+    // Per vertex and per edge of the slice: the index of the point that it gives in the section; kNone if it gives
+    // none.
+    std::vector<std::uint32_t> pointOfVertex_;
     std::vector<std::uint32_t> pointOfEdge_;
     std::vector<LoopCrossing> crossings_;  // the crossings of the loops of one face
     bool zeroIsAbove_ = true;              // whether vertices in the second hyperplane count as above it

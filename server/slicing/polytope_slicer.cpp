@@ -56,7 +56,7 @@ bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& ou
 }
 
 // Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
-// hyperplanes touch it in this way, within the tolerance.
+// hyperplanes touch it in this way, within kOnPlaneTolerance.
 bool PolytopeSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -263,15 +263,17 @@ void PolytopeSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::
     if (a == b) {
         edge = kNone;
     } else if (plane < faceSpan_[face].from) {
-        // The 2-face lies above this hyperplane, with an edge in it: both points are vertices of the 2-face, and the
-        // edge between them lies in the hyperplane.
+        // The lowest vertices of the 2-face lie in this hyperplane, and both points are such vertices. If an edge of
+        // the 2-face joins them, the segment moves to this edge.
         for (const std::uint32_t e : complex.faceEdges[face]) {
             const auto [v, u] = complex.edges[e];
             if (!liesInHyperplane({v, u}) || below_[v] != plane) continue;
             if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
         }
-        // A 2-face that is not flat may have vertices in the hyperplane that no edge joins. Cells are flat, so that
-        // only rounding errors separate such a 2-face from the hyperplane, and their sections need the segment.
+        // In a complex without cells, whose 2-faces need not be flat, it is possible that no edge joins the two
+        // vertices; the slice then has no segment between them. In a complex with cells, this happens only by rounding
+        // errors, if the 2-face nearly lies in the hyperplane; the segment is then kept, because the section of a cell
+        // must be closed.
         if (edge == kNewEdge && complex.cells.size() == 0) edge = kNone;
     }
     faceCrossings_.push_back({plane, up, down, edge});

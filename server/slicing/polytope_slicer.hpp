@@ -48,8 +48,8 @@ class PolytopeSlicer {
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
     // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
     // down into the hyperplane. Until numberEdges() runs, the slice edge of a segment that does not shrink is not
-    // known: `edge` is the index of the complex's edge in the hyperplane to which the segment moves, or kNewEdge if the
-    // segment moves to no edge of the complex.
+    // known: `edge` is the index of the edge of the complex to which the segment moves, or kNewEdge if it moves to no
+    // edge of the complex.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
@@ -111,7 +111,9 @@ class PolytopeSlicer {
     // numbers differ if the vertex lies in a hyperplane; the index of this hyperplane is below_.
     std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_ (see cutFaces())
     bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
-    std::vector<std::uint32_t> vertexPoint_;            // per vertex that lies in a hyperplane: its slice vertex
+    // Slice vertices and slice edges are given by their indices in SliceSet::vertices and SliceSet::edges, which are
+    // counted over all slices.
+    std::vector<std::uint32_t> vertexPoint_;  // per vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
     // is slotBegin_[e] + k − below_[lower end of e]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;

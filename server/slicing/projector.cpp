@@ -18,7 +18,8 @@ namespace {
 
 using geometry::kNone;
 
-// Which elements of a cell complex part 0 of the output contains: those of the selected cells, or all elements.
+// The elements of a cell complex that are written to part 0 of the output (see Projector::project()): those of the
+// selected cells, or all elements.
 struct Selection {
     const std::vector<bool>* facing;  // per cell: whether it is selected; null if all elements are selected
     bool face(const geometry::CellComplex& p, std::size_t f) const {

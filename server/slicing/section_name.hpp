@@ -27,8 +27,8 @@ struct SectionNamePair {
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
 /// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the
 /// point, the segment, the regular polygons with up to 20 sides, the Platonic and Archimedean solids, the uniform
-/// prisms and antiprisms of these polygons, and the rhombic dodecahedron, which is the middle section of the
-/// vertex-first 24-cell. All other shapes have no name, including slices that are not convex or have several
+/// prisms and antiprisms whose bases have up to 20 sides, and the rhombic dodecahedron, which is the middle section of
+/// the vertex-first 24-cell. All other shapes have no name, including slices that are not convex or have several
 /// components.
 ///
 /// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes 0.1
@@ -38,10 +38,10 @@ struct SectionNamePair {
 /// thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// A quick test: returns false if the section of `object`, rotated by `orientation`, at w cannot have a name.
-    /// Counts the vertices in the hyperplane (n) and the edges that cross it (m); if neither n nor n + m is from 1 to
-    /// the vertex count of the largest named shape, there is no name. Always false for point clouds and fields. Linear
-    /// in the number of edges; does not cut the slice.
+    /// A quick test: returns false if the section of `object`, rotated by `orientation`, by the hyperplane at `w`
+    /// certainly has no name, and true if it may have one. Counts the vertices in the hyperplane (n) and the edges that
+    /// cross it (m); if neither n nor n + m is from 1 to the vertex count of the largest named shape, there is no name.
+    /// Always false for point clouds and fields. Linear in the number of edges; does not cut the slice.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
@@ -57,8 +57,8 @@ class SectionNamer {
     /// the time to compare the polytope's vertices with the named shapes.
     std::string_view nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
 
-    /// Returns whether `name`, a result of the functions above, is the name of a polyhedron, not of a point, segment or
-    /// polygon.
+    /// Returns whether `name`, a result of the functions above, is the name of a polyhedron. False for the names of the
+    /// point, the segment and the polygons, and for an empty string.
     static bool isSolid(std::string_view name);
 
   private:

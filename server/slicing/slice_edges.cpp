@@ -46,7 +46,8 @@ std::size_t countInComplex(const geometry::CellComplex& complex, const geometry:
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)
         at.push_back(planesAt(planes, sorted, tolerance, (turned * vertex).w));
-    // The crossings of the edges of all 2-faces with hyperplanes. A slice edge has two of them as its ends.
+    // The number of times that sides of 2-faces cross hyperplanes. A side that several 2-faces share counts for each of
+    // them, so that each slice edge has two crossings as its ends.
     std::size_t crossings = 0;
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         const auto loop = complex.faces[f];

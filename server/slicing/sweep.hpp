@@ -73,16 +73,16 @@ class Sweep {
 
     PlanesBelowVertices planesBelow_;
     SliceCounts size_;  // see maxSize()
-    int first_ = 0;     // the slice number in `out` of hyperplane 0
+    int first_ = 0;     // the number in `out` of the slice in hyperplane 0
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;            // per 2-face: the hyperplanes that cut it
     std::vector<VerticesMet> verticesMet_;  // per hyperplane
     // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
     // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> structureChanges_;
-    std::vector<Line> line_;                // per active edge
-    std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex
-    std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: its slice edge
+    std::vector<Line> line_;                // per active edge: its line
+    std::vector<std::uint32_t> vertex_;     // per active edge: the index of its slice vertex in the slice
+    std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: the index of its slice edge in the slice
     // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on edge edgeOfEnd_[2 f], where the vertex
     // loop of f rises through the hyperplane; end 2 f + 1 lies on edge edgeOfEnd_[2 f + 1], where the loop descends.
     // The number of an end is also the number of the half-edge that runs along the segment toward this end: half-edge

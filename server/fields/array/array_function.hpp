@@ -58,8 +58,8 @@ class ArrayFunction final : public ScalarFunction {
     Bounds boundsIn(const Box& region) const override;
 
     /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long;
-    /// this array if a step is shorter than one of its cells. If the constructor has not read the array, returns a
-    /// selection of at most kSelectedSamples of its samples, or a coarser version of the selection.
+    /// this array itself if a step is shorter than a cell of this array. If the constructor has not read the array,
+    /// returns a selection of at most kSelectedSamples of its samples, or a coarser version of the selection.
     const ScalarFunction& forSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:

@@ -17,9 +17,9 @@ constexpr std::size_t kRun = 64;  // the maximum number of bricks along x that a
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
 // An entry packs the minimum (high half) and the maximum of a brick into 8 bytes, so that threads can write it
-// atomically. The lowest bit of the maximum is set if and only if a sample is missing; a maximum with another lowest
-// bit is rounded up to the next float. A minimum of 0 is stored as −0, so that no entry is 0: the number 0 stands for
-// an empty slot.
+// atomically. The lowest bit of the maximum is set if and only if a sample is missing; if this bit of the actual
+// maximum has the other value, the maximum is rounded up to the next float. A minimum of 0 is stored as −0, so that no
+// entry is 0: the number 0 stands for an empty slot.
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;

@@ -28,7 +28,7 @@ struct AxisWeights {
     }
 };
 
-// The integral of the hat function max(0, 1 − |x|) from −∞ to x.
+// Returns the integral of the hat function t ↦ max(0, 1 − |t|) from −∞ to x.
 double hatIntegral(double x) {
     if (x <= -1) return 0;
     if (x >= 1) return 1;

@@ -17,8 +17,8 @@ Shape downsampledShape(const Shape& shape);
 /// `samples`.
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples);
 
-/// Halves the number of samples along the longest axis of `shape`, rounded up, until there are at most `maxSamples`
-/// samples in all, and returns the result.
+/// Repeatedly halves the number of samples along the axis that has the most samples at that time, rounding up, until
+/// there are at most `maxSamples` samples in all. Returns the resulting shape.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
 /// Returns a selection of `samples` with the shape `size`: for each point of a lattice of this shape in the same box,

@@ -56,7 +56,7 @@ class MappedFile {
     MappedFile& operator=(const MappedFile&) = delete;
 
     std::span<const std::byte> bytes() const { return {at_, size_}; }
-    /// Returns the bytes of a file that was mapped by mapToWrite().
+    /// Returns the bytes for reading and writing. Requires that mapToWrite() mapped the file.
     std::span<std::byte> writableBytes() { return {at_, size_}; }
     int descriptor() const { return file_ ? file_->descriptor() : -1; }
 

@@ -10,9 +10,9 @@
 
 namespace oval4d::fields {
 
-/// A formula as a function, evaluated in single precision. Named constants and expressions that consist of numbers are
-/// evaluated in double precision beforehand. At a kink, such as that of abs at 0, the gradient is that of one side, or
-/// 0. Where the gradient is infinite or undefined, evaluateWithGradient() writes (0, 0, 0, 0).
+/// A formula as a function, evaluated in single precision. The parts of the formula that consist only of numbers and
+/// named constants are evaluated in double precision beforehand. At a kink, such as that of abs at 0, the gradient is
+/// that of one side, or 0. Where the gradient is infinite or undefined, evaluateWithGradient() writes (0, 0, 0, 0).
 class FormulaFunction final : public ScalarFunction {
   public:
     explicit FormulaFunction(Formula formula, const Kernels& kernels = fastestKernels());

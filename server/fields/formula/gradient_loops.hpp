@@ -145,7 +145,7 @@ class GradientLoops : private ValueLoops<Math> {
                 return fill(f, out, number, Array{b}, size);
         }
     }
-    // Computes byA from the operand and the value.
+    // Sets out.byA to f(operand, out.value) for an operation with one operand.
     template <typename F>
     static void derive(F f, ValuesAndPartials& out, const float* a, Size size) {
 #pragma omp simd

@@ -72,7 +72,8 @@ Graph::Ref Graph::power(Ref a, double exponent) {
     return node(Operation::power, a, constant(exponent), 0);
 }
 
-// Returns a simpler node, or an empty optional. If the operation is commutative, only `b` may be a constant.
+// Returns the node of a simpler expression with the same values, or an empty optional if the operation cannot be
+// simplified. If the operation is commutative, `a` must not be a constant.
 std::optional<Graph::Ref> Graph::simplified(Operation operation, Ref a, Ref b) {
     const auto left = constantAt(a), right = constantAt(b);
     switch (operation) {

@@ -120,7 +120,7 @@ bool containsPhase(const Bounds& a, double phase, double period) {
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
 }
 
-// The interval of `f`, which is sin or cos, and which is greatest at `top`.
+// Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where it is greatest.
 template <typename F>
 Bounds sine(F f, double top, const Bounds& a) {
     constexpr double kLarge = 1e6;  // beyond it, the slack of containsPhase() is too large to be useful
@@ -139,7 +139,7 @@ Bounds tangent(const Bounds& a) {
     return widened(std::tan(a.min), std::tan(a.max), hasValueEverywhere, kFunction);
 }
 
-// The interval of asin or acos.
+// Returns the interval of `f`, which must be asin or acos, on `a`.
 template <typename F>
 Bounds arc(F f, const Bounds& a) {
     if (a.max < -1 || a.min > 1) return kEmpty;
@@ -152,8 +152,8 @@ Bounds hyperbolicCosine(const Bounds& a) {
     return widened(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
-// The interval of a^b for a ≥ 0. Its extrema over the rectangle of all (a, b) are at the corners, because a^b has none
-// inside, and is monotonic along each side.
+// Returns the interval of a^b for a ≥ 0. The extrema of a^b over the rectangle of all (a, b) are at its corners,
+// because a^b has no extrema inside, and is monotonic along each side.
 Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
     // −0 to an odd negative power is −∞.

@@ -226,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name in the formula. The formula is parsed before the definitions; until all of these are parsed, the nodes of
-    // the name have as SyntaxNode::index the index of its NameUse in uses_.
+    // A name in the formula. The formula is parsed before the definitions. Until all definitions are parsed,
+    // SyntaxNode::index of each node of this name is the index in uses_ of its NameUse.
     struct NameUse {
         std::string_view name;
         std::size_t byte;
@@ -273,7 +273,7 @@ class Parser {
             expressions_.expressions.push_back({std::move(name), tree_.left + nodeOffset});
         }
     }
-    // Defines a constant by the expression in tree_, which must consist of numbers.
+    // Defines a constant by the expression in tree_, which must contain neither variables nor defined names.
     void defineConstant(std::string name, std::size_t start, std::size_t valueStart) {
         if (constants_.size() - expressions_.sharedConstants == limits_.constants)
             failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
@@ -386,7 +386,7 @@ class Parser {
         for (const auto& function : functions()) known.push_back(function.name);
         return text::commaSeparated(known);
     }
-    // Returns the end of the message about a name that is not defined: how to correct it.
+    // Returns the end of the message that a name is not defined: how to correct this mistake.
     static std::string explanation(std::string_view name) {
         if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
             std::string product(1, name[0]);
@@ -418,7 +418,7 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     bool isInDefinition_ = false;
-    bool isConstantDefinition_ = false;  // whether the current definition contains neither variables nor names
+    bool isConstantDefinition_ = false;  // whether the current definition has so far used no variable or defined name
     SyntaxTree tree_;                    // of the formula or the current definition
     SyntaxTree expressions_;             // of the shared definitions and the definitions before the current one
     std::vector<NameUse> uses_;

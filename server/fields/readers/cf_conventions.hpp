@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// What a file states about a dimension: its name, and attributes of its coordinate variable (empty strings if it has
-/// none).
+/// What a file states about a dimension: its name, and the attributes of its coordinate variable; a text that the file
+/// does not state is empty.
 struct CfDimension {
     std::string name, axis, standardName, units, positive;
 };
@@ -19,8 +19,8 @@ struct CfDimension {
 std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 
 /// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest. A
-/// dimension gets the axis that the file states, unless an earlier dimension has got this axis. Then the other
-/// dimensions, from the fastest to the slowest, each get the first axis of x, y, z, t that is left.
+/// dimension gets the axis that the file states, unless an earlier dimension has got this axis. Then the dimensions
+/// that have got no axis, from the fastest to the slowest, each get the first axis of x, y, z, t that is left.
 std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimensions);
 
 /// The first and the last of the coordinates along a dimension.

@@ -31,7 +31,7 @@ std::span<const FieldFormat> fieldFormats();
 /// compressed as a whole.
 const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
-/// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of the format.
+/// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of FieldFormat::read.
 Result<ReadField> readField(const FileContents& file, const ReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. If the files do not state their boxes, the box is

@@ -61,10 +61,10 @@ struct NiftiHeader {
 
 // Returns whether the byte order is big-endian; an empty optional if the first number is not the header's length in
 // either byte order.
-std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t header) {
+std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t headerLength) {
     if (start.size() < 4) return {};
     for (const bool bigEndian : {false, true}) {
-        if (HeaderReader(start, bigEndian).at<std::uint32_t>(0) == header) return bigEndian;
+        if (HeaderReader(start, bigEndian).at<std::uint32_t>(0) == headerLength) return bigEndian;
     }
     return {};
 }

@@ -37,7 +37,8 @@ class ChunkReader {
     ChunkReader(const FolderReader& folder, const ZarrArray& array) : folder_(folder), array_(array) {}
 
     // Converts all chunks. `stride` has, for each dimension, the distance of neighbors in `to`; `first` is the place of
-    // the array's first number in `to`. Calls `afterward` after about every kNumbers numbers.
+    // the array's first number in `to`. `to` must contain only zeros before the call. Calls `afterward` after about
+    // every kNumbers numbers.
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {
@@ -87,7 +88,7 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // Returns how many of the numbers of the chunk `index` along a dimension are within the array.
+    // Returns how many indices along a dimension the chunk `index` has within the array.
     std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
         return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
     }
@@ -157,8 +158,8 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};
     array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
-    // Times are often large numbers with small differences, which floats would lose. Therefore they are converted
-    // relative to the first one.
+    // Times are often large numbers with small differences, which floats would lose. Therefore all coordinates are
+    // converted relative to the first one.
     std::vector<float> values(size);
     const double offset = array.format.offset;
     const auto read = [&] { return ChunkReader(folder, array).read({1}, 0, values.data(), [] {}).operator bool(); };

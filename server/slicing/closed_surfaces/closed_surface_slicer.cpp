@@ -160,8 +160,8 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
             continue;
         }
         // `upper` and `lower` mark the facets on the boundary of the domain: bit i stands for the facet opposite to
-        // corner i. Only two facets can lie there, because the others are inside the cell: the facet opposite to corner
-        // 0, at the upper end of an axis, and the facet opposite to corner 4, at the lower end of an axis.
+        // corner i. Only two facets can lie there: the facet opposite to corner 0, at the upper end of an axis, and the
+        // facet opposite to corner 4, at the lower end of an axis. The other facets are inside the cell.
         const unsigned upper = cell[shape.axis(0)] == last[shape.axis(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axis(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
@@ -219,7 +219,8 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
     }
 }
 
-// Adds the level set in a tetrahedron: a triangle if one corner differs from the others, or a quadrilateral.
+// Adds the level set in a tetrahedron: a triangle if only one corner is inside or only one is outside, a quadrilateral
+// if two corners are inside, and nothing if all are.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
@@ -240,8 +241,8 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
-// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed`, its orientation is opposite to
-// that of the face.
+// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed` is true, the orientation of the
+// cap is opposite to that of the face.
 void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
                                  bool reversed) {
     std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];

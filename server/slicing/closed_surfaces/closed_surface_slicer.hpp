@@ -79,7 +79,7 @@ class ClosedSurfaceSlicer {
     struct CellRange {
         glm::ivec4 first, end;
     };
-    // Where the hyperplane crosses an edge of the pentatope.
+    // Where the hyperplane crosses an edge of a pentatope.
     struct EdgeCrossing {
         double t = 0;         // the position along the edge: 0 at its first end, 1 at its second
         double value = 0;     // the interpolated value of the function there; negated if sign_ is −1
@@ -115,7 +115,8 @@ class ClosedSurfaceSlicer {
     // always below the level.
     Options options_;
     double level_ = 0, sign_ = 1;
-    // Per axis and index along it: the term that it adds to the height of a lattice point above the hyperplane.
+    // Per axis and lattice index along this axis: the term that this index adds to the height of a lattice point above
+    // the hyperplane.
     std::array<std::vector<double>, 4> heights_;
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;

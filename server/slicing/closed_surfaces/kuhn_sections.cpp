@@ -66,7 +66,8 @@ void findFacets(SectionTetrahedron& tetrahedron) {
 }
 
 Section makeSection(unsigned above, bool positive) {
-    std::vector<std::uint8_t> few, many;  // the corners on the side with fewer corners, and those on the other side
+    // The corners on the side of the hyperplane with fewer corners, and those on the other side.
+    std::vector<std::uint8_t> few, many;
     for (std::uint8_t i = 0; i < 5; ++i) ((above >> i & 1U) != 0 ? few : many).push_back(i);
     if (few.size() > many.size()) std::swap(few, many);
     const auto edge = [&](std::size_t i, std::size_t j) {

@@ -18,7 +18,7 @@ namespace oval4d::slicing {
 
 /// A pentatope of the subdivision of a cell.
 struct Pentatope {
-    std::array<std::uint8_t, 5> corners{};  ///< numbers of corners of the cell, from 0 to 15 along the chain
+    std::array<std::uint8_t, 5> corners{};  ///< a chain of corners of the cell, from 0 to 15 (see the top of this file)
     bool positive = true;                   ///< whether the signed volume of the corners, in this order, is positive
 
     /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
@@ -50,8 +50,8 @@ struct SectionTetrahedron {
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Returns the section of a pentatope by a hyperplane, as tetrahedra. Bit i of `above` must be set if corner i lies
-/// above the hyperplane. The section is empty, one tetrahedron, or a prism, which is divided into three tetrahedra.
+/// Returns the section of a pentatope by a hyperplane, as tetrahedra. Bit i of `above` says whether corner i lies above
+/// the hyperplane. The section is empty, one tetrahedron, or a prism, which is divided into three tetrahedra.
 ///
 /// Each quadrilateral side of the prism is the section of a facet with two corners above the hyperplane and two below
 /// it. The corners of the side lie on the edges from an upper to a lower corner of the facet. The side is divided by
@@ -59,9 +59,9 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
 /// the last lower corner. This rule depends only on the facet, so that the two pentatopes that share the facet divide
 /// the side in the same way.
 ///
-/// `positive` must be true if the signed volume of the pentatope is positive in coordinates (x, y, z, h), where x, y
-/// and z are coordinates in the hyperplane and h is the height above it. For both values of `positive`, the signed
-/// volumes of the tetrahedra in coordinates (x, y, z) are positive.
+/// `positive` says whether the signed volume of the pentatope is positive in coordinates (x, y, z, h), where x, y and z
+/// are coordinates in the hyperplane and h is the height above it. For both values of `positive`, the signed volumes of
+/// the tetrahedra in coordinates (x, y, z) are positive.
 std::span<const SectionTetrahedron> sectionOf(unsigned above, bool positive);
 
 }  // namespace oval4d::slicing

@@ -111,7 +111,8 @@ class Correspondence {
         toA_ = partners(b, partsB_, a, partsA_);
     }
 
-    /// Returns what happens from the first section to the second. `before` and `after` must differ.
+    /// Returns what happens from the first section to the second. `before` and `after` are the topologies of these
+    /// sections, and must differ.
     SectionChange change(const SectionTopology& before, const SectionTopology& after) const {
         if (count(partsB_, toA_) > 0) return SectionChange::appearance;
         if (count(partsA_, toB_) > 0) return SectionChange::disappearance;
@@ -121,7 +122,7 @@ class Correspondence {
   private:
     using HasPartner = std::vector<bool>;  // per part: whether it has a partner
 
-    // Counts the components without a partner.
+    // Counts the components that have no partner and are not too small to count.
     std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {

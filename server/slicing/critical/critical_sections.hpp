@@ -20,7 +20,7 @@ namespace oval4d::slicing {
 /// What happens to the section of an object while w increases past a critical w. All changes except `vertices` are
 /// changes of the body of one level of a field.
 enum class SectionChange : std::uint8_t {
-    vertices,       ///< for a polytope or point cloud: the hyperplane passes vertices
+    vertices,       ///< for any object but a field: the hyperplane passes vertices or points
     appearance,     ///< a component appears
     disappearance,  ///< a component vanishes
     merge,          ///< components merge
@@ -48,7 +48,7 @@ struct SectionTopology {
 struct CriticalSection {
     double w = 0;  ///< in the units of the object
     SectionChange change = SectionChange::vertices;
-    std::size_t vertices = 0;                 ///< for a polytope or point cloud: the number of vertices at this w
+    std::size_t vertices = 0;                 ///< the number of vertices or points at this w; 0 for a field
     std::size_t levelIndex = 0;               ///< for a field: the index of the level whose body changes
     SectionTopology before = {}, after = {};  ///< for a field: the topology below and above w
 };
@@ -60,8 +60,8 @@ struct CriticalSections {
     /// (see `resolution`).
     double tolerance = 0;
     /// For a field: successive changes of the body of a level count as one change if the distance between them in w is
-    /// at most this. 0 for other objects. Changes of a field are not found if they are closer than 1/80 of the range of
-    /// w to one of its ends.
+    /// at most this. 0 for other objects. Changes of a field are not found if their distance from an end of the range
+    /// of w is less than 1/80 of this range.
     double resolution = 0;
     std::vector<CriticalSection> all;  ///< in ascending order of w
 };
@@ -78,14 +78,14 @@ struct CriticalOptions {
     std::stop_token stop = {};
 };
 
-/// Finds the critical values of w of the object rotated by `orientation`. For a polytope or point cloud, these are the
-/// w coordinates of its vertices. For a field, these are the values of w at which the body of one of `settings.levels`,
-/// within the domain, changes its topology. To find them, the field is cut at more than kCriticalSections values of w,
-/// and the intervals between sections of different topology are halved until their lengths are at most
-/// kCriticalTolerance of the range of w. The search misses changes that cancel each other between two successive
-/// sections. It ignores parts whose volume is less than that of eight lattice cubes; the lattice of a section has
-/// kCriticalCubes cubes along the longest side of the section. If there are about a thousand changes or more, the
-/// search ends early, with a greater tolerance.
+/// Finds the critical values of w of the object rotated by `orientation`. For any object but a field, these are the w
+/// coordinates of its vertices or points. For a field, these are the values of w at which the body of one of
+/// `settings.levels`, within the domain, changes its topology. To find them, the field is cut at more than
+/// kCriticalSections values of w, and the intervals between sections of different topology are halved until their
+/// lengths are at most kCriticalTolerance of the range of w. The search misses changes that cancel each other between
+/// two successive sections. It ignores parts whose volume is less than that of eight lattice cubes; the lattice of a
+/// section has kCriticalCubes cubes along the longest side of the section. If there are about a thousand changes or
+/// more, the search ends early, with a greater tolerance.
 ///
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
 /// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it

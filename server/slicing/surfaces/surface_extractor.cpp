@@ -160,8 +160,8 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
 }
 
 // Returns a bit for each wall that a cube with this center may touch or lie beyond. Sets `outside` to true if the whole
-// cube lies so far beyond one of the walls that none of its points is moved onto this wall. `extents` must be the
-// result of extentsTowardWalls() for the size of the cube.
+// cube lies so far beyond one of the walls that none of its points is moved onto this wall, else leaves `outside`
+// unchanged. `extents` must be the result of extentsTowardWalls() for the size of the cube.
 std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents,
                                        const glm::dvec3& center, bool& outside) const {
     unsigned walls = 0;
@@ -531,8 +531,8 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
 }
 
 // Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
-// a wall. If the function has no value at the outer end, the edge is taken to meet the boundary of the hole in its
-// middle. If the edge meets several of these, returns the place closest to its inner end.
+// a wall. If the function has no value at the outer end, the edge is taken to meet the boundary of the hole halfway
+// between its two ends. If the edge meets several of these, returns the place closest to its inner end.
 SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
                                                       const Corner& inner, float atInner, const Corner& outer,
                                                       float atOuter) const {

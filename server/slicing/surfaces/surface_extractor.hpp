@@ -47,7 +47,7 @@ class SurfaceExtractor {
         double maxTime = 1e9;
         std::size_t maxPoints = 10'000'000;
         bool topologyOnly = false;  ///< see SurfaceDetail
-        double pointTime = 0;       ///< the estimated time to process each point afterward, in nanoseconds
+        double pointTime = 0;       ///< the estimated time that the caller then spends on each point, in nanoseconds
     };
     static constexpr int kMaxCubes = 256;
 
@@ -75,13 +75,13 @@ class SurfaceExtractor {
         std::uint32_t at;                 // the lattice index of its corner 0
         std::uint8_t inside;              // a bit for each corner: whether it is inside the body
         bool joined;                      // whether its case is joinedCubeCase(inside)
-        std::array<std::uint8_t, 3> cap;  // per edge from corner 0: 1 if a cap crosses the edge
+        std::array<std::uint8_t, 3> cap;  // for the edges from corner 0 along x, y, z: 1 if a cap crosses the edge
         std::uint32_t firstPoint;         // the index in positions_ of its first point
     };
     // A corner of a cube.
     struct Corner {
         glm::dvec3 position;
-        bool inDomain;  // whether it is in the domain, or was moved onto a wall
+        bool inDomain;  // true also for a corner that was moved onto a wall
     };
     // A place where the surface crosses an edge of the lattice.
     struct Crossing {
