@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kShapeTolerance = 0.01;  // relative
+constexpr double kShapeTolerance = 0.01;  // relative, for the comparison of two lengths
 
 bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * std::max(a, b); }
 
@@ -113,8 +113,8 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
     return radii;
 }
 
-// Returns whether two 2-faces may be the bases of an antiprism: they have no common vertex; all edges of the two are
-// equally long; and all other edges of the cell are equally long. The two lengths may differ.
+// Returns whether two 2-faces of a cell may be the bases of an antiprism: they have no vertex in common, all their
+// edges have one length, and all other edges of the cell have one length, which may differ from the first.
 bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
@@ -130,7 +130,7 @@ bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::
     return areAllEqual(sides) && areAllEqual(lateral);
 }
 
-// Returns the name of a right antiprism over a regular polygon, or an empty string.
+// Returns the name of the cell if it is a right antiprism over a regular polygon, else an empty string.
 std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
     const auto n = static_cast<std::uint32_t>(p.cells[cell].size() / 2 - 1);
     std::map<std::size_t, std::uint32_t> wanted;
@@ -153,8 +153,8 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     return {};
 }
 
-// Returns the name of a bipyramid or a trapezohedron, or an empty string. These cells have two apexes; the other
-// vertices lie around the axis through the apexes.
+// Returns the name of a cell with these numbers of elements if it is a bipyramid or a trapezohedron, else an empty
+// string. Bipyramids and trapezohedra have two apexes; the other vertices lie around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());

@@ -79,7 +79,7 @@ class CellMeasurer {
     std::uint64_t mark_ = 0;
 };
 
-// Returns the regular polygon {n/d} that a vertex loop forms; d is the turning number of the loop.
+// Returns {n/d} for a loop of n vertices with the turning number d. Does not check whether the polygon is regular.
 RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};

@@ -9,8 +9,9 @@
 
 namespace oval4d::polytopes {
 
-/// The maximum number of types that cellTypesByShape() distinguishes. If the cells have more shapes, it classifies them
-/// only by their numbers of vertices and 2-faces. If these give too many types as well, all cells get the same type.
+/// The maximum number of types that cellTypesByShape() distinguishes. If the cells have more shapes, the function
+/// classifies them only by their numbers of vertices and 2-faces. If these numbers also give more types than the
+/// maximum, all cells get the same type.
 inline constexpr std::size_t kMaxCellTypes = 64;
 
 /// Returns a type number for each cell; cells of the same shape have the same number. Two cells count as having the

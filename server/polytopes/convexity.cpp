@@ -11,7 +11,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;  // relative to the extent
+constexpr double kTolerance = 1e-9;  // relative to extentOf() the polytope
 // The angles around an edge or vertex add up to 2π or to at least 4π. This number distinguishes the two cases.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
 
@@ -91,8 +91,9 @@ class ConvexityTest {
         return foot;
     }
 
-    // Applies the test of isConvex() to each cell within its hyperplane: no edge may be reentrant, and the 2-faces
-    // around each vertex must make one full turn about the axis from the mean of the cell's corners to the vertex.
+    // Returns whether each cell is convex, by the test of isConvex() within the hyperplane of the cell: no edge is
+    // reentrant, and the 2-faces around each vertex make one full turn about the axis from the mean of the cell's
+    // corners to the vertex.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -192,7 +193,8 @@ class ConvexityTest {
         v = glm::normalize(v);
         std::array<glm::dvec4, 2> plane{};
         for (glm::dvec4& found : plane) {
-            // Project the coordinate axes; the longest result is the most accurate.
+            // Remove from each coordinate axis its components along a, b and the vector already found. The longest
+            // remainder is the most accurate.
             double most = 0;
             for (int axis = 0; axis < 4; ++axis) {
                 glm::dvec4 rest(0);

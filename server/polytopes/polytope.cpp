@@ -85,8 +85,8 @@ class Orienter {
     }
 
     // Orients one connected component of the boundary, beginning with the incidence `first`. The outward orientation is
-    // the one with negative signed hypervolume. With it, the slicer's face loops are counterclockwise seen from
-    // outside.
+    // the one with negative signed hypervolume. With this orientation, the face loops of slices are counterclockwise,
+    // seen from outside the slice.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
@@ -158,8 +158,8 @@ class Orienter {
         return true;
     }
 
-    // Propagates signs across edges to all 2-faces of the cell that are connected to a 2-face with a sign. Directed
-    // edges 2i and 2i + 1 belong to the same edge.
+    // Propagates signs across edges to all 2-faces of a cell that are connected to a 2-face with a sign. The incidences
+    // of the cell are `begin` … `end` − 1. Entries 2i and 2i + 1 of `directedEdges` belong to the same edge.
     void propagateSigns(const std::vector<DirectedEdge>& directedEdges, std::uint32_t begin, std::uint32_t end) {
         auto& signs = p_.cellSigns;
         std::vector<std::vector<std::size_t>> directedEdgesOf(end - begin);

@@ -49,7 +49,7 @@ class InvalidPolytope : public std::invalid_argument {
 
 /// Builds a polytope from vertices, 2-faces (vertex loops) and cells (lists of 2-faces); computes its edges, incidences
 /// and orientation. `typeOfCell` holds an arbitrary number for each cell; cells of the same type have the same number.
-/// If it is empty, cells of the same shape have the same type. The types of the result are numbered by
+/// If `typeOfCell` is empty, cells of the same shape have the same type. The types of the result are numbered by
 /// numberCellTypes().
 ///
 /// Throws InvalidPolytope if a cell is not a connected closed orientable surface, if a 2-face does not lie in exactly

@@ -22,7 +22,7 @@ struct Attribute {
 /// throughout its lifetime.
 class ShaderProgram {
   public:
-    /// Compiles and links the program. The sources must not contain a #version line, because the program adds one.
+    /// Compiles and links the program. The sources must not contain a #version line, because the constructor adds one.
     /// `vertexSize` is in bytes. Attribute i has location i in the vertex shader. Throws std::runtime_error if a shader
     /// does not compile (with the message of the compiler) or the program does not link.
     ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,

@@ -15,11 +15,14 @@ constexpr int kReferenceCount = 21;
 constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
 constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
 
-constexpr double kLineStep = 2.12;     // between neighboring slices in a row or column, in radii of slices with balls
-constexpr double kLineDistance = 4;    // from the eye to a row or column, in half lengths: nearly a parallel projection
+// The distance between neighboring slices in a row or column, in radii of slices with balls.
+constexpr double kLineStep = 2.12;
+// The distance of the eye from a row or column is kSingleDistance plus this multiple of half the length of the row or
+// column. From so far away, the projection is nearly parallel.
+constexpr double kLineDistance = 4;
 constexpr double kRowFocusDrop = 1.4;  // the label of the focus slice is this far below the others, in heights of text
-// In a column, the label of the focus slice is this far to the right of the others, in heights of text, because its
-// plate is wider.
+// In a column, the label of the focus slice is this far to the right of the others, in heights of text, because the
+// plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
 constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
 

@@ -23,20 +23,21 @@ struct Arrangement {
     double pitch = 0, distance = 1;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
     double reach = 1;        ///< the radius of a slice with its balls
-    /// Whether the layout keeps the slices and the projection beside the symbol of the axes. Otherwise the slices and
-    /// the projection may overlap the symbol.
+    /// Whether the layout places the slices and the projection such that they do not overlap the symbol of the axes.
+    /// Otherwise they may overlap it.
     bool isClearOfAxes = false;
     bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
     /// The direction from a slice to its label: a downward vector of this length is added to the unit vector away from
     /// the curve. With a longer vector, labels would cover the next slice; with a shorter one, labels at the sides
     /// would leave less room for the slices.
     double labelDrop = 0.54;
-    double focusLabelDrop = 0;  ///< how much farther the label of the focus slice is from its slice, in heights of text
+    double focusLabelDrop = 0;  ///< how much larger the gap to its label is for the focus slice, in heights of text
     /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
     bool labelsAreBeside = false;
     /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
-    /// column. Labels beside the slices all shrink, and must leave room in the column for the gap between slice and
-    /// label. Otherwise, the label of the focus slice keeps its size, because it is below the others.
+    /// column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
+    /// part of the column. If the labels are below the slices, the label of the focus slice keeps its size, because it
+    /// is farther down than the others.
     int labelColumns = 0;
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
@@ -51,13 +52,14 @@ struct Arrangement {
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
-/// Returns how a view arranges this number of slices in a picture with this aspect ratio. `relativeBall`: the radius of
-/// balls as a fraction of the slice radius.
+/// Returns how a view arranges `count` slices in a picture with this aspect ratio (width / height). `relativeBall`: the
+/// radius of balls as a fraction of the slice radius.
 Arrangement arrangementOf(View view, int count, double relativeBall, double aspect);
 
-/// Places the projection of the whole object beside the slices of a view. `aspect`: that of the room for the slices and
-/// the projection, without the part of the width that labels beside the slices take. If the view has the projection
-/// between its slices, returns a placement that is not `shown`; the caller must then call projectionInside().
+/// Places the projection of the whole object beside the slices of a view. `count`: the number of slices. `aspect`: the
+/// aspect ratio of the room that the slices and the projection have, without the part of the width that labels beside
+/// the slices take. If the view has the projection between its slices, returns a placement that is not `shown`; the
+/// caller must then call projectionInside().
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
 /// Places the projection in the middle of the oval, on the axis of the parabola: at the point where the largest circle

@@ -27,7 +27,8 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
 
 }  // namespace
 
-// Sets the title, the circumradius, the look and the viewport of `out`, and finds whether the object has changed.
+// Sets the title, the circumradius, the look and the viewport of `out`. Sets objectChanged_ if `object` is not the
+// object of the last call.
 void Composer::setObject(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;

@@ -14,7 +14,7 @@ namespace {
 // Returns the width between the margins, in viewport heights; at least half the viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep = 0.42;  // between neighboring axes of a strip or histogram
+constexpr double kMaxAxisStep = 0.42;  // between neighboring axes of a strip or histogram, in viewport heights
 constexpr double kPlotAmplitude = 0.056;
 constexpr double kStripNameRoom = 1.1;  // in heights of text
 

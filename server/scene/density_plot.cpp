@@ -48,8 +48,8 @@ void DensityPlot::countColumn(int column) {
     const float *from = levels_[gap].data(), *to = levels_[gap + 1].data();
     const std::size_t count = levels_[gap].size();
 
-    // Neighboring vertices often fall into the same histogram bin. Several tables, used in turn, let the CPU overlap
-    // the increments.
+    // Vertices with neighboring indices often fall into the same bin, and two increments of one counter must wait for
+    // each other. Several tables, used in turn, let the CPU overlap the increments.
     constexpr std::size_t kTables = 4, kBatch = 256;
     std::array<std::array<std::uint32_t, kBins>, kTables> tables{};
     std::array<std::uint32_t, kBatch> bins;

@@ -21,10 +21,11 @@ using FogTable = std::vector<std::uint32_t>;
 /// The number of entries of a FogTable that is not empty.
 inline constexpr std::size_t kFogEntries = 256;
 
-/// Makes the table of the transfer function with these control points. `points` is empty, or contains at least two
-/// points with strictly ascending values. Entry 1 is for the value of the first point, entry 255 for the value of the
-/// last. A point without a color gets a color of divergingColor(), from blue at the first point to amber at the last.
-/// Between two points, sRGB colors and opacities are interpolated linearly. Overwrites `out`.
+/// Makes the table of the transfer function with these control points. The caller must ensure that `points` is empty
+/// (for no fog), or contains at least two points with strictly ascending values. Entry 1 is for the value of the first
+/// point, entry 255 for the value of the last. A point without a color gets a color of divergingColor(), from blue at
+/// the first point to amber at the last. Between two points, sRGB colors and opacities are interpolated linearly.
+/// Overwrites `out`.
 void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
 /// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a lattice.

@@ -24,12 +24,12 @@ class LabelLayout {
     LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
     /// Reduces the size of labels, so that they fit side by side in columns of this width, in viewport heights; see
-    /// Arrangement::labelColumns. They keep a minimum size.
+    /// Arrangement::labelColumns. The labels keep a minimum size, even if they then do not fit.
     void shrink(double columnWidth);
 
     /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds`: the bounds of
-    /// the slices on the plane at distance 1 from the eye. `scale`: the length of one unit of this plane in the
-    /// picture, in viewport heights.
+    /// the slices on the plane at distance 1 from the eye. `scale`: how many viewport heights one unit on this plane
+    /// takes up in the picture.
     Rect overhang(const Rect& bounds, double scale) const;
 
     /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice:

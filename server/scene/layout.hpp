@@ -54,7 +54,7 @@ struct CoordinatesLayout {
     bool isDensityStrip = false;
     double panel = 0;  ///< the width of the panels of a field's histogram; 0 if none is drawn
 
-    /// Returns the height of the part of the picture that belongs to the coordinates.
+    /// Returns the height of the part of the picture that belongs to the parallel coordinates, from the lower edge.
     double top() const { return zero + amplitude + 0.01; }
     /// Returns whether each vertex has lines of its own.
     bool hasLines() const { return !isDensityStrip && panel == 0; }
@@ -100,14 +100,15 @@ struct MatrixLayout {
     glm::dvec2 center(int row, int column) const {
         return {left + column * step + panel / 2, bottom + (3 - row) * step + panel / 2};
     }
-    /// Returns the length in a panel that represents one unit of an object with this circumradius.
+    /// Returns how long one unit of an object with this circumradius appears in a panel.
     double scale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
     /// The row and column (0 … 3) of a panel that shows a section; `row` is also the axis that points upward, `column`
     /// the axis that points to the right.
     struct Panel {
         int row, column;
     };
-    /// Returns the panel at a position; an empty optional outside the panels and on the diagonal.
+    /// Returns the panel at a position; an empty optional outside the panels, on the diagonal, and if the matrix is not
+    /// shown.
     std::optional<Panel> panelAt(glm::dvec2 position) const;
     bool operator==(const MatrixLayout&) const = default;
 };

@@ -118,7 +118,7 @@ class Picker {
 
   private:
     struct Sizes {
-        double ball, bar;  // radii in world units; 0 if they are not drawn
+        double ball, bar;  // radii in world units; 0 if balls or bars are not drawn
         bool faces;
     };
 

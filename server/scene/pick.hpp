@@ -36,8 +36,8 @@ struct PickedElement {
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
 /// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner; an
-/// empty optional outside the panels and on the diagonal. The result is in the object's units and in the coordinates
-/// after the rotation, like SectionMatrix::point.
+/// empty optional outside the panels, on the diagonal, and if the scene shows no matrix. The result is in the object's
+/// units and in the coordinates after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
 
 }  // namespace oval4d::scene

@@ -89,8 +89,8 @@ struct Scene : Layout {
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
-    /// instead of their loops. Also true for fields and surfaces, of which no faces are drawn: their shapes hide each
-    /// other in no order that is known before, so they need a depth buffer.
+    /// instead of their loops. Also true for fields and surfaces, of which no faces are drawn: the order in which their
+    /// shapes hide each other is not known in advance, so that drawing them needs a depth buffer.
     bool facesMayCross = false;
     slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
                                             ///< `facesMayCross` is false

@@ -12,7 +12,7 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kAmplitude = 40;  // length of the line of a coordinate that equals the circumradius
+constexpr double kAmplitude = 40;  // the length of the line for a coordinate that equals the circumradius
 constexpr double kMaxColumn = 48;  // the maximum and the minimum width of a vertex's column
 constexpr double kMinColumn = 5;
 constexpr double kText = 7;                // font size

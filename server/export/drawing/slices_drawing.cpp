@@ -106,7 +106,7 @@ class SliceDrawer {
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
 
-    /// Returns twice the area of a polygon times its unit normal.
+    /// Returns the normal of a polygon; its length is twice the area of the polygon.
     static glm::dvec3 doubleAreaVectorOf(std::span<const glm::dvec3> corners) {
         glm::dvec3 area(0);
         for (std::size_t i = 2; i < corners.size(); ++i)
@@ -135,7 +135,8 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a face as in the picture. `area` is a multiple of the face's normal in view space.
+    /// Returns `color` with the light that falls on a face in the picture. `area` is a multiple of the normal of the
+    /// face in view space.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;

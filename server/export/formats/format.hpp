@@ -65,7 +65,7 @@ struct Format {
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
 
-    /// Returns whether files of the format can contain this.
+    /// Returns whether files of the format can contain `what`.
     bool canContain(ExportContents what) const { return std::ranges::find(contents, what) != contents.end(); }
 };
 

@@ -67,7 +67,7 @@ class PageWriter {
         HPDF_Page_EndText(page_);
     }
     // Draws an image whose colors are interpolated between DensityImage::colors. Its soft mask, which determines the
-    // opacity of each pixel, has the tones.
+    // opacity of each pixel, holds DensityImage::alphas.
     void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;

@@ -22,7 +22,8 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 }
 
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
-    // Previews of cuts lack parts of a body that a ray enters more than `convexity` times.
+    // When OpenSCAD previews a difference or an intersection, it omits parts of a body that a line of sight enters more
+    // than `convexity` times.
     out += "\n// " + xmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
            scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";

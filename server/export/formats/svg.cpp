@@ -26,8 +26,8 @@ std::string opacityOf(std::string_view name, double opacity) {
     return opacity < 1 ? attribute(name, opacity) : std::string();
 }
 
-/// Returns the density as SVG paths. The density is rounded to kTones tones; there is one path for each tone, with the
-/// outlines of all pixels of this tone.
+/// Returns the opacities of the image (DensityImage::alphas) as SVG paths. The opacities are rounded to multiples of
+/// 1/kTones. For each of them except 0, there is one path, with the outlines of all pixels of this opacity.
 std::string densityPaths(const DensityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
@@ -49,7 +49,8 @@ std::string densityPaths(const DensityImage& density) {
     return out;
 }
 
-/// Returns the gradient `axes-colors`, which mixes the colors of the axes.
+/// Returns an SVG gradient with the id `axes-colors`, which goes through DensityImage::colors from the first column to
+/// the last.
 std::string gradient(const DensityImage& density) {
     std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
                       attribute("x2", density.columns - 0.5) + ">\n";

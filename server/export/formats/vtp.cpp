@@ -29,7 +29,7 @@ struct PolyData {
     Elements elements = Elements::faces;
     std::vector<float> points, normals;               // three numbers for each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
-    std::vector<std::int64_t> corners, ends;          // the points of the elements; where the corners of each end
+    std::vector<std::int64_t> corners, ends;          // the points of the elements; each element's end in `corners`
     std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
     std::vector<double> w, level;
     std::vector<std::uint8_t> cap;

@@ -51,12 +51,14 @@ std::string x3d(const MeshesToWrite& meshes);
 /// is requested, and for ExportContents::critical.
 ///
 /// For other objects, the file has one row per slice: n, w, the numbers of vertices, edges and faces, volume, area, and
-/// centroid (empty if the slice is empty). For ExportContents::critical, it has instead one row per critical value of
-/// w, at which the combinatorial type of the slices changes: w, and the number of the object's vertices there.
+/// centroid (empty if the slice is empty). w and the centroid are in the coordinates of the object's file (see
+/// ObjectInfo::originInFile). For ExportContents::critical, the file has instead one row per critical value of w, at
+/// which the combinatorial type of the slices changes: w, and the number of the object's vertices there.
 std::string measurementsCsv(const SceneInput& source);
 
-/// Returns the rotated object, a polytope or a point cloud, as a 4OFF file in the object's own units. Importing the
-/// file of a polytope gives the rotated polytope; the file of a point cloud has vertices only.
+/// Returns the rotated object, a polytope, surface or point cloud, as a 4OFF file in the units and coordinates of the
+/// object's file (see ObjectInfo::originInFile). Importing the file of a polytope or surface gives the rotated object;
+/// the file of a point cloud has vertices only.
 std::string off(const SceneInput& source);
 
 /// Returns a VTK XML file of the type ImageData: the values of a field in slice 0, on a regular lattice that fills the
@@ -66,12 +68,13 @@ std::string off(const SceneInput& source);
 std::string vti(const SceneInput& source);
 
 /// Returns a VTK XML file of the type PolyData, in the object's own units. For ExportContents::oval, the slices are
-/// placed as in the picture. For a polytope, the file has the faces of the slices, with the array `cell`. For a field,
-/// it has the surfaces of all levels, with the arrays `value`, `second_value` (if there is a second function),
-/// `normals` and `growth` (see slicing::SliceSurface) for each point, and `level` and `cap` for each triangle. The
-/// arrays `n` and `w` have, for each face or triangle, the index n and the w of the hyperplane of its slice. Infinite
-/// growth is written as NaN. Adds a warning about slices without faces or triangles. Throws ExportRefused if a limit is
-/// exceeded or a stop is requested.
+/// placed as in the picture. For a polytope, the file has the faces of the slices, with the array `cell`; for a
+/// surface, the edges of the slices; for a point cloud, the points. For a field, it has the surfaces of all levels,
+/// with the arrays `value`, `second_value` (if there is a second function), `normals` and `growth` (see
+/// slicing::SliceSurface) for each point, and `level` and `cap` for each triangle. The arrays `n` and `w` have, for
+/// each face, edge, point or triangle, the index n of the hyperplane of its slice, and the w of this hyperplane in the
+/// coordinates of the object's file. Infinite growth is written as NaN. Adds a warning about slices that have none of
+/// these elements. Throws ExportRefused if a limit is exceeded or a stop is requested.
 std::string vtp(const SceneInput& source);
 
 // --- Formats of drawings.

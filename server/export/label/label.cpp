@@ -18,7 +18,7 @@ namespace {
 constexpr double kMinHeight = 1;    // minimum height of a capital letter in millimeters
 constexpr double kMargin = 0.6;     // margin around the text, in heights of a capital letter
 constexpr double kMinDepth = 0.25;  // minimum depth of the letters in millimeters
-constexpr double kMaxDepth = 0.8;   // maximum depth
+constexpr double kMaxDepth = 0.8;   // maximum depth of the letters in millimeters
 
 /// The face formed by the triangles of one cell.
 struct Face {
@@ -106,7 +106,7 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Fac
     return std::min(depth, placement.height / 4);
 }
 
-/// Returns whether the mesh is convex and consists of these faces, without holes.
+/// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole.
 bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const RoundingGrid& grid) {
     std::size_t triangles = 0;
     for (const auto& [cell, face] : faces) {

@@ -125,7 +125,7 @@ class HalfEdges {
         struct HalfEdge {
             std::uint64_t ends;  // two points, the one with the smaller index first
             std::uint32_t edge;
-            bool upward;  // whether it starts at the point with the smaller index
+            bool upward;  // whether the half-edge starts at the point with the smaller index
         };
         std::vector<HalfEdge> halfEdges;
         halfEdges.reserve(origins_.size());

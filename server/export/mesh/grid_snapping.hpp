@@ -18,7 +18,8 @@ struct SnappedSurface {
 };
 
 /// Rounds a closed surface to the grid, and keeps it closed: the mesh is 2-manifold, and no two of its points are
-/// equal. `points` are in millimeters; each edge of `triangles` must occur equally often in both directions.
+/// equal. `points` are in millimeters. The surface counts as closed if each edge of `triangles` occurs equally often in
+/// both directions.
 ///
 /// - If several fans of triangles share a point, each fan gets a point of its own.
 /// - Edges whose ends coincide on the grid are collapsed, unless that would join different parts of the surface (the

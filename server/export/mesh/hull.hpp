@@ -8,9 +8,9 @@
 namespace oval4d::exports {
 
 /// Returns the convex hull of points that lie on the grid. The computation uses integers and has no rounding errors.
-/// Therefore the mesh is closed, 2-manifold and convex for all inputs. Along each axis, the extent of the points must
-/// be at most 2^18 grid steps, so that the integers do not overflow. Returns an empty mesh if all points lie in one
-/// plane.
+/// Therefore the mesh is closed, 2-manifold and convex for all inputs. The caller must ensure that the extent of the
+/// points along each axis is at most 2^18 grid steps; otherwise the integers may overflow. Returns an empty mesh if all
+/// points lie in one plane.
 Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid);
 
 }  // namespace oval4d::exports

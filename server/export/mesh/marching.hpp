@@ -27,7 +27,7 @@ namespace oval4d::exports {
 class SampledField {
   public:
     static constexpr int kSide = 8;  ///< points along each edge of a block
-    /// The indices i, j and k of all points must be from −kFarthest to kFarthest.
+    /// The greatest absolute value of an index i, j or k of a point. The caller must ensure that no index exceeds it.
     static constexpr int kFarthest = 1 << 19;
 
     SampledField(const glm::dvec3& origin, double step) : origin_(origin), step_(step) {}
@@ -74,11 +74,11 @@ using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const 
 inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid steps; see marchTetrahedra()
 
 /// Returns a mesh of the surface that separates inside points from outside points. For each cube with an inside corner,
-/// `field` must have the block of the cube's lowest corner (see SampledField::ensureBlock()), and the values that
-/// `crossing` reads for the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be
-/// at least kLeastFieldStep steps of `grid`: then no two crossings coincide after rounding, because crossings are kept
-/// away from the ends of their edges. From kGoodFieldStep on, crossings are far enough apart that the triangles keep
-/// their shapes. Throws ExportRefused if `budget` is exceeded.
+/// the caller must ensure that `field` has the values that `crossing` reads for the edges of the cube, and the block of
+/// the cube's lowest corner (see SampledField::ensureBlock()); cubes without this block are skipped. The points of the
+/// mesh are rounded to `grid`. The field's step must be at least kLeastFieldStep steps of `grid`: then no two crossings
+/// coincide after rounding, because crossings are kept away from the ends of their edges. From kGoodFieldStep on,
+/// crossings are far enough apart that the triangles keep their shapes. Throws ExportRefused if `budget` is exceeded.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 

@@ -119,8 +119,8 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a text of `length` letters may be a misspelling of a name at this edit distance: whether it has at
-// most one mistake in three letters.
+// Returns whether a text of `length` letters may be a misspelling of a name at this edit distance: whether there is at
+// most one mistake for every three letters.
 bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
 // Returns the names with the least edit distance from `text`, at most one for each entry; an empty list if no name is

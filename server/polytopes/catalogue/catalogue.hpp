@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-/// An entry of the catalogue. The numbers and symbols come from the design; the polytope need not be built.
+/// An entry of the catalogue. The numbers and symbols come from the design, without building the polytope.
 struct CatalogueEntry {
     std::string name;                  ///< "24-cell"
     std::string family;                ///< "regular", "star", "uniform A4" (or B4, F4, H4), "other", "prism",
@@ -54,8 +54,8 @@ std::string_view nearestName(std::string_view text);
 /// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names after normalizedName(). Ignores what follows the first 64 bytes
-/// of a name.
+/// Returns the edit distance (Levenshtein) of two names. Cuts each name after 64 bytes, and converts it by
+/// text::normalizedName().
 std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

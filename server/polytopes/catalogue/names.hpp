@@ -1,7 +1,7 @@
 #pragma once
-// Understands names of polytopes by rules, whether or not the catalogue lists them: regular polychora after operations
-// (`truncated tesseract`), products, prisms and constructions (`hull of X and Y`); Coxeter–Dynkin diagrams; Schläfli
-// symbols.
+// Parses names of polytopes by rules, whether or not the catalogue lists the polytopes: names of operations on regular
+// polychora (`truncated tesseract`), of products, of prisms and of constructions (`hull of X and Y`); Coxeter–Dynkin
+// diagrams; and Schläfli symbols.
 
 #include <cstddef>
 #include <span>

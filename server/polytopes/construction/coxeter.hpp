@@ -14,10 +14,10 @@ namespace oval4d::polytopes {
 using Mirrors = std::array<glm::dvec4, 4>;
 
 /// Returns mirrors whose reflections generate the diagram's Coxeter group. If the diagram has the branches of a convex
-/// regular polychoron, the mirrors are placed such that the polytopes have the coordinates in common use (Coxeter,
-/// Regular Polytopes, §8.7, §14.9; the simplex as in Kageyama's paper). Otherwise, the mirrors are computed from the
-/// Gram matrix of their normals. Throws std::invalid_argument if this matrix is not positive definite; then the diagram
-/// does not describe a finite group in four dimensions.
+/// regular polychoron, the mirrors are placed such that the polytopes with these branches have the coordinates in
+/// common use (Coxeter, Regular Polytopes, §8.7, §14.9; the simplex as in Kageyama's paper). Otherwise, the mirrors are
+/// computed from the Gram matrix of their normals. Throws std::invalid_argument if this matrix is not positive
+/// definite; then the diagram does not describe a finite group in four dimensions.
 Mirrors mirrorsOf(const Diagram& diagram);
 
 /// Returns the point that lies at distance 1 from each ringed mirror and on all other mirrors.

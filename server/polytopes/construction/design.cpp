@@ -36,8 +36,8 @@ class Wythoffian : public Recipe {
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // The coordinates in common use for the 120-cell contain the even permutations of some quadruples. These
-        // mirrors generate its mirror image, with the odd permutations.
+        // The coordinates in common use for the 120-cell contain the even permutations of some quadruples. The mirrors
+        // of mirrorsOf() generate the mirror image, with the odd permutations; exchanging x and y corrects this.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -107,8 +107,8 @@ const std::map<Diagram, Design>& namedDesigns() {
                             base.name == "cube" ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
-        // The tetrahedral group is a subgroup of the octahedral group. The bases of these prisms have the full
-        // octahedral symmetry, so each of these prisms also has a diagram of the octahedral group.
+        // The tetrahedral group is a subgroup of the octahedral group. The bases of the following three prisms have the
+        // full octahedral symmetry, so each of these prisms also has a diagram of the octahedral group.
         for (const auto& [half, whole] :
              {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
             designs.emplace(canonical(parseValidDiagram(half)), designs.at(canonical(parseValidDiagram(whole))));

@@ -1,6 +1,6 @@
 #pragma once
-// Designs of uniform polychora (4-D polytopes), and functions that build a design of any polytope or return its
-// properties. recipe.hpp declares Design.
+// Functions that return the designs of uniform polychora (4-D polytopes), and functions that take any design and build
+// its polytope or return properties of the polytope. recipe.hpp declares Design.
 
 #include <cstdint>
 #include <string>
@@ -13,14 +13,14 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design of the polytope that `diagram` describes. parseDiagram() must accept the diagram. If several
-/// diagrams describe the same polytope, the design for all of them is that of the diagram with the largest group: for
-/// x3o3o *b3o, the design of x3o3o4o.
+/// Returns the design of the polytope that `diagram` describes. The caller must ensure that parseDiagram() accepts the
+/// diagram. If several diagrams describe the same polytope, the design for all of them is that of the diagram with the
+/// largest group: for x3o3o *b3o, the design of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
-/// Returns the design of the duoprism of the regular polygons p and q, which may be stars and must have at least 3
-/// sides. Its name is "p,q-duoprism" with the smaller number of sides first, as in "5,7-duoprism". For p = q = 4, the
-/// design is that of the 8-cell.
+/// Returns the design of the duoprism of the regular polygons p and q, which may be stars. The caller must ensure that
+/// both have at least 3 sides. The name of the design is "p,q-duoprism", with the smaller number of sides first, as in
+/// "5,7-duoprism". For p = q = 4, the design is that of the 8-cell.
 Design duoprism(RegularPolygon p, RegularPolygon q);
 
 /// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".

@@ -79,7 +79,7 @@ struct ElementCounts {
 };
 
 /// Returns the numbers of elements of the polytope. Each number is the sum of |W| / |stabilizer| over the orbits of
-/// elements of one dimension, where W is the Coxeter group. W must be finite.
+/// elements of one dimension, where W is the Coxeter group. The caller must ensure that W is finite.
 ElementCounts elementCounts(const Diagram& diagram);
 
 }  // namespace oval4d::polytopes

@@ -44,10 +44,10 @@ std::string nounOf(RegularPolygon polygon);
 /// unless they accept it.
 std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
-/// Returns the polygons that `words` name. In a full name, a word such as "duoprism" follows them. There are two for
-/// "5,7", "5x7", "5" "7" or "triangular" "square". A single polygon, such as "pentagonal", stands for two equal ones.
-/// Returns std::nullopt if one of the words names no polygon. Callers must reject results of more or fewer than two
-/// polygons, and polygons of two sides unless they accept them.
+/// Returns the polygons that `words` name. In a full name, a word such as "duoprism" follows them. The result has two
+/// polygons for "5,7", "5x7", "5" "7" or "triangular" "square". If the words name a single polygon, such as
+/// "pentagonal", the result has this polygon twice. Returns std::nullopt if one of the words names no polygon. Callers
+/// must reject results of more or fewer than two polygons, and polygons of two sides unless they accept them.
 std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words);
 
 /// The properties by which nameOf() recognizes a uniform polyhedron.

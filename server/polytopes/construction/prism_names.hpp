@@ -1,5 +1,5 @@
 #pragma once
-// The names of prisms and duoprisms, whose designs design.hpp declares.
+// Parses the names of prisms and duoprisms. design.hpp declares the functions that return their designs.
 
 #include <optional>
 

@@ -23,7 +23,8 @@ struct PolyhedronWithOrbits {
 /// Builds the snub of {p, q}, such as the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, or the n-antiprism
 /// for {n, 2}, with edge length 2. The vertices are the images of one point under the rotation group of {p, q}. The
 /// faces are the p-gons and q-gons around the rotation axes (there are none around twofold axes), and the triangles
-/// between them (Coxeter, Regular Polytopes, §8.6). p and q must be integers with 1/p + 1/q > 1/2.
+/// between them (Coxeter, Regular Polytopes, §8.6). The caller must ensure that p and q are integers with 1/p + 1/q >
+/// 1/2.
 PolyhedronWithOrbits snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

@@ -120,8 +120,8 @@ SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // All loops are made counterclockwise, seen from outside. For each directed edge: the face whose loop then contains
-    // the edge in this direction, and the vertex before the edge in this loop.
+    // Makes all loops counterclockwise, seen from outside. Then exactly one loop contains each directed edge; `corners`
+    // holds the face with this loop, and the vertex before the edge in the loop.
     struct FaceCorner {
         std::uint32_t face, before;
     };

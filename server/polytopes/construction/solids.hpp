@@ -52,7 +52,8 @@ struct SolidMesh {
 /// Builds the solid. Its edge length or circumradius is as stated at Solid.
 SolidMesh meshOf(const Solid& solid);
 
-/// Returns the design of the uniform prism over a solid. solid.dual must be false.
+/// Returns the design of the uniform prism over a solid. The caller must ensure that solid.dual is false; the function
+/// does not read it.
 Design uniformPrismOver(const Solid& solid);
 
 }  // namespace oval4d::polytopes

@@ -88,7 +88,8 @@ class Flat {
     Corners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
-    std::array<std::array<double, Dimension>, Dimension> edges_{};  // [j]: from corner 0 to j + 1, along axes_
+    // Entry j: the edge from corner 0 to corner j + 1, as coordinates along axes_.
+    std::array<std::array<double, Dimension>, Dimension> edges_{};
     double volume_ = 1;
 };
 

@@ -23,8 +23,9 @@ namespace {
 using geometry::kNone;
 
 // kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell; the search for better
-// places ends at kGoalDeviation. Both are relative to the size. However, the permitted distance is at least
-// kMaxRounding times doubleRounding(), and the goal is at least kGoalRounding times doubleRounding().
+// places ends at kGoalDeviation. Both are relative to the parameter `size` of flatten(). However, the permitted
+// distance is at least kMaxRounding times doubleRounding(), and the goal is at least kGoalRounding times
+// doubleRounding().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
 // If the cosine of the angle between two hyperplanes is larger than this, rounding errors make the plane in which they
@@ -55,7 +56,8 @@ struct FittedFlat {
 };
 
 // The changes in one round of Newton's method: `moves` holds the move of each vertex; for each flat, `tilts` holds the
-// change of its normal times its radius, and `shifts` the negative change of its middle along the normal.
+// change of its normal, multiplied by FittedFlat::radius, and `shifts` the negative change of its middle along the
+// normal.
 struct Unknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
@@ -80,13 +82,13 @@ struct Unknowns {
 };
 
 glm::dvec4 withoutComponents(glm::dvec4 v, std::span<const glm::dvec4> units) {
-    for (int twice = 0; twice < 2; ++twice) {  // once more for the rounding errors of the first time
+    for (int twice = 0; twice < 2; ++twice) {  // the second time removes the rounding errors of the first
         for (const glm::dvec4& unit : units) v -= glm::dot(v, unit) * unit;
     }
     return v;
 }
 
-// Returns a unit vector perpendicular to at most three orthonormal ones.
+// Returns a unit vector perpendicular to all of `units`, which are at most three orthonormal vectors.
 glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     glm::dvec4 best(0);
     double most = 0;

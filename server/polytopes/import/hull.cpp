@@ -31,7 +31,7 @@ constexpr int kDimensions = 4;
 constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
 constexpr double kPerturbation = 1e-11;          // the initial amplitude, relative to the extent of the points
 constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices is this times maxCells
-constexpr int kMaxRounds = 4;                    // the maximum; each round removes points that are not vertices
+constexpr int kMaxRounds = 4;                    // at most so many rounds remove points that are not vertices
 constexpr std::size_t kMessageBytes = 4096;      // the size of the stream that takes and discards Qhull's messages
 
 using Points = std::vector<glm::dvec4>;

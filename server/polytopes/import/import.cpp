@@ -22,7 +22,7 @@ using text_files::throwFileError;
 
 namespace {
 
-constexpr double kMergeDistance = 1e-7;  // relative to the size of the polytope: vertices that are closer are merged
+constexpr double kMergeDistance = 1e-7;  // relative to halfDiagonal(): vertices that are closer than this are merged
 
 void checkCells(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;

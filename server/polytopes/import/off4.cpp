@@ -105,7 +105,8 @@ struct Noun {
 enum class Layout { lines, continuous, own_lines };
 
 // Returns the next word of a record. With Layout::own_lines, the word must be on the current line; if this line has
-// ended, throws a FileError, which says that `record` has only `found` of `needed` `members`.
+// ended, throws a FileError, which says that `record` has only `found` of `needed` `members`. With another layout,
+// returns an empty text at the end of the file.
 std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& record, std::uint32_t found,
                         std::uint32_t needed, const char* members) {
     if (layout != Layout::own_lines) return file.next();

@@ -14,7 +14,7 @@ using text_files::throwFileError;
 
 namespace {
 
-constexpr double kThin = 1e-6;  // relative to the size: the minimum extent of a polytope in any direction
+constexpr double kThin = 1e-6;  // relative to halfDiagonal(): the minimum extent of a polytope in any direction
 
 // Returns the deviation of the points from a flat (a plane or hyperplane) of this dimension, 2 or 3: their largest
 // distance from the flat through some of the points, chosen greedily to be far apart.

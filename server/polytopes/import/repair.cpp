@@ -42,7 +42,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
             if (glm::distance(points[a], points[b]) <= distance) first[b] = std::min(first[b], first[a]);
         }
     }
-    // A point may have been joined to one that was itself joined to another one later. The least indices come first.
+    // If point a was joined to an earlier point only after b had been joined to a, first[b] is out of date. As first[v]
+    // is at most v, ascending order brings all entries up to date.
     for (std::uint32_t& v : first) v = first[v];
     return first;
 }
@@ -87,7 +88,7 @@ class Repairer {
         doubled_ = doubled;
     }
 
-    // Splits 2-faces into simple loops and removes 2-faces without area.
+    // Splits 2-faces into simple loops, and removes the 2-faces of which no loop remains (see simpleLoops()).
     void simplifyFaces() {
         geometry::JaggedArray faces;
         std::vector<PolygonSoup::SourcePosition> positions;
@@ -249,7 +250,8 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    std::size_t doubled_ = 0, joined_ = 0;  // merged vertices and merged 2-faces; no warning calls them unused
+    // The numbers of merged vertices and of merged 2-faces, which no warning counts as unused.
+    std::size_t doubled_ = 0, joined_ = 0;
 };
 
 }  // namespace

@@ -23,11 +23,11 @@ class RoundingEstimator {
     /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedCoordinate::text) and as a number.
     void add(std::string_view word, int axis, double value);
 
-    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit; in single
-    /// precision, also half the unit of the last bit of the largest coordinate. `size` is half the diagonal of the
-    /// points' bounding box. If `size` is at most 400 units of the last digit, the coordinates count as exact, and the
-    /// result is 0 for all axes: programs hardly ever round so coarsely, so coordinates such as 0.5 and 10.5 are
-    /// probably exact.
+    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. If the
+    /// coordinates count as rounded to single precision, adds half the unit of the last bit of the largest coordinate.
+    /// `size` is half the diagonal of the points' bounding box. If `size` is at most 400 units of the last digit, the
+    /// coordinates count as exact, and the result is 0 for all axes: programs hardly ever round so coarsely, so
+    /// coordinates such as 0.5 and 10.5 are probably exact.
     glm::dvec4 maxRoundingError(double size) const;
 
     /// Returns the result that maxRoundingError() has if the coordinates do not count as exact.

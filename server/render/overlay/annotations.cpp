@@ -19,7 +19,7 @@ constexpr float kHighlightOpacity = 0.35F;
 constexpr float kLevelOpacity = 0.8F;  // of the lines of levels in the histogram of a field
 constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
 
-/// Returns a fraction of the picture's height in whole pixels, at least one.
+/// Returns this fraction of the picture's height, rounded to whole pixels; at least 1.
 int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }

@@ -97,7 +97,7 @@ void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, doubl
     }
 }
 
-// Adds the quadrilateral between the last two edges.
+// Adds the quadrilateral between the last two edges that addVerticalSide() added.
 void CoordinatesPlot::addQuad() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);

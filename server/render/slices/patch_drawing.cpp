@@ -29,7 +29,7 @@ struct LinearFunction {
 
 /// The properties that all pixels of a patch share.
 struct Paint {
-    /// `u`, `v` and `halfRadius` are the members of ShapeVertex::place.
+    /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place; `nearness` is as in PatchCorner.
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
     glm::vec3 diffuse, specular;  ///< as in ShapeVertex
     glm::vec3 color;              ///< 0 … 255

@@ -123,7 +123,8 @@ void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
 }
 
-// Returns the mean row of the shapes. It divides the picture into two parts that take about equally long to draw.
+// Returns the mean row of the shapes. The two parts of the picture below and above this row take about equally long to
+// draw.
 int ShapeRasterizer::Impl::middleRow() const {
     double sum = 0;  // of the positions of the shapes: 0 at the lower edge of the picture, 1 at the upper
     std::size_t count = 0;

@@ -24,8 +24,8 @@ struct SurfaceVertex {
 /// The triangles of all surfaces of a scene, in drawing order. Reuses its memory for the next picture.
 class SurfaceBatch {
   public:
-    /// The slices whose surfaces are collected: all of them, or the nearer or farther ones, which have about half of
-    /// the triangles.
+    /// The slices whose surfaces are collected: all slices, the nearer ones, or the farther ones. The nearer and the
+    /// farther slices have about half of the triangles each.
     enum class DepthHalf : std::uint8_t { whole, near, far };
 
     /// Collects the surfaces of a scene, or of its nearer or farther slices. opaqueIndices() then has the opaque

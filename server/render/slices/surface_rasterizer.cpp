@@ -187,8 +187,8 @@ OVAL4D_AVX2 TriangleMasks setUp(const SurfaceCanvas& canvas, const Point* points
     const __m256 sumY = _mm256_add_ps(_mm256_add_ps(yA, yB), yC);
     const __m256 noY = _mm256_cmp_ps(sumY, sumY, _CMP_UNORD_Q);
     const __m256i coversRows = _mm256_cmpgt_epi32(rowR, rowP);
-    // Triangles that follow each other are close together, so often all eight are in the rows that another thread
-    // draws.
+    // Triangles that follow each other are close together, so often all eight lie outside the rows of this canvas,
+    // which are those that this thread draws.
     if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
 
     const __m256 xA = gather(&Point::x, a), xB = gather(&Point::x, b), xC = gather(&Point::x, c);
