@@ -37,7 +37,8 @@ std::string alternativesOf(const Choices& choices) {
     return out;
 }
 
-/// Returns limits far above those of the server, because on this machine the user decides about time and memory.
+/// Returns limits on triangles, bytes and time that are far above those of the server, because on this machine the user
+/// decides about time and memory. The limit on slices is the server's default.
 exports::ExportLimits commandLineLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;

@@ -16,8 +16,8 @@ struct ExportOutputOptions {
     std::string format;                ///< name of the file format; if empty, the extension of `output` determines it
 };
 
-/// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options
-/// that describe the state and the content of the file.
+/// Adds the options in `options` to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the
+/// options that describe the state and the content of the file.
 void addExportOptions(CLI::App& app, ExportOutputOptions& options);
 
 /// Writes the file that the parsed command line describes. Throws std::runtime_error with a message for the user.

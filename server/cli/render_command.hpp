@@ -19,8 +19,8 @@ struct RenderOptions {
     int width = 1280, height = 720;    ///< pixels
 };
 
-/// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options
-/// that describe the state.
+/// Adds the options in `options` to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the
+/// options that describe the state.
 void addRenderOptions(CLI::App& app, RenderOptions& options);
 
 /// Writes the picture that the parsed command line describes. Throws std::runtime_error with a message for the user.

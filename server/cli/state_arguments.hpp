@@ -17,13 +17,13 @@ namespace oval4d {
 /// if an argument does not begin with "--" or lacks a value.
 session::QueryParameters queryOf(const std::vector<std::string>& words);
 
-/// Returns the state that the query describes. The query parameter "load" is the path of a file to show: an object, or
-/// a state message, or a picture made by oval4d. The rest of the query changes the state in the file or, if the file is
-/// an object or there is none, the initial state. If the file is an array, "axes", "box", "variable", "values" and
-/// "values_variable" say how to read it; if it is a polytope or a list of points, "center" is the point about which it
-/// turns. Prints warnings about the file to standard error. `others` are the names of the caller's own options, for the
-/// list of allowed options in the error message about an unknown one. Throws std::runtime_error with a message for the
-/// user.
+/// Returns the state that the query describes. The query parameter "load" is the path of what to show: a file with an
+/// object, a Zarr folder, a `state` message, or a picture made by oval4d. The rest of the query changes the state in
+/// the message or picture or, if there is none, the initial state. If the file is an array, "axes", "box", "variable",
+/// "values" and "values_variable" say how to read it; if it is a polytope, a surface or a list of points, "center" is
+/// the point about which it turns. Prints warnings about the file to standard error. `others` are the names of the
+/// caller's own options, for the list of allowed options in the error message about an unknown one. Throws
+/// std::runtime_error with a message for the user.
 session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.

@@ -29,7 +29,7 @@ enum class ErrorCode {
     hello_first,         ///< a message was sent before hello
     not_found,           ///< the session or resource does not exist
     bad_token,           ///< the token does not open this session
-    too_many,            ///< a limit on sessions, connections or requests is reached
+    too_many,            ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
     too_large,           ///< a message, frame, file or polytope is over its limit
     canceled,            ///< a search was stopped, because its result was no longer needed
     internal,            ///< an internal error of the server; the session is unchanged

@@ -19,7 +19,8 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings from a reader process. Those that session::readObject() returns stay below them.
+// Limits on the errors and warnings from a reader process, which a malicious file may control. Usual errors and
+// warnings are far below these limits.
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 

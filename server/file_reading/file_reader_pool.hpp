@@ -48,7 +48,7 @@ class FileReaderPool {
     ///
     /// If `allocate` is given, arrays of more than Limits::maxFieldBytes are allowed: their samples stay in the file,
     /// which is mapped, or are in a new file that `allocate` makes. The timeout is extended by one second for each
-    /// kBytesPerSecond of a new file.
+    /// kBytesPerSecond bytes of a new file.
     ///
     /// Errors: those of session::readObject() and of `allocate`, and `too_large` if the process needs more memory or
     /// time than is allowed. Throws process::Canceled if `stop` is requested. Throws std::runtime_error if the process

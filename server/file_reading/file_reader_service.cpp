@@ -110,7 +110,7 @@ class Reading {
     const Channel& channel_;
     const ReadRequest request_;
     std::vector<fields::FileContents> sources_;
-    slicing::MappedFiles mapped_;  // in the order of the server's list of mapped files
+    slicing::MappedFiles mapped_;  // in the order in which FileReaderPool::read() maps the same files
 };
 
 // Replaces `body`, the body of a `file` message, with the body of the `outcome` message. `descriptor`: the open file

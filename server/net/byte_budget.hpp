@@ -28,8 +28,9 @@ class ByteBudget {
         /// Changes the size to `bytes` without checking the limits, because the bytes are already in use. Does nothing
         /// to a default-constructed or moved-from reservation.
         void resize(std::size_t bytes);
-        /// Enlarges the reservation to `bytes`, which must be at least size(). Returns false, and changes nothing, if
-        /// that would exceed a limit. Must not be called on a default-constructed or moved-from reservation.
+        /// Enlarges the reservation to `bytes`. Returns false, and changes nothing, if that would exceed a limit. The
+        /// caller must ensure that `bytes` is at least size(), and that the reservation is neither default-constructed
+        /// nor moved-from.
         [[nodiscard]] bool growTo(std::size_t bytes);
 
       private:
@@ -39,7 +40,8 @@ class ByteBudget {
         std::size_t size_ = 0;
     };
 
-    /// Counts the bytes held for one client, which may be at most `limit`.
+    /// Counts the bytes held for one client. They may exceed `limit` only through Account::forceReserve() and
+    /// Reservation::resize().
     class Account : public std::enable_shared_from_this<Account> {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}

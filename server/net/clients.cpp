@@ -19,7 +19,7 @@ using asio::ip::address_v6;
 namespace {
 
 constexpr double kMinute = 60;
-constexpr std::size_t kFirstSweep = 256;     // number of clients at which idle ones are first removed
+constexpr std::size_t kFirstSweep = 256;     // number of clients at which forgetIdle() is first called
 constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one account
 constexpr unsigned kBits = 128, kMappedBits = 96;
 

@@ -126,10 +126,11 @@ class Clients {
 
     /// Returns the number of bytes held for all clients together.
     std::size_t bytesHeld() const { return budget_.held(); }
-    /// Returns the number of known clients; idle ones are forgotten from time to time.
+    /// Returns the number of known clients, that is, of accounts, except those that forgetIdle() has deleted.
     std::size_t size() const;
 
   private:
+    /// Deletes the accounts that nothing else refers to and whose rate limits have fully recovered.
     void forgetIdle(TokenBucket::Clock::time_point now);
 
     const ClientLimits limits_;
@@ -138,7 +139,7 @@ class Clients {
     ByteBudget budget_;
     mutable std::mutex mutex_;
     std::map<std::string, AddressAccountPtr, std::less<>> clients_;  // guarded by mutex_
-    std::size_t sweepAt_;  // number of clients at which idle ones are removed; guarded by mutex_
+    std::size_t sweepAt_;  // number of clients at which forgetIdle() is called; guarded by mutex_
 };
 
 }  // namespace oval4d::net

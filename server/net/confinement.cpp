@@ -16,7 +16,7 @@ std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // In bytes. kOwn: for llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
     // for sixteen buffers of four bytes per pixel. kEachSliceEdge: for each edge of the slices, including the shapes
-    // that are drawn of it; measurements gave at most 260.
+    // that are drawn for this edge; measurements gave at most 260 bytes.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;
@@ -40,7 +40,7 @@ std::vector<std::string> childEnvironment(const Options& options, std::size_t wo
 }
 
 process::Confinement rasterizerConfinement(const Options& options) {
-    // In addition to kOwnFiles, a file descriptor for the shared pixel buffer of each worker.
+    // In addition to kOwnFiles, one file descriptor for each worker: that of the worker's shared pixel buffer.
     return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 

@@ -216,7 +216,8 @@ bool DataFolder::dropUnused(bool onDisk) {
     return true;
 }
 
-/// Makes a file of this size in the field cache. If there is no room, drops unused fields with such a file.
+/// Makes a file of this size in the field cache. If there is no room, first drops unused fields that have a file in the
+/// field cache. Errors: those of SampleFiles::make(); `too_many` if dropping all of these does not make enough room.
 Result<SampleFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
@@ -231,7 +232,8 @@ Result<SampleFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
     }
 }
 
-/// Puts a field into the cache. Makes room by dropping the least recently used fields that no session uses.
+/// Puts a field into the cache. Makes room by dropping the least recently used fields that no session uses. Errors:
+/// `too_large` if the field alone exceeds the maximum memory; `too_many` if the fields in use leave no room for it.
 Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);
     const std::lock_guard lock(mutex_);

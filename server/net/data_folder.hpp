@@ -66,7 +66,7 @@ class DataFolder {
     // A file, a Zarr folder or a series that open() has opened.
     struct Opened {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
-        std::shared_ptr<const fields::FileHandle> folder;  // a Zarr folder, instead of files
+        std::shared_ptr<const fields::FileHandle> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
         std::string version;  // a text that changes when a file changes
     };

@@ -142,8 +142,8 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.chosenW, state);
 }
 
-// Returns a set whose only slice is the projection of the whole object; it replaces `slices`. Uses the orthogonal
-// projection if the picture shows it, else the perspective projection.
+// Returns the set of slices to export instead of `slices`: its only slice is the projection of the whole object. Uses
+// the orthogonal projection if the picture shows it, else the perspective projection.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
     const scene::ProjectionSettings& settings = state.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;

@@ -54,7 +54,7 @@ class Pipeline {
     /// can no longer be read.
     void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `revision` is
+    /// Writes the `slices` message of `slices`, the result of slice() for this state and quality. `revision` is
     /// Session::revision. `id` is the id of the request that the message answers; empty if there is none. Overwrites
     /// `out`.
     void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
@@ -62,7 +62,8 @@ class Pipeline {
                      slicing::Quality quality = slicing::Quality::full);
 
     /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
-    /// (see scene::pickElement()). `slices` must have been cut from this state. `revision` and `id`: see writeSlices().
+    /// (see scene::pickElement()). `slices`: the result of slice() for this state. `revision` and `id`: see
+    /// writeSlices().
     std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 

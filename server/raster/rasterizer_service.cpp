@@ -43,7 +43,7 @@ class RecentObjects {
         }
         return &found->inFrame;
     }
-    /// Adds an object as it was loaded, which takes this much memory. It becomes the latest object.
+    /// Adds an object as it was loaded; it becomes the latest object. `bytes`: the memory of the object.
     void add(const slicing::Object& source, std::size_t bytes) {
         kept_.push_front({source, source, bytes});
         bytes_ += bytes;

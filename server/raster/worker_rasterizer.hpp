@@ -31,7 +31,7 @@ class SharedRasterizerProcess {
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
     std::atomic<int> drawing_ = 0;  // the number of workers that are drawing
-    // When a picture was last drawn while another one was drawn or queued.
+    // When a picture was last drawn while another one was drawn or queued, as the time since the clock's epoch.
     std::atomic<std::chrono::steady_clock::duration> lastQueued_{};
     std::atomic<double> lastDrawSeconds_ = 0;  // the drawing time of the last picture
     std::mutex multithreadedInUse_;

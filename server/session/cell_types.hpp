@@ -13,7 +13,7 @@ namespace oval4d::session {
 using CellTypeList = std::vector<std::uint32_t>;
 
 /// Parses cell type numbers separated by commas, blanks or tabs, such as "0,2". Returns them sorted and without
-/// duplicates; for an empty string and for "none", returns an empty list. Error: `bad_expression`.
+/// duplicates; for an empty string and for "none", returns an empty list. Error: `bad_expression` for any other text.
 Result<CellTypeList> parseCellTypes(std::string_view text);
 
 /// Returns the cell types of `object` that `text` selects, at least one. `text` has the form that parseCellTypes()
@@ -22,7 +22,7 @@ Result<CellTypeList> parseCellTypes(std::string_view text);
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
 /// hide(), fade() and reveal() return `filter`, changed so that the cell types in `changed` are hidden, faded or fully
-/// visible, respectively. `changed` must be sorted.
+/// visible, respectively. The caller must ensure that `changed` is sorted.
 scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed);

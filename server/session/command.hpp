@@ -79,7 +79,7 @@ struct LoadObject {
     /// A Zarr folder, instead of `data`.
     std::shared_ptr<const fields::FileHandle> folder = {};
     std::string dataName = {};        ///< the name of an array in the server's data folder, instead of `data`
-    geometry::Centering center = {};  ///< for a polytope or a point cloud: the point about which it turns
+    geometry::Centering center = {};  ///< for a polytope, a surface or points: the point about which they turn
 
     /// Returns whether the object is an array in files or in a folder, not in `data`; the format may then be empty.
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
@@ -109,10 +109,10 @@ class PlainSettings {
 /// Changes the settings that are present; the others keep their values.
 struct Set {
     static constexpr std::string_view kMessageType = "set";
-    bool continues = false;                   ///< as in Rotate
+    bool continues = false;                   ///< whether this belongs to the undo step of the previous command
     std::optional<std::string> object;        ///< the name of the object to show; see findObject()
-    std::optional<LoadObject> formula;        ///< how to make the field called `object` from a formula; it is loaded
-                                              ///< first, unless the session already has the same field
+    std::optional<LoadObject> formula;        ///< how to make the field called `object` from a formula; the field is
+                                              ///< loaded first, unless the session already has the same one
     std::optional<double> pace;               ///< ReferenceFrame::pace
     std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
     std::optional<glm::dmat4> orientation;

@@ -131,7 +131,8 @@ class Parser {
         result.isGroup = false;
         return result;
     }
-    // Returns `term`, a product. If its unit is degrees, converts its value to radians.
+    // Returns `term`, a product. If its unit is degrees, converts its value to radians; throws SyntaxError if the
+    // product also contains an angle without a unit.
     ValueWithUnit inRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
         if (term.hasUnitlessAngle) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");

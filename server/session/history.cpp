@@ -83,7 +83,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     }
 }
 
-// Makes `next` the current state. `next` must differ from the current state.
+// Makes `next` the current state. The caller must ensure that `next` differs from the current state.
 void replaceCurrent(Session& session, State next, const Limits& limits) {
     const bool historyGrows = session.current.object != next.object || session.current.source != next.source ||
                               bytesOfFilter(session.current) > 0;

@@ -20,8 +20,9 @@ struct Binding {
 };
 
 /// Returns the binding of a key, or an empty optional if the key begins a sequence. `pending` is the first key of a
-/// sequence that has begun, or empty: the first g of "gg" sets it to "g", and a key with a binding clears it. Error:
-/// `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
+/// sequence that has begun, or empty: the first g of "gg" sets it to "g", and a key with a binding clears it. A key
+/// that does not continue the sequence is handled as if no sequence had begun. Error: `unknown_key`, also for keys that
+/// only the client handles; `pending` is then unchanged.
 Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending);
 
 }  // namespace oval4d::session

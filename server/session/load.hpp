@@ -79,9 +79,10 @@ std::string_view detectFormat(std::string_view text);
 /// polytope, or `unsupported_format`.
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
 
-/// Returns a name for the object in the file called `fileName`, which checkLoad() accepts. Shortens long names, and
-/// replaces characters that are not allowed. Adds " (file)" to a name of the catalogue or of an example field, because
-/// otherwise a stored state would be restored with the catalogue's object or with the example field.
+/// Returns a name for the object in the file called `fileName`. checkLoad() accepts this name: long file names are
+/// shortened, and characters that are not allowed are replaced. Adds " (file)" to a name of the catalogue or of an
+/// example field, because otherwise a stored state would be restored with the catalogue's object or with the example
+/// field.
 std::string objectNameFor(std::string_view fileName, const Limits& limits);
 
 /// Returns whether the files of this format are arrays.

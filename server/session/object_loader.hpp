@@ -58,7 +58,7 @@ class ObjectLoader {
                  CriticalSearchOptions search = {});
 
     /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
-    /// computation of a convex hull exceeds a limit. Whether it does is known only during the computation.
+    /// computation of a convex hull exceeds a limit, which is not known before the computation.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
     /// Returns the object that `load` specifies. `load` must outlive the loader. Errors: those of checkLoad() and
@@ -92,7 +92,7 @@ class ObjectLoader {
     std::chrono::duration<double> estimatedDuration() const;
 
     /// Returns the estimated memory in bytes that completePending() and its result use; 0 if nothing is pending. For
-    /// the array of a compressed file, the estimate may be too low: see bytesLoaded().
+    /// the array of a compressed file, the estimate may be too low; afterward, bytesLoaded() states the actual memory.
     std::size_t bytesNeeded() const;
     /// Returns the memory, in bytes, of the object that was read from a file and of the array that was extended. Does
     /// not count polytopes that were built and objects that were transformed.

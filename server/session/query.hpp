@@ -31,10 +31,10 @@ Result<geometry::Centering> parseCenter(std::string_view written);
 /// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "formula",
 /// "box" and "values", which describe a field; "rotate", which may occur any number of times; and "toward", such as
 /// "cell" or "cell:3". Rotations are applied in the order given, and "toward" after everything else. Settings that the
-/// query does not contain are those of `state`. `loader` provides the polytopes. `others` are further names that the
-/// caller has read and removed. Errors: `unknown_command` for an unknown name, with a list of the allowed names and of
-/// `others`; `bad_expression`; those of parseSetting(), parseTurn(), checkTurn(), parseBox(), readFormula(),
-/// replaceObject(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
+/// query does not contain are those of `state`. `loader` provides the polytopes. `others` are the names of further
+/// parameters, which the caller has read and removed. Errors: `unknown_command` for an unknown name, with a list of the
+/// allowed names and of `others`; `bad_expression`; those of parseSetting(), parseTurn(), checkTurn(), parseBox(),
+/// readFormula(), replaceObject(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader,
                              State state = initialState(), std::span<const std::string_view> others = {});
 

@@ -82,8 +82,8 @@ class Applier {
         State next = session_.current;
         rotate(next, command.turn);
         const State* const before = command.continues ? stateBeforeStep(session_) : nullptr;
-        // While the object turns continuously, that motion changes the orientation, too: the rotations of the step do
-        // not follow from the orientations.
+        // While the object turns continuously, that motion changes the orientation, too. turnOfStep() then cannot
+        // derive the rotations of the step from the orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};

@@ -49,7 +49,8 @@ struct OngoingTurnToward {
     bool operator==(const OngoingTurnToward&) const = default;
 };
 
-/// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
+/// Everything that determines a picture, except the viewport, the quality and the viewer's color scheme. Undo restores
+/// all members except the camera's orbit.
 struct State {
     static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};  ///< of alpha and beta
     static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};                    ///< of step
@@ -68,7 +69,7 @@ struct State {
     /// empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
 
-    /// Returns the objects that the state holds; twice the same one in the default frame of reference.
+    /// Returns pointers to `source` and `object`, which hold the same object in the default frame of reference.
     std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;

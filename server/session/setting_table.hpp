@@ -1,6 +1,6 @@
 #pragma once
-// The table of settings. From it, the page's command line, the queries of addresses, and the messages `set` and `state`
-// are read and written, and the actions of keys that step through the values of a setting are made.
+// The table of settings. The code that reads and writes settings uses it: for the page's command line, the queries of
+// addresses, the messages `set` and `state`, and the keys that step through the values of a setting.
 
 #include <cstdint>
 #include <string_view>
@@ -98,7 +98,7 @@ void forEachSetting(const Visitor& visit) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
         visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
     };
-    // A setting that applySet() only stores, if it is in its range; Set::plain has its value.
+    // A setting whose value applySet() only stores, if `rule` allows the value; Set::plain contains the value.
     const auto plain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack = never,
                            bool forFields = false) {
         using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;

@@ -16,12 +16,13 @@ inline constexpr double kMaxAngle = 1e6;
 /// colors of 24 bits.
 bool isTransferFunction(std::span<const slicing::FogPoint> points);
 
-/// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the
-/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Ends a turn toward an element. Sets back
-/// the settings that are ResetOccasion::by_another_object or ResetOccasion::by_reset_or_another_object; the levels of a
-/// field, and which side of them is inside, become those of the new field. If only the new object has a second
-/// function, sets Coloring::value; if only the old object has one, replaces Coloring::value by Coloring::cell. Error:
-/// that of `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
+/// Replaces State::source by `source`, and State::object accordingly; does nothing if State::source is this object.
+/// Keeps the frame of reference, the orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Ends a
+/// turn toward an element. Sets back the settings that are ResetOccasion::by_another_object or
+/// ResetOccasion::by_reset_or_another_object; the levels of a field, and which side of them is inside, become those of
+/// the new field. If only the new object has a second function, sets Coloring::value; if only the old object has one,
+/// replaces Coloring::value by Coloring::cell. Error: that of `loader`, if it defers transforming the object to the
+/// frame of reference; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
 
 /// Sets the orientation back to the initial one, and ends all motion.
@@ -30,19 +31,19 @@ void returnToInitialOrientation(State& state);
 /// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
 void reset(State& state);
 
-/// Shows the object in another frame of reference; does nothing if it is the same. The caller must ensure that the
-/// members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the spacing
-/// spanningSpacing(), as they do initially, they also have it in the new frame, and the w of the focus slice stays the
-/// same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are clamped to their
-/// bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of `loader`, if it defers the
-/// transformation; the state is then unchanged.
+/// Shows the object in another frame of reference; does nothing if the state has this frame already. The caller must
+/// ensure that the members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the
+/// spacing spanningSpacing(), as they do initially, they also have it in the new frame, and the w of the focus slice
+/// stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are clamped to
+/// their bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of `loader`, if it defers
+/// the transformation; the state is then unchanged.
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
 /// bounds, so that the span (count − 1) · spacing stays the same.
 void setCount(State& state, int count);
 
-/// Applies the settings that are present in `set`. If it returns an error, some of them may be applied already, so
+/// Applies the settings that are present in `set`. After an error, some of these settings may have been applied, so
 /// callers must pass a copy of the state. Errors: those of findObject(); `not_a_rotation`; `out_of_range`;
 /// `nothing_to_undo` if `set` starts continuous turning, but no rotation has been made that could be repeated.
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,

@@ -24,8 +24,8 @@ bool refersToFile(std::string_view record);
 using DataFolderReader = std::function<Result<slicing::Object>(const session::LoadObject& load)>;
 
 /// Returns the object in a record made by encodeObjectRecord(), and validates it like an object from a client's file.
-/// Throws UnreadableRecord if the record is invalid, or if it names a file that `open` cannot read. An empty `open`
-/// reads no files.
+/// Throws UnreadableRecord if the record is invalid, or if it names a file that `open` cannot read. If `open` is empty,
+/// no file can be read.
 slicing::Object decodeObjectRecord(std::string_view bytes, const DataFolderReader& open = {});
 
 }  // namespace oval4d::store

@@ -47,8 +47,8 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
     if (known != images_.end()) return known->image;
-    // In units of a vertex with its share of the other elements, because a record may list many 2-faces of few
-    // vertices.
+    // A source counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its share of
+    // the other elements: a record may list few vertices, but many 2-faces.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices =
         std::max(slicing::elementCounts(source)[0], slicing::memoryOf(source) / kBytesOfVertex);
@@ -58,8 +58,9 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     return images_.back().image;
 }
 
-/// Returns the polytope with this name (see polytopes::designNamed()). Throws UnreadableRecord if there is none, if it
-/// cannot be built, or if it has more vertices than `vertexBudget_`, which it reduces by these vertices.
+/// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from
+/// `vertexBudget_`. Throws UnreadableRecord if there is no such polytope, if it cannot be built, or if it has more
+/// vertices than `vertexBudget_`.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
     const auto named = polytopes::designNamed(name, kMaxVertices);

@@ -41,8 +41,8 @@ class ObjectListDecoder {
     /// built, or if the objects that are built from their names have more than ten million vertices altogether.
     ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
 
-    /// Returns the object with this index. The reference is valid as long as this reader exists. Throws
-    /// UnreadableRecord if there is none.
+    /// Returns the object with this index. The reference is valid as long as this decoder exists. Throws
+    /// UnreadableRecord if there is no such object.
     const slicing::Object& at(const nlohmann::json& index) const;
 
     /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments

@@ -32,12 +32,12 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period in milliseconds,
-// the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the head, the
-// whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the key and
-// the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers have
-// equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head alone
-// does not restart the expiry period, because a save of the whole session follows within a second.
+// The script that saves a session. KEYS: as for kClaim. ARGV: the name of this server, the expiry period in
+// milliseconds, the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the
+// head, the whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the
+// key and the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers
+// have equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head
+// alone does not restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -60,15 +60,15 @@ if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
-// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as above. ARGV:
-// the token, its hash, 1 if the plain text is to be deleted.
+// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as for kClaim.
+// ARGV: the token, its hash, 1 if the plain text is to be deleted.
 constexpr const char* kHash = R"(#!lua flags=allow-oom
 if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
   redis.call('HSET', KEYS[1], 'hash', ARGV[2])
   if ARGV[3] == '1' then redis.call('HDEL', KEYS[1], 'token') end
 end)";
 
-// The script that removes a session unless another server owns it. KEYS: as above. ARGV: the name of this server.
+// The script that removes a session unless another server owns it. KEYS: as for kClaim. ARGV: the name of this server.
 constexpr const char* kRemove = R"(#!lua flags=allow-oom
 local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end

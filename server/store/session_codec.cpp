@@ -27,7 +27,7 @@ std::uint64_t revisionIn(const json& value) {
     return revision;
 }
 
-/// Returns the encoding of the last `maxCount` states.
+/// Returns the encoding of the last states, at most `maxCount`.
 template <typename States>
 json history(const States& states, std::size_t maxCount, ObjectListEncoder& objects) {
     json list = json::array();

@@ -198,7 +198,8 @@ void SqliteStore::migrate() {
         database_->run("PRAGMA foreign_keys = ON");
         spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
     }
-    // Erase the plain-text tokens from free pages and from the write-ahead log.
+    // Erase the plain-text tokens from free pages and from the write-ahead log. VACUUM also makes auto_vacuum
+    // incremental, which shows later that VACUUM has succeeded.
     constexpr std::int64_t kIncremental = 2;
     if (database_->number("PRAGMA auto_vacuum") != kIncremental) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
@@ -218,7 +219,7 @@ void SqliteStore::repair(const std::string& why) {
         to.run(kSchema);
         salvaged = salvage(*database_, to);
     }
-    // The write-ahead log is renamed first, because SQLite would apply it to the new file.
+    // The write-ahead log is renamed first: if it kept its name, SQLite would apply it to the new file.
     const std::string aside = damagedName(path_);
     database_->keepWriteAheadLog();
     std::error_code missing;

@@ -47,7 +47,7 @@ struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
     std::string head;                                          ///< as in Record; not empty if `whole` is empty
-    std::string whole;                                         ///< empty if unchanged; else `head` is replaced, too
+    std::string whole;                                         ///< empty if unchanged; else `head` is saved in any case
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore

@@ -16,7 +16,7 @@ namespace oval4d::store {
 /// The keys under which a session's objects are stored, by ObjectInfo::serial.
 using KeysBySerial = std::map<std::uint64_t, std::string>;
 
-/// The keys of the objects of each session, and whether the store has them. Not thread-safe.
+/// The keys of the objects of each session, and for each object whether the store has it. Not thread-safe.
 class StoredObjectKeys {
   public:
     /// Records that the store has exactly these objects of a session.

@@ -29,8 +29,8 @@ bool isUtf8(std::string_view text);
 /// Returns printable(text, 60) in single quotes.
 std::string inQuotes(std::string_view text);
 
-/// Returns `text` with "?" in place of every byte that is an ASCII control character or not valid UTF-8. Cuts off the
-/// text after the character with which it reaches `maxBytes` bytes; "…" replaces the rest, if there is any.
+/// Returns `text` with "?" in place of every byte that is an ASCII control character or not valid UTF-8. Keeps only the
+/// characters that begin within the first `maxBytes` bytes; "…" replaces the rest, if there is any.
 std::string printable(std::string_view text, std::size_t maxBytes);
 
 /// Returns the shortest decimal text from which the same double can be read back. Writes all digits of an integer

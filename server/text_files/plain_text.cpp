@@ -44,7 +44,7 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
 });
 
 /// Kinds of text files without rows of numbers. Their signatures are compared with the start of the text in lowercase.
-/// The first signature must be the longest.
+/// The first signature must be the longest, because plainText() compares only as many characters of the text.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},

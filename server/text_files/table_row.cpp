@@ -64,7 +64,7 @@ std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
 }
 
 // Returns whether a line is a row of a table, not a header or a title. A row begins with a number; or it has at least
-// `least` numbers, and no more other words than numbers.
+// `least` numbers, and at least as many numbers as other words.
 bool isRow(std::string_view line, std::size_t least) {
     constexpr std::string_view kBetween = ";,\t \"";
     std::size_t numbers = 0, others = 0;

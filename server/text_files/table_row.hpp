@@ -37,7 +37,8 @@ struct TableFormat {
     DecimalMark mark = DecimalMark::point;
 };
 
-/// Returns the format of a table: the separator and the decimal mark that fit its rows.
+/// Returns the format of a table: the separator and the decimal mark that fit its rows; blanks and a point if there are
+/// no rows.
 TableFormat formatOf(TableLines lines);
 
 /// The columns of a line.

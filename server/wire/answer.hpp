@@ -37,8 +37,8 @@ BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center))
 struct Pong {
     static constexpr std::string_view kMessageType = "pong";
     std::uint64_t workers = 0;  ///< the number of these threads
-    std::uint64_t waiting = 0;  ///< the number of pictures that wait for one of them
-    double busy = 0;            ///< the total time spent on all pictures that have ended, in seconds
+    std::uint64_t waiting = 0;  ///< the number of jobs, mostly pictures, that wait for one of them
+    double busy = 0;            ///< the total running time of all jobs that have ended, in seconds
     double time = 0;            ///< the time of a steady clock, in seconds
 };
 BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))

@@ -1,6 +1,6 @@
 #pragma once
-// The interface of the writers of binary encodings. It chooses the type of each array of numbers, and the writers only
-// write the array.
+// The interface of the writers of binary encodings. The interface chooses the type of each array of numbers; a writer
+// only writes the array.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace oval4d::wire {
 
-/// The types of the numbers in a typed array. Their values are the tags of such arrays in CBOR, little-endian (RFC
-/// 8746, section 2.1).
+/// The types of the numbers in a typed array. The value of an enumerator is the tag of such an array in CBOR,
+/// little-endian (RFC 8746, section 2.1).
 enum class ArrayType : std::uint8_t { uint8 = 64, uint16 = 69, uint32 = 70, float32 = 85, float64 = 86 };
 
 /// Writes a message in a binary encoding. JsonWriter has functions of the same names, so that one template can write a

@@ -10,8 +10,8 @@ namespace oval4d::wire {
 template <typename Value>
 class CachedText {
   public:
-    /// Returns the text of `value`. If `value` differs from the last value, calls `write(out)`, which must overwrite
-    /// the std::string `out` with the text. The result is valid until the next call.
+    /// Returns the text of `value`. At the first call, or if `value` differs from that of the previous call, calls
+    /// `write(out)`, which must overwrite the std::string `out` with the text. The result is valid until the next call.
     template <typename Write>
     std::string_view textFor(const Value& value, Write write) {
         if (text_.empty() || value_ != value) {

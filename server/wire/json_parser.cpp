@@ -217,7 +217,7 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
     result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
-    // Nevertheless reads the rest, so that the answer can have the message's id.
+    // Nevertheless, parse the whole text, so that the answer can have the message's id.
     const std::string repaired = withNulls(characters);
     Builder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);

@@ -285,7 +285,7 @@ template <typename... T>
 constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
     return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
 }
-// mp_flatten puts the commands in the place of session::Command.
+// mp_flatten replaces session::Command, a variant, by its alternatives, the commands.
 constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<Body>>{});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.

@@ -61,8 +61,8 @@ struct Get {
     static constexpr std::string_view kMessageType = "get";
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
-        viewport;  ///< for slices, frames and at; if absent, the connection's viewport is used
-    std::optional<scene::Background> background;  ///< for slices and frames; if absent, that of the session is used
+        viewport;  ///< for GetTarget::slices, frame and at; if absent, the connection's viewport is used
+    std::optional<scene::Background> background;  ///< for GetTarget::slices and frame; if absent, that of the session
     glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };

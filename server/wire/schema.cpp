@@ -134,7 +134,7 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
 }
 
 // Returns what a value must be, as a noun phrase: "a finite number of radians". This is the schema's title or, for a
-// number without one, "a number from 0.25 to 4".
+// number without one, "a number from 0.25 to 4"; if there are no bounds either, "different".
 std::string expected(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");

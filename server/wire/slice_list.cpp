@@ -88,8 +88,8 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.endObject();
 }
 
-// The triangles that clients draw in place of the faces of slices that need not be convex. Indices in a triangle count
-// from the first point of the triangle's slice.
+// The triangles that clients draw in place of faces that may cross each other (see Scene::fill). Indices in a triangle
+// count from the first point of the triangle's slice.
 struct FillTriangles {
     std::vector<glm::dvec3> points;
     std::vector<Triple> triangles;

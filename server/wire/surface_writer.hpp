@@ -16,7 +16,7 @@ namespace oval4d::wire {
 class BinaryWriter;
 class JsonWriter;
 
-/// Writes surfaces. Reuses its memory.
+/// Writes surfaces. Reuses its memory from one call to the next.
 class SurfaceWriter {
   public:
     /// Writes the member `surface` of slice i, or nothing if the slice has no surface.

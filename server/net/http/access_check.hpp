@@ -20,8 +20,8 @@ std::string_view headerField(const HttpRequest& request, boost::beast::http::fie
 /// Returns the parsed target of a request; an empty optional if it is malformed.
 std::optional<RequestTarget> targetOf(const HttpRequest& request);
 
-/// Returns whether pages of other sites must not request this target: the API and WebSockets, which cause work or
-/// reveal data.
+/// Returns whether pages of other sites must not request this target: true for the API and for WebSockets, because they
+/// cause work or reveal data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
 /// Checks the access rules, and counts a wrong token against the client's rate limit. If the request is refused,

@@ -43,15 +43,15 @@ class AccessControl {
     /// Checks the host, then the origin, then the token, and returns the first failure.
     Verdict check(const AccessCheckInput& fields) const;
 
-    /// Returns whether, according to the browser, a page of another site makes the request, and the origin of that page
-    /// is not an allowed foreign origin. Such a request must not cause expensive work. Returns false if a person
-    /// follows a link on such a page.
+    /// Returns whether the browser says that a page of another site makes the request, and the origin of that page is
+    /// not an allowed foreign origin. If so, the request must not cause expensive work. Returns false if a person has
+    /// followed a link on a page of another site.
     bool isCrossSite(const AccessCheckInput& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.
     bool isListedOrigin(std::string_view origin) const;
 
-    /// Returns whether any foreign origin is allowed.
+    /// Returns whether at least one foreign origin is allowed.
     bool allowsForeignOrigins() const { return !origins_.empty(); }
 
     /// Returns whether requests need a token.

@@ -83,7 +83,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     bool first_ = true, reading_ = false, stopping_ = false;
 };
 
-/// Returns the reply to a request that could not be parsed; an empty optional if the client has disconnected.
+/// Returns the reply to a request that could not be parsed; an empty optional if the client has disconnected or has not
+/// sent a whole header in time.
 std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
         return refusalReply(431, "the header is too long; at most 16 KiB are allowed\n");
@@ -168,7 +169,8 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     admission_ = context_.connections.admit(*client_, 1);
 }
 
-/// Returns the reply to every request if this connection exceeds a limit; an empty optional if it is admitted.
+/// If this connection exceeds a limit, returns the refusal with which each of its requests is answered; otherwise an
+/// empty optional.
 std::optional<Reply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
@@ -210,9 +212,9 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     co_return reply;
 }
 
-/// Receives an uploaded file, and loads its field into a session or restores the state that it contains. Checks the
-/// header of the request, and joins the session, before it reads the body. If the upload is refused before the whole
-/// body is read, the connection is closed. Returns whether another request may follow on this connection.
+/// Receives an uploaded file, and loads its field into a session or restores the state in the file. Before reading the
+/// body, checks the header of the request and joins the session. If the upload is refused before the whole body is
+/// read, closes the connection. Returns whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     Upload upload;
     std::string token;
@@ -259,7 +261,7 @@ Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {
 }
 
 /// Checks the header of an upload. If the upload is refused, returns the reply. Otherwise, returns an empty optional,
-/// sets `upload`, and sets `token` to the session's token.
+/// sets `upload`, and sets `token` to the session token that the request contains; the token may be wrong.
 std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const {
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
@@ -299,8 +301,9 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
                const SessionManager::JoinHandler& done) { sessions->join(credentials, client, done); };
 }
 
-/// Reads the body of a request whose header is valid. Returns the reply if the body is refused, else an empty optional.
-/// Closes the stream if the client has disconnected or sends too slowly.
+/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Otherwise, returns an
+/// empty optional; the stream is then closed if the client has disconnected or sends too slowly, else the body is
+/// complete.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
     TransferDeadline deadline(options());
@@ -336,8 +339,8 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
     co_return std::nullopt;
 }
 
-/// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
-/// embed replies of the API, because browsers do not tell which page embeds a picture.
+/// Returns the Cross-Origin-Resource-Policy of a reply. If at least one foreign origin is allowed, pages of all origins
+/// may embed replies of the API, because browsers do not tell which page embeds a picture.
 std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
     return isCrossSiteRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
@@ -414,8 +417,8 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
             self->drop();
         }
     });
-    // Beast checks only the first of several fields with the same name. Their combined value is known to be valid, so
-    // replace them by one field with the value that Beast requires.
+    // Beast checks only the first of several fields called Connection, or called Upgrade. isWebSocketUpgrade() has
+    // checked their combined values, so replace them by single fields with the values that Beast requires.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
     co_await connection->run(std::move(request));

@@ -28,12 +28,12 @@ struct Upload {
 /// that begins with /api/v1/sessions/.
 bool isUpload(std::string_view method, std::string_view path);
 
-/// Parses a request, for which isUpload() must be true. PUT …/fields/{name} loads a field; POST …/fields/{name}/moments
-/// adds time steps to a loaded field. The query of these requests may have `format`, `axes`, `box`, `variable`,
-/// `values` and `values_variable`. PUT …/state restores the state that the uploaded picture or `state` message
-/// contains; its query must be empty. The server's `token` in a query is ignored. Errors: `not_found` for any other
-/// path; `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated name in
-/// the query; those of session::parseBox() and session::checkLoad().
+/// Parses a request; the caller must ensure that isUpload() is true for it. PUT …/fields/{name} loads a field; POST
+/// …/fields/{name}/moments adds time steps to a loaded field. The query of these requests may have `format`, `axes`,
+/// `box`, `variable`, `values` and `values_variable`. PUT …/state restores the state that the uploaded picture or
+/// `state` message contains; its query must be empty. The server's `token` in a query is ignored. Errors: `not_found`
+/// for any other path; `unsupported_format` if the format is not an array format; `bad_message` for an unknown or
+/// repeated name in the query; those of session::parseBox() and session::checkLoad().
 Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
 /// The maximum number of bytes of an uploaded picture or `state` message. The largest picture that oval4d makes is

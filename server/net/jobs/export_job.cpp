@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Counts a file in Metrics::filesUnderWay while this object exists. At the end, records how long the file took, if
-/// markSucceeded() was called.
+/// Counts a file in Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the destructor
+/// records how long the file took.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

@@ -19,7 +19,7 @@ struct FinishedFile {
     std::vector<std::string> warnings;
 };
 
-/// The file, or an error; an empty optional only until the job is done.
+/// The result of the job: the file, or an error. The optional is empty only until the job is done.
 using ExportResult = std::optional<Result<FinishedFile>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until

@@ -14,8 +14,8 @@ namespace oval4d::net {
 /// A queued or running search for critical values of w.
 class CriticalSearchHandle {
   public:
-    /// `by`: the connection that requested the search, or null. `workersStop`: the stop token of the workers; the
-    /// search also stops if a stop of the workers is requested.
+    /// `by`: the connection that requested the search; null if no connection did (LiveSession::apply()). `workersStop`:
+    /// the stop token of the workers; the search also stops if a stop of the workers is requested.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }

@@ -23,7 +23,7 @@ class DraftTiming {
         changedBefore_ = true;
         changed_ = now;
     }
-    /// Begins a period of quick changes, even if the last change was not quick. It ends like any other.
+    /// Begins a period of quick changes, even if the last change was not quick. This period ends as any other does.
     void begin() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has rested for kRest.
     void rest(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }

@@ -18,8 +18,8 @@ class HeldSession {
     const AddressAccountPtr& client() const { return client_; }
 
     /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
-    /// account, forgets the older half of the undo steps. `objectsChanged`: whether the session may have other objects
-    /// than before.
+    /// account, forgets the older half of the undo steps, and reserves the memory that is left, even if it exceeds the
+    /// limit. `objectsChanged`: whether the session may have other objects than before the command.
     void updateReservation(bool objectsChanged);
 
     session::Session value;

@@ -156,8 +156,8 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Picture
 
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure measure, RequestId id) {
-    // Measure State::source, which has the coordinates of the object's file. State::object is its image in the frame of
-    // reference.
+    // Measure State::source, which has the coordinates of the object's file, and not State::object, which is
+    // State::source transformed to the frame of reference.
     const slicing::Object& object = session_.current.source;
     const slicing::Element element{measure.element, measure.number};
     if (const auto exists = session::checkElement(object, element); !exists) {
@@ -206,8 +206,8 @@ std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
 }
 
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
-/// clients. If several servers share the store, a command must not be acknowledged before its result is in the store;
-/// if `awaitStore` is true, this function returns only then.
+/// clients. If several servers share the store and `awaitStore` is true, this function returns only when the result is
+/// in the store, because a command must not be acknowledged earlier.
 asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                    const session::Command& command, bool awaitStore) {
     const auto loader = makeLoader();

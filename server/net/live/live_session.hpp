@@ -66,7 +66,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<std::optional<Result<Applied>>> apply(AddressAccountPtr client, session::Command command);
 
     /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
-    /// the session's strand. `left` must return whether the session has no clients left. If it returns true, this
+    /// the session's strand. `left` must return whether the session has no clients left. If `left` returns true, this
     /// object never writes the session to the store again.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
@@ -90,8 +90,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
-    /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; the
-    /// program does not link without one.
+    /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; if one
+    /// is missing, the program does not link.
     template <typename Body>
     boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, Body /*body*/, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
@@ -114,8 +114,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                                  std::shared_ptr<CriticalSearchHandle> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void scheduleSave();
-    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is
-    /// detached, saves nothing and destroys `written` without calling it.
+    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If `detached_` is
+    /// true, saves nothing and destroys `written` without calling it.
     void saveNow(store::Written written = {});
 
     std::uint64_t revision() const { return session_.revision; }

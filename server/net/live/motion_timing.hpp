@@ -26,7 +26,7 @@ class MotionTiming {
         last_ = now;
         return covered;
     }
-    /// Returns when the next step is due. A step must have been made since the last stop().
+    /// Returns when the next step is due. The caller must ensure that a step was made since the last stop().
     Clock::time_point due() const { return *last_ + kInterval; }
     /// Records that the object does not move.
     void stop() { last_.reset(); }

@@ -1,5 +1,5 @@
 #pragma once
-// The jobs that make the pictures of a session, as far as they are not done.
+// Records the unfinished jobs that make the pictures of a session.
 
 #include <algorithm>
 #include <cstddef>

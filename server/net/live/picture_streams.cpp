@@ -174,8 +174,8 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// Returns the client to whose lane a job for the pictures `wanted` is charged. The clients that receive the pictures
-/// of a job take turns.
+/// Returns the client to whose lane a job for the pictures `wanted` is charged. If several clients receive these
+/// pictures, they take turns from job to job.
 const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
@@ -301,7 +301,8 @@ void PictureStreams::sendState(Subscriber& subscriber) {
     });
 }
 
-/// Starts a timer for expirePictures(), after which pictures that clients have not acknowledged in time count as shown.
+/// Starts a timer that calls expirePictures(). This function counts as shown the pictures that clients have not
+/// acknowledged in time.
 void PictureStreams::schedulePacing() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {

@@ -29,11 +29,11 @@
 
 namespace oval4d::net {
 
-/// The clients of a session, and what each of them is sent. Pictures of the newest state follow as fast as workers make
-/// them and clients show them. To this end, a session has at most one picture job that is queued or being drawn. A
-/// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
-/// of a revision is made once and shared by all clients with the same StreamKey. While the object moves, it makes a
-/// step whenever a client can receive the next picture. Every function runs on the session's strand.
+/// The clients of a session, and what each of them is sent. Each client is sent pictures of the newest state as fast as
+/// workers make them and the client shows them. To this end, a session has at most one picture job that is queued or
+/// being drawn. A newer state replaces the state of a queued job. While one picture is encoded, the next one may be
+/// drawn. The picture of a revision is made once and shared by all clients with the same StreamKey. While the object
+/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
 class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
@@ -152,8 +152,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
-    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while no
-    // job is posted.
+    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while the
+    // worker pool has no job of this session.
     std::optional<PictureJob> queuedJob_;
 };
 

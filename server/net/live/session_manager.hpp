@@ -38,8 +38,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// store is found to be unavailable.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
-    /// Writes pending changes to the store, which takes at most about the time `limit`. The caller must not call any
-    /// function of this object afterward.
+    /// Writes pending changes to the store for at most about the time `limit`. The caller must not call any function of
+    /// this object afterward.
     void stop(Seconds limit);
 
     /// Returns the number of sessions with at least one client.

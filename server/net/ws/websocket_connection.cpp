@@ -103,9 +103,10 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
     spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
 }
 
-/// Starts to handle the message in `message_`; `executing_` is true until it has been handled. Asio's operator && could
-/// run the coroutine together with readAhead(), but the cancellation by this operator is not thread-safe if a coroutine
-/// awaits another strand, here the session's (https://github.com/chriskohlhoff/asio/issues/1348).
+/// Starts to handle the message in `message_`; `executing_` is true until this message has been handled. Asio's
+/// operator && is not used to run handleMessage() together with readAhead(): this operator cancels coroutines in a way
+/// that is not thread-safe if one of them awaits another strand, here the session's
+/// (https://github.com/chriskohlhoff/asio/issues/1348).
 void WebSocketConnection::startMessage(Incoming incoming) {
     executing_ = true;
     watching_ = false;

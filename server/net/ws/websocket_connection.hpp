@@ -33,7 +33,7 @@ using UpgradeRequest = boost::beast::http::request<boost::beast::http::empty_bod
 
 /// Handles the requests of one client over a WebSocket. It answers each request before it executes the next one and
 /// reads at most one message ahead, so TCP back-pressure slows down a client that sends too fast. It writes one message
-/// at a time, and drops a client that reads too slowly. The functions of Peer, closeForShutdown() and drop() may be
+/// at a time, and drops a client that reads too slowly. closeForShutdown(), drop() and the functions of Peer may be
 /// called from any thread; all other functions run on the stream's strand.
 class WebSocketConnection final : public Peer, public std::enable_shared_from_this<WebSocketConnection> {
   public:
@@ -66,8 +66,8 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     // The result of reading a message.
     struct Incoming {
         boost::system::error_code fault;  // why reading failed; empty if it succeeded
-        std::optional<Error> refusal;     // set if the message was long and was discarded
-        RequestId id;                     // the request id of a discarded message, if it was found
+        std::optional<Error> refusal;     // set if the message was long and was refused
+        RequestId id;                     // the request id of a refused message, if the id was found
         bool isText = false;
         ByteBudget::Reservation held;  // reserves the memory of a long message
     };
