@@ -179,7 +179,7 @@ class Client:
 
     def toward(self, element, number=None, immediately=False):
         """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number or, if it is None, the closest
-        one; if that is already there, the next one."""
+        one; if that is already there, the next one. If `immediately` is true, jumps there instead of moving."""
         chosen = {} if number is None else {"number": number}
         return self.request("toward", element=element, immediately=immediately, **chosen)
 
@@ -222,8 +222,8 @@ class Client:
         """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain, four
         pairs of numbers; without it, all coordinates are from -2 to 2. `levels` are up to four values at which surfaces
         are shown; without them, 0. `inside` is "below" or "above"; without it, "below". If `values` is given, a formula
-        such as "a*x", its values color the surfaces. All this is one step of undo. If the levels are refused, the field
-        is shown without them."""
+        such as "a*x", its values color the surfaces. All this is one step of undo. Raises Refused; if
+        only the levels or `inside` are refused, the field is shown nevertheless, without these."""
         colored = {} if values is None else {"values": values}
         return self._show(self.load(name, formula, "formula", box, **colored), levels, inside)
 
@@ -242,7 +242,7 @@ class Client:
     def append(self, name, array, axes=None, values=None):
         """Adds moments at the end of w of the field `name`, for example while a simulation runs. The numpy array is one
         moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the moments
-        need one, too. The settings stay the same. There is no step of undo."""
+        need one, too. The settings stay the same. undo() does not remove the moments."""
         samples = _samples(array)
         return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
 
@@ -251,7 +251,8 @@ class Client:
         """Uploads the file of an array by HTTP, and shows it as a field. `data` is its bytes, or a file that is open in
         binary mode. `format` is "npy", "netcdf", "hdf5" or "nifti"; if it is None, the server detects it. `box` is as
         in formula(). The formula `values`, or the array `values_variable` of the same file, colors the surfaces. If
-        `append` is true, adds the moments in the file, as append() does."""
+        `append` is true, adds the moments in the file, as append() does. Raises Refused, also for a file that is larger
+        than the server accepts."""
         flat = None if box is None else ",".join(repr(float(end)) for side in box for end in side)
         query = {"format": format, "axes": axes, "box": flat, "variable": variable, "values": values,
                  "values_variable": values_variable}
@@ -324,8 +325,9 @@ class Client:
         return self.get("slices", width, height, background)
 
     def frame(self, width=None, height=None, background=None):
-        """Returns a picture as the bytes of a PNG file. `background` is "dark", "light", "white" or "transparent"; if
-        it is None, the background of the session applies."""
+        """Returns a picture as the bytes of a PNG file. `width` and `height` are in pixels; without them, the size in
+        hello() applies. `background` is "dark", "light", "white" or "transparent"; if it is None, the background of the
+        session applies."""
         return self.get("frame", width, height, background)
 
     def _repr_png_(self):
@@ -334,7 +336,8 @@ class Client:
 
     def live(self, width=960, height=540):
         """Shows the picture in a notebook, and renews it after every change of the session: by this script, on the
-        page, or by other clients. The stream is then "frames". Needs IPython, which every notebook has."""
+        page, or by other clients. The stream is then "frames". Needs IPython, which every notebook has. Raises
+        RuntimeError outside of a notebook."""
         from IPython.display import Image, display
 
         def picture(png):
@@ -380,7 +383,8 @@ class Client:
 
     def wait(self, revision, timeout=None):
         """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Drafts of
-        fields do not count. Returns the newest state."""
+        fields do not count. Returns the newest state. Raises TimeoutError after `timeout` seconds (if it is None, after
+        those of the client), and Closed if the connection has ended."""
 
         def arrived():
             newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
@@ -513,7 +517,8 @@ class Client:
         return False
 
     def _receive(self, data):
-        """Handles a message. Returns its revision if it is a picture of the stream, else None."""
+        """Handles a message. Returns its revision if it is a picture of the stream, or a frame that answers a call;
+        else None."""
         picture = None
         with self._change:
             message = decode(data)
@@ -576,7 +581,7 @@ class Client:
 
 
 def _samples(values):
-    """Returns a numpy array, in which long floats are shortened to float32, with which the server computes."""
+    """Returns the values as a numpy array. Floats of more than 32 bits become float32, in which the server computes."""
     if numpy is None:
         raise ImportError("arrays need python3-numpy")
     values = numpy.asarray(values)
@@ -585,7 +590,7 @@ def _samples(values):
 
 def _netcdf(arrays):
     """Returns a NetCDF file (classic, with 64-bit offsets) that contains these arrays as float32. `arrays` is a dict of
-    numpy arrays by name, all of the same shape."""
+    numpy arrays by name. Raises ValueError if their shapes differ."""
     shape = next(iter(arrays.values())).shape
     if any(values.shape != shape for values in arrays.values()):
         raise ValueError("the arrays must have the same shape")
@@ -654,7 +659,7 @@ def decode(data):
 
 
 def from_json(text):
-    """Returns a JSON message as a dict. The surfaces of a slices message have the form that slices() describes."""
+    """Returns a JSON message as a dict. The surfaces and the fog of a slices message are as slices() describes them."""
     message = json.loads(text)
     if isinstance(message, dict) and message.get("type") == "slices":
         for piece in message["slices"]:
@@ -669,7 +674,7 @@ def from_json(text):
 
 def from_cbor(data):
     """Decodes a slices message in CBOR to a dict, with one dict per slice. Typed arrays become array.array of floats or
-    integers; surfaces have the form that slices() describes. Raises ValueError if the bytes are not such a message."""
+    integers; surfaces and fog are as slices() describes them. Raises ValueError if the bytes are not such a message."""
     if cbor2 is None:
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 

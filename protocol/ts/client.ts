@@ -87,7 +87,7 @@ const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // seconds: kTestTimeout while a file is requested, because the answer follows the file
+const kFileTestTimeout = 300; // seconds: the same while a file is requested, because a test is answered after the file
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {

@@ -9,7 +9,7 @@ import type { Parts, Vector, Viewport } from "./types.js";
 /** An array of integers. In binary encodings, it has the narrowest type that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
-/** How to draw the slices. A client that follows it draws the same picture as the server's frame of this size. */
+/** How to draw the slices. A client that follows this draws the same picture as the server, for the size `viewport`. */
 export interface SceneDescription {
     view: View;
     shown: Parts;
@@ -62,8 +62,10 @@ export interface SceneDescription {
     axes: { x: number; y: number; length: number };
     /**
      * The layout of the parallel coordinates, measured from the lower left corner. Vertex i is in row i / per_row (from
-     * the top) and column i % per_row. `zero` is the height of the top row's zero line. A coordinate c is drawn as a
-     * vertical line of the length c · amplitude / circumradius. `named`: whether names are written below the columns.
+     * the top) and column i % per_row. `zero` is the height of the top row's zero line. `row_step`, `column_step` and
+     * `line_step` are the distances from each row to the next one below, from each column to the next, and between the
+     * four lines of a column. A coordinate c is drawn as a vertical line of the length c · amplitude / circumradius.
+     * `named`: whether names are written below the columns.
      */
     coordinates: {
         rows: number;

@@ -5,7 +5,10 @@ import { formatDecimal, formatDegrees } from "./format";
 const kMaxDenominator = 60; // of a fraction of pi
 const kTolerance = 1e-9;
 
-/** An angle for editing: in degrees or as a fraction of pi, whichever is exact, else in degrees with more digits. */
+/**
+ * An angle for editing: in degrees if two decimals are exact, else as a fraction of pi if one is exact, else in degrees
+ * with ten decimals.
+ */
 export function editableAngle(radians: number): string {
     const degrees = (radians * 180) / Math.PI;
     if (Math.abs(degrees * 100 - Math.round(degrees * 100)) < kTolerance * 100) return formatDegrees(radians);

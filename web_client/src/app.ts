@@ -88,7 +88,7 @@ export class App {
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
             this.fieldPanel.updatePicture(slices);
-            // The state of a picture arrives before the picture, so `state` is that of this picture.
+            // The server sends the state of a picture before the picture, so `this.state` belongs to these slices.
             if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
@@ -248,7 +248,7 @@ export class App {
         this.tour.start();
     }
 
-    /** Handles a new connection. The server may be another one, with another key table. */
+    /** Handles a new connection. It may lead to another server than the last one, with another key table. */
     private async connectionOpened(): Promise<void> {
         this.keyRepeatLimiter.restart();
         this.latency.restart();
@@ -296,7 +296,7 @@ export class App {
      */
     private requestStream(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
-        // Without a connection, the hello of the next connection requests the stream.
+        // Without a connection, this rejects, and the client sends the same hello when it connects again.
         this.client.hello({ stream, viewport: this.stage.size }).catch(() => {});
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
@@ -354,10 +354,10 @@ export class App {
     /** Asks for pictures in the new color scheme of the page. */
     private schemeChanged(): void {
         if (this.state) this.update(this.state);
-        this.client.hello({ scheme: this.colorScheme.current }).catch(() => {}); // applies to later connections, too
+        this.client.hello({ scheme: this.colorScheme.current }).catch(() => {}); // sent on later connections, too
     }
 
-    /** Full screen hides the tools, until the button Tools is pressed. Afterward, they are open if they were before. */
+    /** Full screen hides the tools until the button Tools is pressed. At its end, they are as they were before it. */
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
@@ -366,7 +366,9 @@ export class App {
         this.stage.redraw();
     }
 
-    /** Hides the messages over the picture, and focuses the drawing. If it had the focus, also ends the highlight. */
+    /**
+     * Hides the messages over the picture, and focuses the drawing. If it had the focus before, removes the highlight.
+     */
     private escape(event: KeyboardEvent): void {
         const isInDrawing = event.target === this.drawing;
         if (isInDrawing && this.state?.highlight) void this.send({ type: "set", highlight: null });
@@ -405,7 +407,11 @@ export class App {
         return undefined;
     }
 
-    /** Loads a formula, then changes settings; resolves to the revision after both. */
+    /**
+     * Loads a formula, then changes settings; resolves to the revision after both. Rejects if the formula is refused.
+     * If only the settings are refused, resolves to the revision of the formula without them. `continues` tells whether
+     * the formula belongs to the undo step of the previous command.
+     */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both requests are sent at once, so that no picture shows the formula without the settings.
         const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];

@@ -10,7 +10,7 @@ export interface Family {
 /** The quality of a match; smaller is better. */
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
-const kMostCompared = 64; // letters that are compared to find similar names
+const kMostCompared = 64; // letters: of longer names, only the beginning is compared to find similar names
 const kLettersPerMistake = 3; // letters of the typed name per allowed mistake, as in the server's suggestions
 
 interface Indexed {

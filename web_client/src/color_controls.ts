@@ -116,7 +116,7 @@ export class ColorControls {
         });
     }
 
-    /** Shows the colorings that the object has, and the one that is seen. */
+    /** Offers the colorings that the object has, checks the one that the picture shows, and shows its color scale. */
     private showColoring(state: State): void {
         const object = isField(state) ? "field" : "polytope";
         for (const [value, option] of this.options) {

@@ -9,7 +9,7 @@ import { readStored, writeStored } from "./storage";
 export const kSchemeChoices = ["system", "dark", "light"] as const;
 export type SchemeChoice = (typeof kSchemeChoices)[number];
 
-/** The backgrounds of pictures that are colors: all except "auto" and "transparent". */
+/** The backgrounds that are a color: all except "auto" and "transparent". */
 export type Ground = keyof typeof colors.grounds;
 
 const kSchemeKey = "oval4d.scheme"; // storage key of the choice, in localStorage

@@ -213,7 +213,7 @@ export class CommandLine {
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
         const { openings } = this;
-        const isSame = (): boolean => openings === this.openings; // otherwise the user is typing another line
+        const isSame = (): boolean => openings === this.openings; // otherwise the user has opened the line again
         try {
             await this.events.run(line);
             if (isSame()) this.close();

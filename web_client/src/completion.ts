@@ -22,10 +22,10 @@ export interface Completions {
     suffix: string;
 }
 
-const kPageSettings = new Map([["latency", ["on", "off"]]]); // of `set`, executed by the page
-const kOfRestOfLine = ["polytope", "kind"]; // names that may contain blanks
+const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that the page changes itself
+const kOfRestOfLine = ["polytope", "kind"]; // the kinds of names that may contain blanks
 
-/** The completions of the text `line`, at its end. */
+/** The completions at the end of the text `line`, which ends at the caret. */
 export function completionsOf(line: string, names: Names): Completions {
     const [, before = "", verb = "", blanks = "", rest = ""] = /^(\s*:?\s*)(\S*)(\s*)(.*)$/s.exec(line) ?? [];
     const command = kCommands.find(({ name }) => name === verb);
@@ -82,7 +82,7 @@ function finish(line: string, start: number, options: string[], suffix = ""): Co
     return { start, options: isComplete ? [] : options, suffix };
 }
 
-/** The names of keys for the command `key`. It takes single keys, and not those that only the page handles. */
+/** The names of keys for the command `key`, which sends one keystroke, but none that only the page handles. */
 export function namesOfKeys(table: readonly KeyBinding[]): string[] {
     return table
         .filter(({ key, client }) => key.length === 1 && !client)

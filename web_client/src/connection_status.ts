@@ -19,7 +19,7 @@ export class ConnectionStatus {
     private presentedAt: Date | undefined;
     private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
     private unanswered = 0; // number of requests without an answer
-    private lateAnswers = 0; // number of requests that have been unanswered for kMaxWait
+    private lateAnswers = 0; // number of these requests that were sent more than kMaxWait ago
     private countdown: ReturnType<typeof setInterval> | undefined;
 
     update(status: Status): void {
@@ -33,7 +33,7 @@ export class ConnectionStatus {
         if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
     }
 
-    /** Counts the request of this answer. While an answer is late, shows that the page waits for the server. */
+    /** Counts a request until it is answered. While any answer is late, shows that the page waits for the server. */
     follow(answer: Promise<unknown>): void {
         this.countUnanswered(1);
         const count = (change: number): void => {

@@ -23,10 +23,10 @@ export class CriticalValues {
     isCurrent = false;
     /** Whether `all` and `range` are exact and those of the newest state. */
     isExact = false;
-    /** The lowest and the highest w of the object; 0 before they are known. */
+    /** The lowest and the highest w of the object or, until those of a field are known, of its slices; initially 0. */
     range: [number, number] = [0, 0];
     private originW = 0; // to add to the w of pictures, which is measured from the center of the object
-    private knownFor = ""; // what the known or requested values depend on
+    private knownFor = ""; // identifies what the known or requested values depend on; "" if a request has failed
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;
@@ -38,7 +38,7 @@ export class CriticalValues {
 
     update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
         const object = [polytope, pace, follow, boost, field, levels, inside];
-        const key = JSON.stringify([object, orientation, slices.spacing]); // δ changes if this name gets another object
+        const key = JSON.stringify([object, orientation, slices.spacing]); // δ differs if this name has a new object
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;

@@ -30,7 +30,7 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private bodyToRestore: string | undefined; // the chosen body, while a flat element needs another one
+    private bodyToRestore: string | undefined; // the chosen body, while an element without volume needs the skeleton
     private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
@@ -106,8 +106,8 @@ export class ExportDialog {
     }
 
     /**
-     * Hides the formats that do not describe the object. If the selected format is among them, selects the first format
-     * of the list.
+     * Hides the formats that cannot describe the object. If the selected format is one of these, selects the first
+     * format of the list.
      */
     private showFormats(): void {
         const kind = this.state?.field ? "fields" : "polytopes";
@@ -170,7 +170,7 @@ export class ExportDialog {
         this.restoreChoices();
     }
 
-    /** Restores the stored choices. */
+    /** Restores the choices that storeChoices() has stored in this tab, if any. */
     private restoreChoices(): void {
         for (const [name, value] of Object.entries(readStored<Record<string, string>>(kChoicesKey) ?? {})) {
             const field = this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement | null;
@@ -303,7 +303,7 @@ function nameOf(element: State["highlight"]): string {
     return element ? `${element.element} ${element.number}` : "";
 }
 
-/** The options that words such as "fit=5" give. */
+/** The options that words such as "fit=5" give; throws an Error if a word is not an option. */
 function optionsOf(words: string[]): Options {
     const options: Options = {};
     for (const word of words) {

@@ -17,8 +17,8 @@ import { readStored, writeStored } from "./storage";
 
 export interface FieldPanelEvents {
     /**
-     * Loads a formula, then changes settings; resolves to the revision. `continues` tells whether this belongs to the
-     * undo step of the previous command. Rejects with an Error if the formula is refused.
+     * Loads a formula, then changes settings; resolves to the revision after both. `continues` tells whether this
+     * belongs to the undo step of the previous command. Rejects with an Error if the formula is refused.
      */
     load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
@@ -34,7 +34,7 @@ const kSeries = 1500; // milliseconds: changes that follow each other within thi
 const kMaxTyped = 100; // the most formulas whose typed text is kept, for undo
 const kStorageKey = "oval4d.formula";
 const kAxes = ["x", "y", "z", "w"] as const;
-const kOfValues = /^values: /; // the beginning of an error message about the formula of values
+const kOfValues = /^values: /; // the beginning of an error message about the formula whose values color the surfaces
 
 export class FieldPanel {
     private readonly root = byId("field");
@@ -56,13 +56,14 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    private sent: { settings: Settings; revision: number } | undefined; // what load() sent, until its state arrives
+    // The settings that load() has sent last, and the revision of the answer; undefined once this revision has arrived.
+    private sent: { settings: Settings; revision: number } | undefined;
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
     // state.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // textOf() of the newest state
-    private ownText = ""; // textOf() of the state with the formula that this page loaded last
+    private ownText = ""; // textOf() of the state whose formula this page loaded, or took from the server, last
     private readonly typedFields = new Map<string, FormulaWithBox>(); // what was typed, by textOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
@@ -208,7 +209,7 @@ export class FieldPanel {
         this.loads.submit(field, delay);
     }
 
-    /** What is written in the fields. */
+    /** The formulas in the fields, with this box. */
     private written(box: Box): FormulaWithBox {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
@@ -253,7 +254,10 @@ export class FieldPanel {
         return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
     }
 
-    /** The settings that stay the same when a formula is edited, although a new object has settings of its own. */
+    /**
+     * The settings that stay the same when a formula is edited, although a new object has settings of its own. None if
+     * the object that is shown is not a formula that the panel has loaded or shown.
+     */
     private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;
         if (!loaded || !state || !isField(state) || state.polytope.name !== kFormulaName) return {};

@@ -1,6 +1,6 @@
-// Loads files that the user chooses or drops on the page. Sends a text in a `load` message, and uploads an array. From a
-// picture that oval4d has saved, restores the state that it contains. Shows the progress, and the server's warnings or
-// error.
+// Loads files that the user chooses or drops on the page. A text is sent in a `load` message; an array is uploaded; of
+// a picture that oval4d has saved, or a JSON file with a state, the state is restored. Shows the progress, and the
+// server's warnings or error.
 
 import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 

@@ -16,8 +16,8 @@ export class FileError extends Error {}
 const kMaxNameLength = 64; // characters, as in `load`
 
 /**
- * Reads the text of a polytope or a list of points from a file; throws FileError if it cannot be sent in a message of
- * `limit` bytes.
+ * Reads the text of a polytope or a list of points from a file. Throws FileError if the file is empty, or too large to
+ * be sent in a message of `limit` bytes.
  */
 export async function readFile(file: File, limit: number): Promise<LoadContent> {
     if (file.size === 0) throw new FileError("The file is empty.");
@@ -30,8 +30,8 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
 }
 
 /**
- * The encoding of a file in UTF-16, which has a byte order mark or one zero among the first two bytes; undefined for
- * other files. The server recognizes UTF-16 in the same way.
+ * The encoding of a file in UTF-16, given its bytes: the first two are a byte order mark, or exactly one of them is 0.
+ * Undefined for other files. The server recognizes UTF-16 in the same way.
  */
 export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
     if (first === undefined || second === undefined) return undefined;
@@ -49,8 +49,8 @@ async function textOf(file: File): Promise<string> {
 const kStateStart = /^(?:\x89PNG|\s*\{)/;
 
 /**
- * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file is of
- * another kind; throws FileError if it contains no state.
+ * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file begins
+ * like neither of them. Throws FileError if it contains no state, or if a JSON file has more than `limit` bytes.
  */
 export async function readState(file: File, limit: number): Promise<State | undefined> {
     const start = new Uint8Array(await file.slice(0, 64).arrayBuffer());
@@ -75,7 +75,7 @@ function formatOf(name: string, data: string): LoadContent["format"] {
     return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
 }
 
-/** The name under which a file is loaded: the last characters of the file's name. */
+/** The name under which a file is loaded: at most the last kMaxNameLength characters of the file's name; never "". */
 export function nameOf({ name }: File): string {
     const text = [...name.replace(/\p{C}/gu, "")].slice(-kMaxNameLength).join("").trim();
     return text === "" ? "file" : text;

@@ -21,7 +21,7 @@ export function isFirstVisit(): boolean {
 /** The line of welcome. It closes when its advice has been followed: the object was turned, and the focus moved. */
 export class WelcomeLine {
     private readonly root = byId("welcome");
-    private since = 0; // the revision of the first view
+    private since = 0; // the revision from which on the first view is complete
     private first: State | undefined;
     private hasTurned = false;
     private hasMoved = false;
@@ -31,7 +31,7 @@ export class WelcomeLine {
         startTour: () => void,
         private readonly closed: () => void,
     ) {
-        // Whoever drags, taps or zooms needs the room of the line for the picture.
+        // Whoever drags, taps or zooms uses the picture, which needs the room that the line takes.
         for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {

@@ -1,5 +1,5 @@
-// Moves the focus slice to any w. The newest w is sent once per animation frame, when the previous one has been
-// answered.
+// Moves the focus slice to any w. Sends the newest w, at most once per animation frame, and only when the previous one
+// has been answered.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -17,7 +17,7 @@ export class FocusControl {
     private isScheduled = false;
     private inFlight: number | undefined; // the w that has been sent and not answered
     private answered: FocusAtRevision = { w: NaN, revision: 0 };
-    private seen: FocusAtRevision = { w: 0, revision: 0 }; // in the newest state
+    private seen: FocusAtRevision = { w: 0, revision: 0 }; // the focus in the newest state
 
     /** `settled` is called when nothing is left to send, with the error if the last move failed. */
     constructor(
@@ -47,7 +47,10 @@ export class FocusControl {
         this.isUnsent = false;
     }
 
-    /** Follows the focus of the session. Returns whether something other than this control has moved it. */
+    /**
+     * Records the focus in the newest state. Returns whether something other than this control has moved it there;
+     * false for a state from before the last answered move.
+     */
     recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {
         this.seen = { w, revision };
         const isSame = (other = NaN): boolean => Math.abs(w - other) <= kSame * slices.spacing;

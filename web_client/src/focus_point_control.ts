@@ -1,5 +1,5 @@
-// Moves the focus point of the matrix view. The newest point is sent once per animation frame, when the previous one
-// has been answered.
+// Moves the focus point of the matrix view. Sends the newest point, at most once per animation frame, and only when the
+// previous one has been answered.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -23,7 +23,7 @@ export class FocusPointControl {
     private isSending = false;
     private isScheduled = false;
     private continues = false; // whether the next move belongs to the undo step of the last one
-    private current = kOrigin; // in the session
+    private current = kOrigin; // the focus point of the session
     private readonly lastChange = new LastChange();
     private origin = kOrigin; // to add to coordinates in the picture to get those of the object's file
 

@@ -43,12 +43,12 @@ export class FocusPointDrag {
         return true;
     }
 
-    /** Continues the drag. Beyond the panel, the focus point stays at its edge. */
+    /** Continues the drag. If the pointer leaves the panel, the focus point stays at the edge of the panel. */
     dragTo(at: Point): void {
         if (this.panel) this.moveIn(this.panel, at);
     }
 
-    /** Moves the focus point to a point of the drawing; returns false if there is no panel. */
+    /** Moves the focus point to a point of the drawing; returns false if no panel is there. */
     moveTo(at: Point): boolean {
         const panel = this.panelAt(at);
         if (!panel) return false;
@@ -69,7 +69,7 @@ export class FocusPointDrag {
         return matrix && panelAt(matrix, x, y, this.stage.size);
     }
 
-    /** A point of the drawing in pixels of the picture. */
+    /** Converts a point of the drawing, in CSS pixels, to pixels of the picture. */
     private pixelOf({ x, y }: Point): Point {
         const ratio = this.stage.size.height / this.drawing.clientHeight;
         return { x: x * ratio, y: y * ratio };

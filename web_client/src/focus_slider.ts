@@ -31,7 +31,7 @@ export class FocusSlider {
     private readonly control: FocusControl;
     private state: State | undefined;
     private isDragged = false;
-    private mayNotSnap = false; // while a modifier key is held
+    private mayNotSnap = false; // whether Alt or Shift is held
     private playedAt: number | undefined; // the time of the last step in milliseconds; undefined while not playing
     private direction = 1;
 

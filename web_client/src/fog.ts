@@ -28,7 +28,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-/** Fog for a body inside a level: dense where the values are farthest inside, and thin at the level. */
+/** Fog for a body inside a level: dense where the values are farthest inside, thinner at the level, clear outside. */
 export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;
@@ -81,8 +81,8 @@ export function isTransferFunction(points: FogPoint[]): boolean {
 }
 
 /**
- * The points, with point i moved to `value` and `opacity`, or as near to them as its neighbors and `ends` allow.
- * `ends`: the least and the greatest value of the field.
+ * The points, with point i moved to `value` and `opacity`, or as near to them as its neighbors and `ends` allow. `ends`
+ * are the least and the greatest value that a point may have.
  */
 export function withPoint(points: FogPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;

@@ -1,5 +1,5 @@
-// The editor of the transfer function of fog: a curve over the distribution of the values, whose points can be dragged,
-// and number fields for the same points.
+// The editor of the transfer function of fog: a curve whose points can be dragged, drawn over the distribution of the
+// field's values; and number fields for the same points.
 
 import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
 
@@ -28,7 +28,7 @@ export class FogEditor {
     private readonly curve = byId("fog-curve");
     private readonly list = byId("fog-points");
     private readonly error = byId("fog-error");
-    private mistake = ""; // what is wrong with the text in the fields; "" if nothing is
+    private mistake = ""; // what is wrong with the texts in the fields; "" if all are valid
     private refusal = ""; // why the server refused the last change; "" if it did not
     private readonly addButton = byId<HTMLButtonElement>("fog-add");
     private readonly showButton = byId<HTMLButtonElement>("fog-show");
@@ -69,7 +69,7 @@ export class FogEditor {
         this.draw();
     }
 
-    /** Takes over the histogram of a picture. */
+    /** Takes over the distribution of the values from a picture's histogram, unless its range is the present one. */
     updatePicture(picture: Slices): void {
         const { histogram } = picture;
         if (!histogram || String(histogram.range) === String(this.distribution?.range)) return;

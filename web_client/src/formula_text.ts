@@ -33,12 +33,13 @@ export class FormulaText {
         this.input.value = text;
     }
 
-    /** Shows an error of the server, and marks the wrong character if the message names it; undefined clears both. */
+    /** Shows an error of the server, and marks the character that it names, if any; undefined clears error and mark. */
     showError(message: string | undefined): void {
         const mistake = message === undefined ? undefined : mistakeOf(message);
         const where = mistake ? `Character ${mistake.at + 1}: ${mistake.what}` : (message ?? "");
         const text = where === "" ? "" : toSentence(where);
-        if (this.error.textContent !== text) this.error.textContent = text; // otherwise it would be announced again
+        // Setting the same text again would make screen readers repeat it.
+        if (this.error.textContent !== text) this.error.textContent = text;
         this.input.setAttribute("aria-invalid", String(message !== undefined));
         this.excerpt.hidden = mistake === undefined;
         if (!mistake) return;

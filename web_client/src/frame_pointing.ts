@@ -10,15 +10,16 @@ import { followHover, type Point } from "./hover";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
 
-const kRest = 200; // milliseconds without a new picture after which the picture rests; longer than the steps of turning
+// Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
+const kRest = 200;
 const kInterval = 70; // milliseconds between two requests, at least
-const kNear = 8; // pixels by which the pointer may have moved on when the answer arrives
+const kNear = 8; // pixels: if the pointer has moved farther when the answer arrives, the answer is not shown
 const kFollow = 24; // pixels within which the label goes along with the pointer until the next answer
 
 export class FramePointing {
     private pointer: Point | undefined;
     private named: Point | undefined; // the point whose element the label names
-    private revision: number | undefined; // of the picture, once it rests
+    private revision: number | undefined; // of the picture at rest; undefined while no picture rests
     private asked = ""; // the pixel of the last request about this picture
     private isAsking = false;
     private resting: ReturnType<typeof setTimeout> | undefined;
@@ -60,7 +61,7 @@ export class FramePointing {
         this.pointer = at;
         if (!at || (this.named && distance(at, this.named) > kFollow)) {
             this.hide();
-            this.asked = ""; // the pointer may return to the same pixel
+            this.asked = ""; // so that the page asks again if the pointer returns to this pixel
         } else if (this.named) {
             this.label.place(at);
         }
@@ -99,7 +100,7 @@ export class FramePointing {
         if (answer.revision !== this.revision || !pointer) return;
         const element = descriptionOf(answer);
         if (distance(pointer, at) > kNear) {
-            this.asked = ""; // the pointer may return to the same pixel
+            this.asked = ""; // so that the page asks again if the pointer returns to this pixel
         } else if (element) {
             this.named = at;
             this.label.show(element, pointer);
@@ -109,7 +110,7 @@ export class FramePointing {
     }
 
     private hide(): void {
-        if (!this.named) return; // if the label is visible, pointing.ts has shown it for the page's own picture
+        if (!this.named) return; // a label that is visible now belongs to pointing.ts, in a picture that the page draws
         this.named = undefined;
         this.label.hide();
     }

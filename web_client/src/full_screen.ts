@@ -24,7 +24,7 @@ export class FullScreen {
         else await document.documentElement.requestFullscreen({ navigationUI: "hide" });
     }
 
-    /** Finds whether the page is in full screen; it may be so from the beginning. */
+    /** Calls `changed` if full screen has begun or ended since the last call. The page may begin in full screen. */
     update(): void {
         const { isOn } = this;
         if (isOn === this.wasOn) return;

@@ -20,7 +20,7 @@ export class HeaderValue {
     private readonly input: HTMLInputElement;
     private readonly error: HTMLElement;
     private readonly note: HTMLElement;
-    private before = ""; // the value when editing began
+    private before = ""; // the text when editing began; a text that equals it is not applied
     private refused: string | undefined; // the text that could not be applied
     private focusAfter: HTMLElement | undefined; // receives the focus after editing
 
@@ -90,7 +90,7 @@ export class HeaderValue {
         if (beyond > 0) this.note.style.translate = `${-Math.ceil(beyond)}px 0`;
     }
 
-    /** Closes the field, and moves the focus to where it was. */
+    /** Closes the field. If it has the focus, moves the focus to where it was before editing. */
     private close(): void {
         const hadFocus = document.activeElement === this.input;
         this.before = this.input.value; // nothing is left to apply when the field loses the focus
@@ -107,7 +107,7 @@ export class HeaderValue {
         if (event.key === "Enter") void this.submit();
     }
 
-    /** Applies a change when the focus leaves the field, unless it leaves the window. */
+    /** Applies a change when the focus leaves the field, unless the window loses it, or the text was refused. */
     private blurred(): void {
         if (this.label.hidden || !document.hasFocus() || this.input.value === this.refused) return;
         void this.submit();

@@ -77,7 +77,7 @@ export class Help {
         );
     }
 
-    /** Opens the dialog. With a `topic`, shows only the lines that mention it, as filter() does. */
+    /** Opens the dialog with what filter() shows; throws an Error if filter() does. */
     open(topic = ""): void {
         this.filter(topic);
         if (!this.dialog.open) this.dialog.showModal();
@@ -87,7 +87,7 @@ export class Help {
         this.dialog.close();
     }
 
-    /** Shows only the lines that mention the topic; throws an Error if there are none. */
+    /** Shows only the lines that mention the topic, all for "". Throws an Error if no line mentions it. */
     filter(topic: string): void {
         const wanted = topic.toLowerCase();
         const mentions = (line: HTMLElement): boolean =>

@@ -1,12 +1,12 @@
 // The place of a mouse or pen that hovers over a part of the page.
 
-/** In pixels of the page, from the upper left corner of the part. */
+/** A point of a part of the page: x to the right and y down from the part's upper left corner, in CSS pixels. */
 export interface Point {
     x: number;
     y: number;
 }
 
-/** Calls `moved` with the pointer's place; with undefined if it leaves, if a button is down, and for touches. */
+/** Calls `moved` with the pointer's place; with undefined if it leaves `area`, if a button is down, and for touches. */
 export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
         const { left, top } = area.getBoundingClientRect();

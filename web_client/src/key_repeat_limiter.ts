@@ -11,7 +11,10 @@ export class KeyRepeatLimiter {
         return this.unanswered === 0 && this.presentedRevision >= this.awaitedRevision;
     }
 
-    /** Tracks a request until its picture is presented. */
+    /**
+     * Tracks a request: mayRepeat is false until the request is answered and the picture of the answer's revision is
+     * presented. Rejects if the request does.
+     */
     async track(answer: Promise<{ revision: number }>): Promise<void> {
         ++this.unanswered;
         try {

@@ -12,7 +12,7 @@ export interface InitialView {
     credentials?: Credentials;
     /** The field of the query, which is loaded in a new session before the commands. */
     field?: FormulaWithBox;
-    /** What is wrong with the query, except for the formula and the commands. */
+    /** What is wrong with the link to a session or the box in the query. The server finds the faults of the rest. */
     faults: string[];
     /** Commands that produce the rest of the view of the query. */
     lines: string[];
@@ -44,8 +44,8 @@ export function readInitialView(): InitialView {
 }
 
 /**
- * The session of a shared link in the address bar, if there is one; removes its token from the address bar. `fault`
- * says what is wrong with a link that was cut or changed on its way.
+ * The session of a shared link in the address bar, if there is one; remembers the session, and removes its token from
+ * the address bar. `fault` says what is wrong with a link that was cut or changed on its way.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
@@ -147,7 +147,10 @@ function parametersOf(query: string): [name: string, value: string][] {
         .filter(([name]) => !isIgnored(name));
 }
 
-/** The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without a formula. */
+/**
+ * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without a formula. If
+ * the box is not valid, the field has kUsualBox, and `faults` says what is wrong.
+ */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(parametersOf(query));
     if (formula === undefined) return { faults: [] };
@@ -158,7 +161,8 @@ function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
 
 /** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line. */
 export function commandLines(query: string): string[] {
-    // "toward" comes last, as in frame.png, because it depends on the polytope and the rotations.
+    // "toward" comes last, as in the query of the API's frame.png, because it depends on the polytope and the
+    // rotations.
     const isLast = ([name]: [string, string]): number => Number(name === "toward");
     return parametersOf(query)
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))

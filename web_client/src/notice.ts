@@ -9,7 +9,9 @@ export class Notice {
     private readonly root = byId("notice");
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** Shows a message. With a `text` for the user to copy, it stays until the next action. */
+    /**
+     * Shows a message. If `text` is given, also shows it for the user to copy; both then stay until the next action.
+     */
     show(message: string, text?: string): void {
         this.write([message]);
         if (text === undefined) return;

@@ -96,7 +96,8 @@ export class OrbitControl {
 
     /**
      * The orbit after a change. If less than kLeastVisible of the slices would then be visible, and fewer than before,
-     * makes only the largest part of the change that avoids this.
+     * makes only the largest part of the change that avoids this. Without a hit tester, makes the whole change, which
+     * hitTesterKnown() limits later.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };

@@ -39,7 +39,7 @@ export class PageSession {
         return true;
     }
 
-    /** Joins the session of a link that was pasted into the address bar, because this does not reload the page. */
+    /** Joins the session of a link that was pasted into the address bar: browsers do not reload the page for it. */
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tell([fault]);
@@ -56,7 +56,7 @@ export class PageSession {
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
     }
 
-    /** Notes that the session is lost. `state` is its last state; the new session gets the same view. */
+    /** Notes that the session is lost. The new session gets the view of `state`, its last state, if that is known. */
     lost(reason: string, state: State | undefined): void {
         this.lostState = state;
         this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
@@ -67,7 +67,7 @@ export class PageSession {
         ]);
     }
 
-    /** In a new session, restores the view of a lost session or applies the initial view. */
+    /** In a new session, restores the view of a lost session, or applies the initial view; otherwise does nothing. */
     async restoreView(): Promise<void> {
         const { lines, field, faults } = this.view;
         const lost = this.lostState;

@@ -122,7 +122,7 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
     return made;
 }
 
-/** Switches the keys off that act without Ctrl, for those who press them by mistake, such as by speech (WCAG 2.1.4). */
+/** A button that switches the keys without Ctrl off and on: speech input may press them by mistake (WCAG 2.1.4). */
 function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
     const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
         const on = made.getAttribute("aria-pressed") !== "true";

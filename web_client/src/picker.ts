@@ -14,7 +14,7 @@ const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
 export class Picker {
-    /** The catalogue as it was listed last; empty before. */
+    /** The catalogue that the server listed last; empty before the first list. */
     catalogue = new Catalogue([]);
     private readonly dialog = new Dialog("picker");
     private readonly input = byId<HTMLInputElement>("picker-search");
@@ -29,8 +29,8 @@ export class Picker {
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /**
-     * `choose` shows the object of this name, which is an array of the server's data folder if `isData` is true. It
-     * rejects with an Error whose message is shown to the user.
+     * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true, else an
+     * object of the catalogue or one that the name describes. `choose` rejects with an Error whose message is shown.
      */
     constructor(private readonly choose: (name: string, isData: boolean) => Promise<unknown>) {
         this.input.addEventListener("input", () => this.search());

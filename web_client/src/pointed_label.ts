@@ -16,7 +16,7 @@ export interface ElementDescription extends PolytopeElement {
     length?: number | undefined;
     /** The least and the greatest w of its vertices. */
     range?: readonly [number, number] | undefined;
-    /** The w of the slice in which it is pointed at. */
+    /** The w of the slice in which the pointer is on the element; undefined if the pointer is on no slice. */
     sliceW?: number | undefined;
 }
 

@@ -9,9 +9,9 @@ export class PrintView {
     private readonly root = byId("print");
     private frame: ImageBitmap | undefined; // the picture to print, if the server draws the pictures
     private isPrepared = false;
-    private focused: HTMLElement | undefined; // the last element with the focus, which printing takes away
+    private focused: HTMLElement | undefined; // the element that had the focus last; printing takes the focus from it
 
-    /** `title` returns the heading to print. `failed` is called if there is no picture to print. */
+    /** `title` returns the heading to print. `failed` is called if the server does not send the picture to print. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,

@@ -7,7 +7,7 @@ const kModeKey = "oval4d.mode"; // storage key
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
 export class RenderingModeSwitch {
-    private chosen = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
+    private chosen = readStored<Mode>(kModeKey) ?? "geometry"; // the user's choice, also while WebGL is unavailable
 
     constructor(
         private readonly stage: Stage,
@@ -19,7 +19,7 @@ export class RenderingModeSwitch {
         this.stage.mode = this.stage.canDrawGeometry ? this.chosen : "frames";
     }
 
-    /** Sets the mode that the user chose. */
+    /** Sets the mode that the user has chosen; while WebGL is unavailable, refuses "geometry" with a message. */
     choose(mode: Mode): void {
         if (mode === "geometry" && !this.stage.canDrawGeometry) return this.actions.tell(kNoGraphics);
         this.chosen = mode;

@@ -33,8 +33,8 @@ export function turnsOfTwist(angle: number): Turns {
 }
 
 /**
- * Turns by a gamepad of the standard layout: the left stick rolls the 4-D ball, the right stick the 3-D ball, the
- * triggers turn in zw, and the buttons above them in xy.
+ * Turns by a gamepad of the standard layout, as it is held for this many seconds: the left stick rolls the 4-D ball,
+ * the right stick the 3-D ball, the triggers turn in zw, and the buttons above them in xy.
  */
 export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): Turns {
     const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);

@@ -1,6 +1,6 @@
-// Turns the polytope by gestures. The turns of a gesture are added up; their sum is sent once per animation frame, when
-// the previous sum has been answered. All turns of one gesture are one undo step and one rotation, which keys can
-// repeat.
+// Turns the polytope by gestures. Adds up the turns of a gesture, and sends their sum, at most once per animation frame
+// and only when the previous sum has been answered. All turns of one gesture are one undo step and one rotation, which
+// keys can repeat.
 
 import type { Plane, Request } from "@oval4d/protocol";
 
@@ -9,7 +9,7 @@ import type { Turns } from "./rolling_ball";
 type Rotation = Extract<Request, { type: "rotate" }>;
 
 interface Gesture {
-    /** Whether a rotation of the gesture has been executed. The later ones then belong to its undo step. */
+    /** Whether a rotation of the gesture has been executed. Later rotations of the gesture belong to its undo step. */
     hasStep: boolean;
     /** The angles to send, in radians. */
     unsent: Map<Plane, number>;
@@ -29,7 +29,7 @@ export class RotationControl {
         this.gestures.push({ hasStep: false, unsent: new Map() });
     }
 
-    /** Continues the current gesture. */
+    /** Adds turns to the current gesture; begin() must have been called before. */
     turn(turns: Turns): void {
         const { unsent } = this.gestures.at(-1)!;
         for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {

@@ -55,8 +55,8 @@ export class Sharing {
     }
 
     /**
-     * The link that opens the view. If the object is from a file, only this session has it. Then `link` joins the
-     * session, and `joins` is true.
+     * A link for a script. It opens the present view in a new session; or, if the object is from a file, which only
+     * this session has, it joins this session. `joins` tells which.
      */
     private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {

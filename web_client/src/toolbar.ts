@@ -1,5 +1,5 @@
 // A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
-// Practices Guide. The button that had the focus last is the tab stop, also if it has become a text field since.
+// Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces the button.
 
 const kRowWeight = 3; // Up and Down prefer a button in the next row to one in the same column
 

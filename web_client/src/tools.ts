@@ -13,10 +13,10 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A section that a part of the page adds. If a group of the key table has its title, the section is appended there. */
+/** A section that a part of the page adds. If the key table has a group with its title, the group gets the content. */
 export interface ToolSection {
     title: string;
-    /** The group of the key table after which the section is placed; by default, the section comes last. */
+    /** If no group has this title: the group after which the section is placed; by default, the section comes last. */
     after?: string;
     content: Node[];
 }
@@ -33,8 +33,8 @@ const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * The actions that switch something on and off, and a function that returns whether it is on. A part of the picture, or
- * a view, is switched by the action of the same name.
+ * For each action that switches something on and off, a function that returns whether this is on. A part of the
+ * picture, or a view, is switched by the action of the same name.
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
@@ -67,7 +67,7 @@ const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below them: the perpend
 export class Tools {
     private readonly root = byId("tools");
     private readonly toggleButtons = new Map<string, HTMLButtonElement>();
-    private projectionButtons: HTMLButtonElement[] = []; // those that need a projection
+    private projectionButtons: HTMLButtonElement[] = []; // disabled while the picture has no projection
 
     constructor(private readonly events: ToolEvents) {
         // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.

@@ -13,13 +13,13 @@ interface Placement {
     x: number; // of the point in the middle between the fingers, in pixels
     y: number;
     distance: number;
-    angle: number; // radians, clockwise
+    angle: number; // of the line from one finger to the other, in radians clockwise from the direction to the right
 }
 
 export class TwoFingers {
     private last: Placement;
     private moved = { x: 0, y: 0 }; // pixels since the fingers touched the drawing
-    private twisted = 0; // radians since then
+    private twisted = 0; // radians since the fingers touched the drawing
     private moves = false; // whether the movement has left its dead zone
     private twists = false; // whether the twist has left its dead zone
 
@@ -28,8 +28,9 @@ export class TwoFingers {
     }
 
     /**
-     * Returns the changes since the last call: the movement of the midpoint in pixels, the ratio of the distances
-     * (`spread`), and the rotation in radians (`twist`). Inside its dead zone, a movement or a twist counts as 0.
+     * Returns the changes since the last call: the movement of the midpoint in pixels, the new distance between the
+     * fingers divided by the old one (`spread`), and the clockwise rotation in radians (`twist`). Inside its dead zone,
+     * a movement or a twist counts as 0.
      */
     update(a: Finger, b: Finger): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;

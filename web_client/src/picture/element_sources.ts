@@ -95,7 +95,10 @@ export class ElementSources {
         return found;
     }
 
-    /** The cells around an edge or a 2-face: those whose slices meet where it is cut; empty if nothing cuts it. */
+    /**
+     * The cells around an edge or a 2-face: those whose slices meet where a slice cuts the element. If no slice cuts
+     * it, the planar sections give the cells of a 2-face. Empty if the picture does not determine the cells.
+     */
     private cellsAround(element: "edge" | "face", number: number): number[] {
         for (const { vertices, edges, faces, of } of this.slices) {
             const at = (element === "edge" ? of.vertices : of.edges).indexOf(number);

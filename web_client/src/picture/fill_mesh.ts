@@ -47,7 +47,7 @@ export class FillMesh {
         return slices.some((slice) => slice.fill);
     }
 
-    /** Writes the colors of the picture last passed to update(). */
+    /** Writes the colors. The picture must be the one that was last passed to update(). */
     paint({ scene: { colors, opacity, faded } }: Slices, highlighted: HighlightedElements): void {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {

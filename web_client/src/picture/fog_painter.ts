@@ -197,8 +197,8 @@ export class FogPainter {
     }
 
     /**
-     * Stores the depths of the occluders of one kind for later calls of draw(). Calls `draw`, which must draw all
-     * occluders of the kind `occluders`, and nothing else.
+     * Stores the depths of the occluders of one kind, in a picture of this size, for the method draw(). For this, calls
+     * the parameter `draw`, a function that must draw all occluders of this kind, and nothing else.
      */
     drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };

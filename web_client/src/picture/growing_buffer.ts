@@ -21,7 +21,7 @@ export class GrowingBuffer<T extends Numbers> {
         return this.attribute.array as T;
     }
 
-    /** Sets the number of items, all of which must then be written; returns true if a larger buffer was allocated. */
+    /** Sets the number of items; the caller must then write them all. Returns true if a larger buffer was allocated. */
     resize(items: number): boolean {
         this.used = items;
         if (items <= this.attribute.count) return false;

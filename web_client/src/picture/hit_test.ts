@@ -7,8 +7,8 @@ import { areaVector } from "./polygon";
 import type { ViewCamera } from "./view_camera";
 
 /**
- * What was hit in a slice, in the projection or in the matrix of planar sections. An edge of a planar section has the
- * kind `faces`, because it is cut from a cell, as the face of a slice is.
+ * What was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar section has the
+ * kind `points`. An edge of one has the kind `faces`, because it is cut from a cell, as the face of a slice is.
  */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
@@ -24,9 +24,9 @@ interface PickableMesh {
     slice?: Slice;
     position: Vector;
     scale: number;
-    ball: number;
-    bar: number;
-    hasFaces: boolean;
+    ball: number; // the radius of balls in world units; 0 if they are not drawn
+    bar: number; // the radius of bars, likewise
+    hasFaces: boolean; // whether the faces are drawn
     distance: number; // from the eye
 }
 

@@ -31,7 +31,8 @@ export class HitTester {
 
     /**
      * The slice at a point of the picture, in pixels: of the slices whose discs contain the point, the one whose center
-     * is nearest. A disc reaches from the slice's center to its farthest vertex, but at least `minRadius` pixels.
+     * is nearest; undefined if there is none. A disc reaches from the slice's center to its farthest vertex, but at
+     * least `minRadius` pixels.
      */
     sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
         this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);

@@ -8,8 +8,9 @@ import type { MatrixPanel } from "./matrix_panel";
 type Pixel = readonly [x: number, y: number];
 
 /**
- * The nearest point of the section that is drawn at the pixel; otherwise the nearest edge. Here, the radius of a point
- * and half the width of an edge are at least `reach` pixels.
+ * Of the section's points that are drawn at the pixel, the nearest; if there is none, the nearest edge that is drawn
+ * there; undefined if there is neither. Here, the radius of a point and half the width of an edge are at least `reach`
+ * pixels.
  */
 export function hitInPanel(
     panel: MatrixPanel,

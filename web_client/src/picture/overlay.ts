@@ -76,8 +76,8 @@ function drawLabels(
     const sample = 100; // a font size
     setFont(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
-    // Labels nearer to the focus slice come first; of two at the same distance, the first one. LabelLayout::thin() in
-    // C++ decides in the same order.
+    // Labels nearer to the focus slice are placed first; of two at the same distance, the one that comes first in
+    // `slices`. LabelLayout::thin() in C++ decides in the same order.
     const focusIndex = slices.find((slice) => slice.focus)?.index ?? 0;
     const fromFocus = ({ index }: Slice): number => Math.abs(index - focusIndex);
     labeled.sort((a, b) => fromFocus(a) - fromFocus(b));

@@ -1,7 +1,7 @@
-// The painter's algorithm for the mesh of slice_mesh.ts. The order is exact for convex slices that do not overlap:
-// slices from far to near; within a slice the back faces, the balls and bars on them, the front faces, and the other
-// balls and bars. Balls are ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers
-// its farther ball, and its nearer ball covers the bar.
+// The painter's algorithm for the mesh of slice_mesh.ts. The slices are painted from far to near; of each slice, first
+// the back faces, then the balls and bars on them, then the front faces, then the other balls and bars. Balls are
+// ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers its farther ball, and its
+// nearer ball covers the bar. This order is exact for convex slices that do not overlap.
 
 import type { Parts, Vector } from "@oval4d/protocol";
 

@@ -24,7 +24,7 @@ const kNearEnd = 3;
 export class ProjectionMesh {
     readonly solid = new BufferGeometry();
     readonly translucent = new BufferGeometry();
-    /** The radius of the thickest bar. */
+    /** The radius of the thickest bar of all parts, in world units. */
     barRadius = 0;
     /** The center of the projection, in world space. */
     position: readonly [number, number, number] = [0, 0, 0];

@@ -23,7 +23,7 @@ export class SliceMesh {
     private count = 0; // number of indices
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
-    /** Writes the elements of a new picture; `faces` is false if FillMesh draws the faces. */
+    /** Writes the elements of a new picture. `faces` is false if FillMesh draws the faces, and for fields. */
     update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;
         elements.update(picture);
@@ -47,7 +47,7 @@ export class SliceMesh {
         this.order.update({ ...shown, faces: shown.faces && faces });
     }
 
-    /** Writes the colors of the picture last passed to update(). */
+    /** Writes the colors. The picture must be the one that was last passed to update(). */
     paint({ scene }: Slices, highlighted: HighlightedElements): void {
         const { sliceRanges, cornerBegin, vertexCount, edgeCount } = this.elements;
         const { shown, colors, faded, opacity } = scene;

@@ -153,7 +153,7 @@ export class Stage {
         return { width: Math.floor(width * scale), height: Math.floor(height * scale) };
     }
 
-    /** Draws the picture for printing to a canvas: on white or, if the server has drawn the picture, as it is shown. */
+    /** Fills `canvas` with the picture for print: on white or, if the server has drawn the picture, as it is shown. */
     print(canvas: HTMLCanvasElement): void {
         const { frame } = this.canvases;
         const { width, height } = this.currentMode === "geometry" ? this.printSize : frame;
