@@ -128,7 +128,7 @@ constexpr auto kReadingOptions = std::to_array<ReadingOption>({
     {"axes", "arrays"},
     {"variable", "arrays"},
     {"values_variable", "arrays"},
-    {"center", "polytopes and points"},
+    {"center", "polytopes, surfaces and points"},
 });
 
 /// Throws std::runtime_error if the query still contains an option that says how to read a file. Such an option is for

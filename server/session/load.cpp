@@ -387,7 +387,7 @@ std::string objectNameFor(std::string_view fileName, const Limits& limits) {
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
     if (load.name.empty() || !text::isUtf8(load.name) || characters(load.name) > kMaxName ||
         std::ranges::any_of(load.name, isControl)) {
-        return Error{ErrorCode::bad_message, "a polytope's name must have 1 to 64 printable characters"};
+        return Error{ErrorCode::bad_message, "the name of an object must have 1 to 64 printable characters"};
     }
     if (std::holds_alternative<polytopes::Design>(polytopes::designNamed(load.name, limits.maxVertices))) {
         return Error{ErrorCode::bad_polytope,
@@ -408,7 +408,7 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
     if (!load.secondFormula.empty() && !load.secondVariable.empty())
         return Error{ErrorCode::bad_message, "give either the formula of the values or their variable, not both"};
     if (load.center != geometry::Centering{} && (array || load.format == kFormula))
-        return refused("only polytopes and points take a center");
+        return refused("only polytopes, surfaces and points take a center");
     if (load.append && !load.secondFormula.empty())
         return Error{ErrorCode::bad_message, "moments have no formula of values: that of the field remains"};
     if (load.append && !array) return refused("only arrays can be added to a field");

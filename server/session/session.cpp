@@ -168,7 +168,7 @@ class Applier {
     Done checkRoom(const LoadedObjects& loaded, const std::string& name) const {
         if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
         return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
-                                              " loaded polytopes; load under a name that is in use to replace one"};
+                                              " loaded objects; load under a name that is in use to replace one"};
     }
 
     // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.

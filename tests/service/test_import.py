@@ -241,7 +241,7 @@ async def test_a_load_may_choose_the_center(server):
         assert (await client.request("get", what="state"))["polytope"]["center"] == [9, 9, 0, 1]
         with pytest.raises(Refused, match="/center must be"):
             await center_of(near, "middle")
-        with pytest.raises(Refused, match="only polytopes and points take a center"):
+        with pytest.raises(Refused, match="only polytopes, surfaces and points take a center"):
             await client.request("load", name="f", format="formula", data="x", center="origin")
 
 
@@ -258,7 +258,7 @@ def test_the_command_line_may_choose_the_center(tmp_path):
 
 @pytest.mark.parametrize(
     ("option", "files"),
-    [("axes", "arrays"), ("variable", "arrays"), ("values_variable", "arrays"), ("center", "polytopes and points")],
+    [("axes", "arrays"), ("variable", "arrays"), ("values_variable", "arrays"), ("center", "polytopes, surfaces and points")],
 )
 def test_an_option_of_reading_needs_a_file_of_its_kind(tmp_path, option, files):
     points, picture = tmp_path / "points.txt", tmp_path / "picture.png"

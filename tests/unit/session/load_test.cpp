@@ -198,7 +198,7 @@ TEST(Load, IsLimited) {
     const Limits limits{.maxLoaded = 2};
     must(session, LoadObject{"a", "off", kPentachoron}, limits);
     must(session, LoadObject{"b", "off", kPentachoron}, limits);
-    expectRefused(session, LoadObject{"c", "off", kPentachoron}, ErrorCode::too_many, "at most 2 loaded polytopes",
+    expectRefused(session, LoadObject{"c", "off", kPentachoron}, ErrorCode::too_many, "at most 2 loaded objects",
                   limits);
     must(session, LoadObject{"b", "off", kPentachoron}, limits);
 }
@@ -347,7 +347,7 @@ TEST(Load, ObjectsTurnAboutThePointThatIsAskedFor) {
     Session session;
     LoadObject formula{"mine", std::string(kFormula), "x"};
     formula.center = {OriginChoice::origin};
-    expectRefused(session, formula, ErrorCode::bad_message, "only polytopes and points take a center");
+    expectRefused(session, formula, ErrorCode::bad_message, "only polytopes, surfaces and points take a center");
 }
 
 // People set w and the focus point in the coordinates of the file; the slices lie around the center.
