@@ -72,7 +72,10 @@ type GetAnswer<What> = What extends "frame"
       : Extract<Message, { type: What }>;
 
 interface PendingRequest {
-    /** The kind of message that answers the request; a frame or a file arrives before its `done`. */
+    /**
+     * What answers the request. A frame or a file is a binary message without an id; the message `done` with the id of
+     * the request follows it.
+     */
     wants: "frame" | "file" | "slices" | "message";
     resolve(answer: unknown): void;
     reject(error: RequestError): void;

@@ -215,7 +215,7 @@ export interface ProjectionLook {
 /** The projection of the whole object from four to three dimensions. */
 export interface ObjectProjection {
     kind: Exclude<Projection, "off">;
-    /** The w of the 4-D eye, in circumradii. */
+    /** The w of the 4-D eye of the perspective projection, in circumradii; without effect on the orthogonal one. */
     eye: number;
     /** The world position of the center of the projection: a vertex p is drawn at position + scale · p. */
     position: Vector;

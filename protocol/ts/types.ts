@@ -30,6 +30,6 @@ export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "a
 /** An exported file. */
 export interface ExportedFile {
     bytes: Uint8Array;
-    /** What the file lacks, such as slices that are empty. */
+    /** Texts for the user about what the file does not contain: for example, which slices are left out as empty. */
     warnings: string[];
 }

@@ -65,7 +65,7 @@ bool isArray(int file) {
     return size > 0 && fields::formatOfFile(std::span(start).first(static_cast<std::size_t>(size))) != nullptr;
 }
 
-/// Returns whether clients may use this name: one path component that does not begin with a dot.
+/// Returns whether clients may use this name: one path component, in UTF-8, that does not begin with a dot.
 bool isName(const std::string& name) {
     return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
            name.find('\0') == std::string::npos && text::isUtf8(name);

@@ -184,7 +184,7 @@ MatrixLayout placeMatrix(Rect& room, double relativeBall) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // Objects with many elements have small balls and sections with many points. So these points are small, too.
+    // The sections of an object with many elements have many points. These points are small, like the object's balls.
     matrix.pointRadius = std::min(relativeBall * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {

@@ -58,7 +58,7 @@ void CoordinateHistograms::sample(const fields::Field& field) {
     }
     function_ = field.function;
     box_ = field.box;
-    // NaN equals nothing, so that chooseRange() assigns the rows again.
+    // NaN is equal to nothing, so chooseRange() will find a new range and call assignRows().
     range_ = {std::numeric_limits<double>::quiet_NaN(), 0};
 
     const fields::FullAndTypicalRange ranges = fields::rangesOf(values_);

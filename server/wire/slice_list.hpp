@@ -25,7 +25,7 @@ struct PlacementTexts {
     CachedText<std::vector<scene::SlicePlacement>> ofAllSlices;  ///< in a binary encoding
 };
 
-/// Writes lists of slices. `texts` are those of the writer's encoding.
+/// Writes the slices and the projection of a scene. `texts`: the texts of placements in the encoding of the writer `w`.
 class SliceListWriter {
   public:
     void write(JsonWriter& w, const scene::Scene& scene, PlacementTexts& texts);

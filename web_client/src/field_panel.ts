@@ -23,7 +23,7 @@ export interface FieldPanelEvents {
     load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
     set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
-    /** Gives the user a link to this address. */
+    /** Gives the user `address`, a link that opens the field of the panel. */
     shareAddress(address: string): void;
     /** Called when the panel has been closed. */
     closed(): void;
@@ -183,13 +183,13 @@ export class FieldPanel {
         document.body.toggleAttribute("data-field-open", open); // the panel takes the place of the tools
     }
 
-    /** Shows a formula in the fields. */
+    /** Shows a formula, its box and the formula of its colors in the text fields. */
     private write({ formula, box, values = "" }: FormulaWithBox): void {
         this.formula.value = formula;
         this.values.value = values;
         this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
         this.sliders.update(formula);
-        this.readBox(); // clears the error about what was in the fields before
+        this.readBox(); // clears the error about the box that the text fields had before
     }
 
     private startFrom(example: number): void {
@@ -209,13 +209,13 @@ export class FieldPanel {
         this.loads.submit(field, delay);
     }
 
-    /** The formulas in the fields, with this box. */
+    /** The formulas in the text fields, with this box. */
     private written(box: Box): FormulaWithBox {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
     }
 
-    /** The box in the fields. If a range is not valid, shows an error, and returns undefined. */
+    /** The box in the text fields. If a range is not valid, shows an error, and returns undefined. */
     private readBox(): Box | undefined {
         const wrong = kAxes.filter((_, i) => {
             const pair = [this.ends[2 * i]!, this.ends[2 * i + 1]!];

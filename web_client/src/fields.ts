@@ -14,7 +14,7 @@ export interface FormulaWithBox {
     values?: string;
 }
 
-/** What is shown of a field, and its frame of reference. */
+/** How a field is shown, and its frame of reference (`pace`, `follow` and `boost`; see reference_frame.ts). */
 export type FieldLook = Pick<Settings, "levels" | "inside" | "caps" | "fog" | "pace" | "follow" | "boost">;
 
 /** The name under which the page and the command `formula` load a formula. */
@@ -54,7 +54,7 @@ export function fieldOfLine(line: string): FormulaWithBox | undefined {
     return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
 }
 
-/** A text for screen readers such as "levels 0, 0.5, inside below, fog from −1 to 2"; "" for other objects. */
+/** A text for screen readers such as "levels 0, 0.5, inside below, fog from −1 to 2"; "" if there is no field. */
 export function spokenLevels({ levels, inside = "below", fog = [] }: State): string {
     if (!levels) return "";
     const named = levels.length === 1 ? "level" : "levels";
@@ -63,7 +63,10 @@ export function spokenLevels({ levels, inside = "below", fog = [] }: State): str
     return `${named} ${levels.map(formatCoordinate).join(", ")}, inside ${inside}${fogText}`;
 }
 
-/** Reads numbers separated by blanks, commas or semicolons; the minus sign U+2212 counts as "-". Other words: NaN. */
+/**
+ * Reads numbers separated by blanks, commas or semicolons; the minus sign U+2212 counts as "-". A word that is not a
+ * number gives NaN.
+ */
 export function parseNumbers(text: string): number[] {
     const words = text.replaceAll("\u2212", "-").split(/[\s,;]+/);
     return words.filter((word) => word !== "").map(Number);

@@ -10,11 +10,14 @@ export const kMaxFogPoints = 8;
 /** The distribution of a field's values. */
 export interface ValueDistribution {
     range: [number, number];
-    /** The cube root of how often a value occurs, at most 1, at evenly spaced values from the least to the greatest. */
+    /**
+     * For values at equal distances from range[0] to range[1]: the cube root of how often the value occurs, divided by
+     * the cube root for the most frequent of these values.
+     */
     tones: number[];
 }
 
-/** The distribution of values that the histogram of a picture shows; undefined if it has none. */
+/** The distribution of values that the histogram of a picture shows; undefined if the picture has no histogram. */
 export function distributionOf({ histogram, density, scene }: Slices): ValueDistribution | undefined {
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;

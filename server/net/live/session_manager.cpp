@@ -71,8 +71,9 @@ WriteBehindStore::Listener SessionManager::listener() {
             }};
 }
 
-/// Checks whether a client may create one more session, and returns the error if it may not. At a limit, evicts an
-/// unmodified closed session to make room. Requires that mutex_ is held.
+/// Counts a new session against the client's limit of new sessions per minute. At a limit on the number of stored
+/// sessions, evicts an unmodified closed session to make room. Returns an error if the limit per minute is reached, or
+/// if there is no session to evict. Requires that mutex_ is held.
 std::optional<Error> SessionManager::admitSession(AddressAccount& client) {
     const auto now = SessionsByClient::Clock::now();
     const Options& options = services_.options;
@@ -202,8 +203,8 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     }
 }
 
-/// Gives the session, or the error, to the client that asked first, then lets the other waiting clients join the
-/// session.
+/// Passes the session, or the error, to the client that asked first. Then calls join() again for the other waiting
+/// clients.
 void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;

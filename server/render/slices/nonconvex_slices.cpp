@@ -24,7 +24,8 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const auto radius = static_cast<float>(scene.ballRadius);
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
 
-    // Ties are broken by index, so that equal scenes give equal pictures; std::stable_sort would allocate memory.
+    // Items at the same depth are in the order of slice, kind and number, so that equal scenes give equal pictures.
+    // std::stable_sort would allocate memory.
     const auto before = [](const Item& a, const Item& b) {
         return std::tie(a.slice, a.kind, a.number) < std::tie(b.slice, b.kind, b.number);
     };

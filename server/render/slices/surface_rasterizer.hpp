@@ -16,13 +16,14 @@ struct SurfaceCanvas {
     int width, height;      ///< the size of the whole picture, in pixels
     int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
     std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
-    float* nearness;        ///< the depth buffer: see kCoverageBits
+    float* nearness;        ///< the depth buffer: see kCoverageBits (depth_buffer.hpp)
 };
 
-/// Rasterizes the triangles of a SurfaceBatch like SurfaceProgram. Surfaces consist of many triangles with a few pixels
-/// each. Therefore setting up the triangles takes most of the time; eight of them are set up at once, and they are not
-/// sorted into bins. Colors, opacities and 1 / depth are interpolated linearly in the picture. Triangles with a common
-/// edge have no common pixels and leave no gap. Reuses its memory for the next picture. Requires AVX2 and FMA.
+/// Draws the triangles of a SurfaceBatch on the CPU, as SurfaceProgram (surface_batch.hpp) draws them with OpenGL.
+/// Surfaces consist of many triangles with a few pixels each. Therefore setting up the triangles takes most of the
+/// time; eight of them are set up at once, and they are not sorted into bins. Colors, opacities and 1 / depth are
+/// interpolated linearly in the picture. Triangles with a common edge have no common pixels and leave no gap. Reuses
+/// its memory for the next picture. Requires AVX2 and FMA.
 class SurfaceRasterizer {
   public:
     /// How triangles are drawn to the picture and to the depth buffer.

@@ -1,5 +1,5 @@
 #pragma once
-// Critical points of the level sets of fields.
+// Critical points of w on the level sets of fields: points at which a level set is tangent to a hyperplane w = const.
 
 #include <optional>
 

@@ -127,7 +127,10 @@ export class ElementSources {
         return [];
     }
 
-    /** Adds the edges that end at a vertex and are cut by slices. All cells around such an edge contain the vertex. */
+    /**
+     * Adds those edges that slices cut and that end at a vertex. An edge ends at the vertex if all cells around the
+     * edge contain the vertex.
+     */
     private addEdgesAt(vertex: number, sources: Set<number>): void {
         for (const { vertices, faces, of } of this.slices) {
             const candidates = new Uint8Array(vertices.length / 3);
@@ -153,7 +156,7 @@ export class ElementSources {
         }
     }
 
-    /** Adds the edge that a slice has cut at a vertex with this source. */
+    /** Adds the edge from which a slice's vertex with this source was cut, unless it was cut from a vertex. */
     private addCutEdge(source: number, sources: Set<number>): void {
         if (source < this.counts.edges) sources.add(this.counts.faces + source);
     }

@@ -42,7 +42,7 @@ export class ShapeBuffers {
         for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.markChanged();
     }
 
-    /** Sets the attribute `at` or `to` of a vertex. */
+    /** Sets the attribute `at` or `to` of a vertex; shaders.ts tells what they are for balls, bars and faces. */
     setVector(buffer: "at" | "to", vertex: number, x: number, y: number, z: number): void {
         const { array } = this[buffer];
         array[3 * vertex] = x;
@@ -51,8 +51,8 @@ export class ShapeBuffers {
     }
 
     /**
-     * Sets the kind of patch, the corner of its quad, 0 to 3 (0 for faces), and the radius of a bar relative to the
-     * uniform barRadius.
+     * Sets the kind of patch to which a vertex belongs. `corner`: the corner of the patch's quad, 0 to 3; 0 for a face.
+     * `thickness`: the radius of a bar, relative to the uniform barRadius.
      */
     setShape(vertex: number, kind: number, corner = 0, thickness = 1): void {
         const { array } = this.shape;

@@ -23,7 +23,10 @@ export class SliceMesh {
     private count = 0; // number of indices
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
-    /** Writes the elements of a new picture. `faces` is false if FillMesh draws the faces, and for fields. */
+    /**
+     * Writes the elements of a new picture. If `faces` is false, the mesh does not draw the faces: the picture shows a
+     * field, or FillMesh (fill_mesh.ts) draws them.
+     */
     update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;
         elements.update(picture);
@@ -110,7 +113,10 @@ export class SliceMesh {
         this.shapes.setShape(item, kind, corner);
     }
 
-    /** Writes a bar without the lengths `inBall` inside its two balls; a bar that lies inside them becomes a point. */
+    /**
+     * Writes a bar shortened at each end by the length `inBall`, which lies inside the ball there. A bar that is not
+     * longer than these two lengths becomes a point.
+     */
     private writeBar(e: number, inBall: number): void {
         const { points, edges, vertexCount } = this.elements;
         const a = 3 * edges[2 * e]!;

@@ -263,8 +263,8 @@ export class SurfacePainter {
     }
 
     /**
-     * Selects the colors for what is drawn next: the colors of the points of level sets (0) or caps (1) or, if they
-     * have none, the color of the level.
+     * Selects the colors of the triangles that are drawn next: those of the points of level sets (`cap` is 0) or of
+     * caps (`cap` is 1). If these points have no colors of their own, selects the color of the level.
      */
     private useColors(cap: number, firstPoint: number): void {
         const { gl } = this;
