@@ -192,7 +192,7 @@ std::string DataFolder::currentVersion(const Opened& opened) {
 /// Returns a field from the cache, and marks it as the most recently used one. Returns null if the cache does not have
 /// it, or if its file can no longer be read. Requires that mutex_ is held.
 const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
-    const auto found = std::ranges::find(recent_, key, &Entry::key);
+    const auto found = std::ranges::find(recent_, key, &CachedField::key);
     if (found == recent_.end()) return nullptr;
     if (slicing::fieldIn(found->loaded.object)->isLost()) {
         bytes_ -= found->bytes;
@@ -206,8 +206,8 @@ const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
 /// Drops the least recently used field that no session uses; if `onDisk` is true, considers only the fields with a file
 /// in the field cache. Returns whether it has dropped a field. Requires that mutex_ is held.
 bool DataFolder::dropUnused(bool onDisk) {
-    const auto isUnused = [&](const Entry& entry) {
-        return std::get<slicing::FieldPtr>(entry.loaded.object).use_count() == 1 && (entry.onDisk || !onDisk);
+    const auto isUnused = [&](const CachedField& field) {
+        return std::get<slicing::FieldPtr>(field.loaded.object).use_count() == 1 && (field.onDisk || !onDisk);
     };
     const auto last = std::find_if(recent_.rbegin(), recent_.rend(), isUnused);
     if (last == recent_.rend()) return false;
@@ -270,11 +270,12 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
             folder.readEnded_.notify_all();
         }
     } const finally{*this, key};
-    return readNow(load, limits, std::move(*opened), reader, key);
+    return readAndKeep(load, limits, std::move(*opened), reader, key);
 }
 
-Result<session::ObjectWithWarnings> DataFolder::readNow(const session::LoadObject& load, const session::Limits& limits,
-                                                        Opened opened, const Reader& reader, const std::string& key) {
+Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadObject& load,
+                                                            const session::Limits& limits, Opened opened,
+                                                            const Reader& reader, const std::string& key) {
     session::LoadObject file = load;
     if (opened.folder) {
         file.folder = opened.folder;

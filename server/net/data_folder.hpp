@@ -71,7 +71,7 @@ class DataFolder {
         std::string version;  // a text that changes when a file changes
     };
     // A field in memory.
-    struct Entry {
+    struct CachedField {
         std::string key;
         session::ObjectWithWarnings loaded;
         std::size_t bytes = 0;
@@ -81,8 +81,8 @@ class DataFolder {
     std::vector<std::string> list() const;
     Result<Opened> open(const std::string& name) const;
     static std::string currentVersion(const Opened& opened);
-    Result<session::ObjectWithWarnings> readNow(const session::LoadObject& load, const session::Limits& limits,
-                                                Opened opened, const Reader& reader, const std::string& key);
+    Result<session::ObjectWithWarnings> readAndKeep(const session::LoadObject& load, const session::Limits& limits,
+                                                    Opened opened, const Reader& reader, const std::string& key);
     Result<SampleFiles::FilePtr> allocate(std::size_t bytes);
     bool dropUnused(bool onDisk);
     Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
@@ -94,7 +94,7 @@ class DataFolder {
     mutable std::mutex mutex_;  // guards the members below
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
-    std::list<Entry> recent_;            // the most recently used first
+    std::list<CachedField> recent_;      // the most recently used first
     std::size_t bytes_ = 0;              // total memory of the fields in `recent_`, in bytes
     std::set<std::string> reading_;      // the keys of the fields that threads are reading now
     std::condition_variable readEnded_;  // notified when a key is removed from `reading_`

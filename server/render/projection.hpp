@@ -27,13 +27,13 @@ struct Projection {
     }
 
     /// Returns the clip coordinates x, y and w of a point v in view coordinates.
-    glm::vec3 clipCoordinates(const glm::vec3& v) const {
+    glm::vec3 clipXyw(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }
 
     /// Returns the position in the picture of a point in front of the eye, in pixels from the lower left corner.
     glm::vec2 pixel(const glm::vec3& v) const {
-        const glm::vec3 c = clipCoordinates(v);
+        const glm::vec3 c = clipXyw(v);
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};
     }
 

@@ -265,11 +265,11 @@ void Composer::measureValues(const Object& object, const geometry::Rotation& ori
     out.histogram.reach = histogram_.reach();
     out.histogram.least = least;
     out.histogram.greatest = greatest;
-    out.histogram.levels.clear();
+    out.histogram.levelLines.clear();
     for (std::size_t i = 0; i < settings.levels.size(); ++i) {
         const double level = settings.levels[i];
         if (level < least || level > greatest) continue;
-        out.histogram.levels.push_back({level, surfaceColor(i, settings.levels.size(), out.look)});
+        out.histogram.levelLines.push_back({level, surfaceColor(i, settings.levels.size(), out.look)});
     }
 }
 

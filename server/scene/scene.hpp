@@ -60,11 +60,11 @@ struct HistogramAxes {
     std::array<double, 4> reach{1, 1, 1, 1};
     double least = 0, greatest = 1;  ///< the values at the lower and the upper edge
     /// A level of the field that is drawn as a line.
-    struct Level {
+    struct LevelLine {
         double value = 0;  ///< from `least` to `greatest`
         Color color = 0;
     };
-    std::vector<Level> levels;
+    std::vector<LevelLine> levelLines;
 
     /// Returns the height of a value above the lower edge, as a fraction of the height of the histogram.
     double height(double value) const { return (value - least) / (greatest - least); }

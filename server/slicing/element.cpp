@@ -327,9 +327,9 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
     return out;
 }
 
-std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same) {
+std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same) {
     std::ranges::sort(heights);
-    std::vector<VertexHeight> groups;
+    std::vector<HeightGroup> groups;
     for (auto first = heights.begin(); first != heights.end();) {
         auto last = first + 1;
         while (last != heights.end() && *last - *(last - 1) <= same) ++last;
@@ -340,7 +340,7 @@ std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same)
     return groups;
 }
 
-std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Rotation& orientation) {
+std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation) {
     const glm::dvec4 direction = ownDirectionOfW(orientation);
     std::vector<double> heights;
     const auto add = [&](const std::vector<glm::dvec4>& vertices) {

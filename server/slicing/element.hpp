@@ -102,18 +102,18 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 
-/// A w coordinate at which vertices lie, and the number of vertices there.
-struct VertexHeight {
+/// The w coordinate of a group of vertices, and their number.
+struct HeightGroup {
     double w = 0;
     std::size_t vertexCount = 0;
 };
 
 /// Returns the w coordinates of the vertices of the rotated object, in ascending order. Successive coordinates that
 /// differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
-std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Rotation& orientation);
+std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation);
 
 /// Sorts w coordinates, and groups successive ones that differ by at most `same`. The w of a group is the mean of its
 /// coordinates.
-std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same);
+std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same);
 
 }  // namespace oval4d::slicing

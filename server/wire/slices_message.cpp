@@ -92,10 +92,10 @@ void writeHistogram(W& w, const scene::HistogramAxes& histogram) {
     writeNumbers(w, "range", {histogram.least, histogram.greatest});
     w.key("levels");
     w.beginArray();
-    for (const scene::HistogramAxes::Level& level : histogram.levels) {
+    for (const scene::HistogramAxes::LevelLine& line : histogram.levelLines) {
         w.beginObject();
-        w.member("value", level.value);
-        w.member("color", level.color);
+        w.member("value", line.value);
+        w.member("color", line.color);
         w.endObject();
     }
     w.endArray();

@@ -5,7 +5,7 @@ import type { Client, Slices, State } from "@oval4d/protocol";
 
 import { type CriticalValue, CriticalValues } from "./critical_values";
 import { byId } from "./element";
-import { FocusControl } from "./focus_control";
+import { FocusMover } from "./focus_mover";
 import { formatW } from "./format";
 
 export interface SliderEvents {
@@ -28,7 +28,7 @@ export class FocusSlider {
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
     private readonly criticalValues: CriticalValues;
-    private readonly control: FocusControl;
+    private readonly mover: FocusMover;
     private state: State | undefined;
     private isDragged = false;
     private mayNotSnap = false; // whether Alt or Shift is held
@@ -40,7 +40,7 @@ export class FocusSlider {
         private readonly events: SliderEvents,
     ) {
         this.criticalValues = new CriticalValues(client, () => this.showRange());
-        this.control = new FocusControl(client, (error) => {
+        this.mover = new FocusMover(client, (error) => {
             if (error) {
                 this.stop();
                 events.failed(error);
@@ -52,7 +52,7 @@ export class FocusSlider {
 
     update(state: State): void {
         this.state = state;
-        if (this.control.recordAndCheckIfMovedElsewhere(state)) this.stop();
+        if (this.mover.recordAndCheckIfMovedElsewhere(state)) this.stop();
         this.criticalValues.update(state);
         const { name, vertices } = state.section;
         this.section.textContent = name || (vertices && `vertices: ${vertices}`);
@@ -66,7 +66,7 @@ export class FocusSlider {
 
     /** Prepares for the states of a new connection. */
     restart(): void {
-        this.control.restart();
+        this.mover.restart();
         this.stop();
     }
 
@@ -74,7 +74,7 @@ export class FocusSlider {
     stop(): void {
         if (this.playedAt === undefined) return;
         this.playedAt = undefined;
-        this.control.cancel();
+        this.mover.cancel();
         this.showPlaying();
     }
 
@@ -82,7 +82,7 @@ export class FocusSlider {
         const { input } = this;
         input.addEventListener("pointerdown", (event) => {
             this.isDragged = true;
-            this.control.begin();
+            this.mover.begin();
             this.noteModifiers(event);
             this.stop();
         });
@@ -110,7 +110,7 @@ export class FocusSlider {
 
     private moveTo(w: number): void {
         const [least, most] = this.range;
-        this.control.moveTo(Math.min(most, Math.max(least, w)));
+        this.mover.moveTo(Math.min(most, Math.max(least, w)));
         this.show();
     }
 
@@ -136,10 +136,10 @@ export class FocusSlider {
         const [least, most] = this.range;
         const step = (most - least) / kKeySteps;
         const moves: Record<string, () => void> = {
-            ArrowRight: () => this.moveTo(this.control.w + step),
-            ArrowUp: () => this.moveTo(this.control.w + step),
-            ArrowLeft: () => this.moveTo(this.control.w - step),
-            ArrowDown: () => this.moveTo(this.control.w - step),
+            ArrowRight: () => this.moveTo(this.mover.w + step),
+            ArrowUp: () => this.moveTo(this.mover.w + step),
+            ArrowLeft: () => this.moveTo(this.mover.w - step),
+            ArrowDown: () => this.moveTo(this.mover.w - step),
             Home: () => this.moveTo(least),
             End: () => this.moveTo(most),
             PageUp: () => this.pressKey(")", event.repeat),
@@ -149,18 +149,18 @@ export class FocusSlider {
         if (!move) return;
         event.preventDefault();
         this.stop();
-        this.control.begin();
+        this.mover.begin();
         move();
     }
 
     private pressKey(key: string, held: boolean): void {
-        this.control.cancel();
+        this.mover.cancel();
         this.events.pressKey(key, held);
     }
 
     private play(): void {
         this.playedAt = performance.now();
-        this.control.begin();
+        this.mover.begin();
         this.showPlaying();
         requestAnimationFrame((now) => this.playOn(now));
     }
@@ -170,7 +170,7 @@ export class FocusSlider {
         const seconds = Math.min(kMaxInterval, Math.max(0, now - this.playedAt) / 1000);
         this.playedAt = now;
         const [least, most] = this.range;
-        const w = this.control.w + (this.direction * seconds * Number(this.speed.value) * (most - least)) / kSweepTime;
+        const w = this.mover.w + (this.direction * seconds * Number(this.speed.value) * (most - least)) / kSweepTime;
         if (w >= most) this.direction = -1;
         else if (w <= least) this.direction = 1;
         this.moveTo(w);
@@ -200,7 +200,7 @@ export class FocusSlider {
     private show(): void {
         if (!this.state) return;
         const { section, slices } = this.state;
-        const { w } = this.control;
+        const { w } = this.mover;
         this.input.value = String(w);
         const text = formatW(w, slices.spacing);
         const hasName = section.name !== "" && text === formatW(section.w, slices.spacing);

@@ -55,9 +55,9 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       writeBehind_(writeBehind),
       credentials_(std::move(credentials)),
       strand_(asio::make_strand(services.io)),
-      held_(std::make_shared<HeldSession>(std::move(client), std::move(value))),
-      session_(held_->value),
-      streams_(std::make_shared<PictureStreams>(services, strand_, credentials_.id, held_)),
+      metered_(std::make_shared<MeteredSession>(std::move(client), std::move(value))),
+      session_(metered_->value),
+      streams_(std::make_shared<PictureStreams>(services, strand_, credentials_.id, metered_)),
       saveTimer_(strand_) {}
 
 std::shared_ptr<LiveSession> LiveSession::create(Services services, store::WriteBehindStore& writeBehind,
@@ -235,7 +235,7 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
                 break;
             }
         }
-        if (done) held_->updateReservation(session_.current.object != shown || session_.loaded != loaded);
+        if (done) metered_->updateReservation(session_.current.object != shown || session_.loaded != loaded);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -278,10 +278,10 @@ std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::sha
 asio::awaitable<std::optional<Error>> LiveSession::completePending(AddressAccountPtr by,
                                                                    std::shared_ptr<session::ObjectLoader> loader,
                                                                    std::shared_ptr<CriticalSearchHandle> search) {
-    auto reservation = held_->client()->byteAccount().reserve(loader->bytesNeeded());
+    auto reservation = metered_->client()->byteAccount().reserve(loader->bytesNeeded());
     if (!reservation) co_return kTooManyBytes;
     if (loader->pendingNeedsFile()) {
-        co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), held_->client()->loadLane(),
+        co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), metered_->client()->loadLane(),
                                            loader->estimatedDuration());
     } else if (search) {
         co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(loader, search->stopToken()),

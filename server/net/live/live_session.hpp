@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "net/live/critical_searches.hpp"
-#include "net/live/held_session.hpp"
 #include "net/live/message.hpp"
+#include "net/live/metered_session.hpp"
 #include "net/live/peer.hpp"
 #include "net/live/picture_streams.hpp"
 #include "net/live/snapshot.hpp"
@@ -127,8 +127,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     Strand strand_;  // runs all code that uses the members of the next group
 
     // Used only on the strand.
-    const std::shared_ptr<HeldSession> held_;
-    session::Session& session_;  // the value of held_
+    const std::shared_ptr<MeteredSession> metered_;
+    session::Session& session_;  // the value of metered_
     const std::shared_ptr<PictureStreams> streams_;
     CriticalSearches searches_;
     OneShotTimer saveTimer_;

@@ -24,12 +24,12 @@ const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the
 }  // namespace
 
 PictureStreams::PictureStreams(Services services, Strand strand, std::string sessionId,
-                               std::shared_ptr<HeldSession> held)
+                               std::shared_ptr<MeteredSession> metered)
     : services_(services),
       strand_(std::move(strand)),
       sessionId_(std::move(sessionId)),
-      held_(std::move(held)),
-      session_(held_->value),
+      metered_(std::move(metered)),
+      session_(metered_->value),
       draftTiming_(Clock::now()),
       motionTimer_(strand_),
       paceTimer_(strand_),

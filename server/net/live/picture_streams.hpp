@@ -16,7 +16,7 @@
 
 #include "errors/error.hpp"
 #include "net/live/draft_timing.hpp"
-#include "net/live/held_session.hpp"
+#include "net/live/metered_session.hpp"
 #include "net/live/motion_timing.hpp"
 #include "net/live/pacing.hpp"
 #include "net/live/peer.hpp"
@@ -44,8 +44,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         parallel::WorkerPool::LanePtr pictures, exports;
     };
 
-    /// `sessionId`: for the log. `held`: the session, whose owner calls sessionChanged() after each change.
-    PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<HeldSession> held);
+    /// `sessionId`: for the log. `metered`: the session, whose owner calls sessionChanged() after each change.
+    PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
 
     /// Sets the function to call after each step of the motion, because a step changes the session. Must be called
     /// before a client is added.
@@ -139,8 +139,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     std::function<void()> moved_;
 
     // Used only on the strand.
-    const std::shared_ptr<HeldSession> held_;
-    session::Session& session_;  // the value of held_
+    const std::shared_ptr<MeteredSession> metered_;
+    session::Session& session_;  // the value of metered_
     std::map<const Peer*, Subscriber> subscribers_;
     DraftTiming draftTiming_;
     MotionTiming motionTiming_;

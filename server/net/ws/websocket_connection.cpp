@@ -95,7 +95,7 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
     Incoming incoming = co_await read();
     while (!incoming.fault) {
         swap(buffer_, message_);
-        startMessage(std::move(incoming));
+        startHandling(std::move(incoming));
         incoming = co_await readAhead();
         co_await waitUntil(executedSignal_, [this] { return !executing_; });
     }
@@ -107,7 +107,7 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
 /// operator && is not used to run handleMessage() together with readAhead(): this operator cancels coroutines in a way
 /// that is not thread-safe if one of them awaits another strand, here the session's
 /// (https://github.com/chriskohlhoff/asio/issues/1348).
-void WebSocketConnection::startMessage(Incoming incoming) {
+void WebSocketConnection::startHandling(Incoming incoming) {
     executing_ = true;
     watching_ = false;
     asio::co_spawn(stream_.get_executor(), handleMessage(std::move(incoming)),

@@ -75,7 +75,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     void configureStream(bool offersSubprotocol);
     void startHelloTimer();
     boost::asio::awaitable<void> readLoop();
-    void startMessage(Incoming incoming);
+    void startHandling(Incoming incoming);
     boost::asio::awaitable<void> handleMessage(Incoming incoming);
     boost::asio::awaitable<Incoming> readAhead();
     boost::asio::awaitable<Incoming> read();

@@ -185,7 +185,7 @@ class Merger {
         for (BoundaryTriangle& triangle : triangles) triangle.sign *= turn * signs_[seed] < 0 ? -1 : 1;
 
         const std::vector<TriangleEdge> triangleEdges =
-            edgesOfTriangles(triangles, [](const BoundaryTriangle& t) -> const Triangle& { return t.corners; });
+            sortedTriangleEdges(triangles, [](const BoundaryTriangle& t) -> const Triangle& { return t.corners; });
         std::vector<std::uint32_t> faults;
         const auto blame = [&](std::uint32_t one, std::uint32_t other) {
             if (one == seed || (other != seed && volumes_[other] < volumes_[one])) std::swap(one, other);

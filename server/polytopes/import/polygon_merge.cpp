@@ -31,7 +31,7 @@ std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std:
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     const std::vector<TriangleEdge> triangleEdges =
-        edgesOfTriangles(triangles, [](const Triangle& t) -> const Triangle& { return t; });
+        sortedTriangleEdges(triangles, [](const Triangle& t) -> const Triangle& { return t; });
     std::unordered_map<std::uint32_t, std::array<std::uint32_t, 2>> next;
     std::size_t edges = 0;
     for (std::size_t i = 0, end = 0; i < triangleEdges.size(); i = end) {
@@ -91,7 +91,7 @@ bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& pla
 void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
                  geometry::JaggedArray& faces) {
     const std::vector<TriangleEdge> triangleEdges =
-        edgesOfTriangles(triangles, [](const Triangle& t) -> const Triangle& { return t; });
+        sortedTriangleEdges(triangles, [](const Triangle& t) -> const Triangle& { return t; });
     std::vector<std::array<std::uint32_t, 3>> beside(triangles.size(), {kNone, kNone, kNone});
     for (std::size_t i = 0, end = 0; i < triangleEdges.size(); i = end) {
         while (end < triangleEdges.size() && triangleEdges[end].edge == triangleEdges[i].edge) ++end;

@@ -19,14 +19,14 @@ struct TriangleEdge {
     std::uint32_t triangle;
 };
 
-/// Returns the edges of all triangles, sorted by their ends, then by triangle. `corners` maps an element of `triangles`
-/// to its corners.
-template <typename Triangles, typename Corners>
-std::vector<TriangleEdge> edgesOfTriangles(const Triangles& triangles, Corners corners) {
+/// Returns the edges of all triangles, sorted by their ends, then by triangle. `cornersOf` maps an element of
+/// `triangles` to its corners.
+template <typename Triangles, typename CornersOf>
+std::vector<TriangleEdge> sortedTriangleEdges(const Triangles& triangles, CornersOf cornersOf) {
     std::vector<TriangleEdge> edges;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Triangle& corner = corners(triangles[t]);
-        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::minmax(corner.at(i), corner.at((i + 1) % 3)), t});
+        const Triangle& corners = cornersOf(triangles[t]);
+        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::minmax(corners.at(i), corners.at((i + 1) % 3)), t});
     }
     std::sort(edges.begin(), edges.end(), [](const TriangleEdge& a, const TriangleEdge& b) {
         return std::pair(a.edge, a.triangle) < std::pair(b.edge, b.triangle);

@@ -69,10 +69,10 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     }
     for (int k = 0; k < 4; ++k) {
         const float left = leftOf(k);
-        for (const scene::HistogramAxes::Level& level : scene.histogram.levels) {
+        for (const scene::HistogramAxes::LevelLine& line : scene.histogram.levelLines) {
             const float at = std::round(
-                bottom + static_cast<float>(scene.histogram.height(level.value)) * (top - bottom) - thickness / 2);
-            overlay.box({left, at, left + width, at + thickness}, level.color, kLevelOpacity);
+                bottom + static_cast<float>(scene.histogram.height(line.value)) * (top - bottom) - thickness / 2);
+            overlay.box({left, at, left + width, at + thickness}, line.color, kLevelOpacity);
         }
         const scene::Color color = style.axes[static_cast<std::size_t>(k)];
         overlay.box({left, bottom - thickness, left + width, bottom}, color);

@@ -210,7 +210,7 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     std::array<BoxCorner, 8> corners{};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 place = fog.min + reach * glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
-        corners[static_cast<std::size_t>(i)] = {projection_.clipCoordinates(transform(place)), glm::vec3(place)};
+        corners[static_cast<std::size_t>(i)] = {projection_.clipXyw(transform(place)), glm::vec3(place)};
     }
     std::array<glm::vec4, slicing::FieldSection::kMaxWalls> walls{};
     std::ranges::transform(fog.walls, walls.begin(),

@@ -71,8 +71,8 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     // The cone from the eye that is tangent to the sphere has this radius at the center, with room for the antialiased
     // edge.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
-    const glm::vec3 c = projection_.clipCoordinates(center), dx = projection_.clipCoordinates(x) * silhouette,
-                    dy = projection_.clipCoordinates(y) * silhouette;
+    const glm::vec3 c = projection_.clipXyw(center), dx = projection_.clipXyw(x) * silhouette,
+                    dy = projection_.clipXyw(y) * silhouette;
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_));
     const glm::vec3 specular(glm::dot(x, halfVector_), glm::dot(y, halfVector_), glm::dot(z, halfVector_));
     const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
@@ -97,8 +97,8 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
     if (glm::dot(z, from) > 0) z = -z;
 
-    const glm::vec3 dx = projection_.clipCoordinates(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.edgeU);
-    const glm::vec3 a = projection_.clipCoordinates(from), b = projection_.clipCoordinates(to);
+    const glm::vec3 dx = projection_.clipXyw(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.edgeU);
+    const glm::vec3 a = projection_.clipXyw(from), b = projection_.clipXyw(to);
     const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_));
     const glm::vec3 specular(glm::dot(x, halfVector_), 0, glm::dot(z, halfVector_));
     const std::uint32_t tint = rgba(color, size.opacityFactor * opacity);
@@ -109,7 +109,7 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     if (2 * size.halfPixels < kMinFootRadius) return;
     // The end of the cylinder is a circle. The half of this circle that is turned to the eye extends beyond the flat
     // end in the picture. The foot covers this half.
-    const glm::vec3 foot = a + projection_.clipCoordinates(z) * (radius * size.edgeU);
+    const glm::vec3 foot = a + projection_.clipXyw(z) * (radius * size.edgeU);
     add({corner(foot, -1, 1), corner(foot, 1, 1), corner(a, 1, 0), corner(a, -1, 0)}, Patch::Form::disk);
 }
 
@@ -121,7 +121,7 @@ void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& no
     const ShapeVertex vertex{{}, {0, 0, 0.5f}, {0, 0, lit}, {0, 0, 0}, rgba(color, opacity)};
     for (const glm::vec3& corner : corners) {
         vertices_.push_back(vertex);
-        vertices_.back().clip = projection_.clipCoordinates(corner);
+        vertices_.back().clip = projection_.clipXyw(corner);
     }
     patches_.push_back({first, count, Patch::Form::face});
     if (soft) antialiasFace(first, count);

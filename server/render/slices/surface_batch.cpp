@@ -103,7 +103,7 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         if (number_[point] == kNone) {
             number_[point] = static_cast<std::uint32_t>(vertices_.size());
             const glm::vec3& n = normals_[point];
-            vertices_.push_back({projection_.clipCoordinates(points_[point]), glm::dot(n, points_[point]) > 0 ? -n : n,
+            vertices_.push_back({projection_.clipXyw(points_[point]), glm::dot(n, points_[point]) > 0 ? -n : n,
                                  colorOf(scene, slice, level, false, point, alpha)});
         }
         return number_[point];
@@ -123,8 +123,8 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
             const glm::vec3 flat = glm::normalize(isBack ? -normal : normal);
             for (const std::uint32_t point : {a, b, c}) {
                 indices.push_back(static_cast<std::uint32_t>(vertices_.size()));
-                vertices_.push_back({projection_.clipCoordinates(points_[point]), flat,
-                                     colorOf(scene, slice, level, true, point, alpha)});
+                vertices_.push_back(
+                    {projection_.clipXyw(points_[point]), flat, colorOf(scene, slice, level, true, point, alpha)});
             }
         } else {
             for (const std::uint32_t point : {a, b, c}) indices.push_back(vertex(point));
@@ -167,7 +167,7 @@ void SurfaceBatch::addFringes(const scene::Scene& scene, std::size_t slice, cons
         for (const std::uint32_t point : {from, to}) {
             const float length = glm::length(outward_[point]);
             const glm::vec2 out = length > 0 ? outward_[point] / length * pixel : glm::vec2(0);
-            const glm::vec3 clip = projection_.clipCoordinates(points_[point]);
+            const glm::vec3 clip = projection_.clipXyw(points_[point]);
             const glm::vec3& n = normals_[point];
             const glm::vec3 normal = isCap ? flat : glm::dot(n, points_[point]) > 0 ? -n : n;
             vertices_.push_back({clip, normal, colorOf(scene, slice, level, isCap, point, 1)});

@@ -189,9 +189,9 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
     }
 }
 
-// Adds the surface in a pentatope. `boundary` has bit i set if the facet opposite to corner i is on the boundary of the
-// domain.
-void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
+// Adds the surface and its caps in a pentatope. `above`: as for sectionOf(). `boundaryFacets` has bit i set if the
+// facet opposite to corner i is on the boundary of the domain.
+void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets) {
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         const unsigned inside = bitsOf(
             tetrahedron.edges, [&](const PentatopeEdge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
@@ -199,7 +199,7 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
         addLevelSet(cut, tetrahedron, inside);
         for (std::size_t face = 0; face < 4; ++face) {
             const std::uint8_t facet = tetrahedron.facets[face];
-            if (facet != SectionTetrahedron::kInner && (boundary >> facet & 1U) != 0)
+            if (facet != SectionTetrahedron::kInner && (boundaryFacets >> facet & 1U) != 0)
                 addCap(cut, tetrahedron, face, false);
         }
     }

@@ -99,7 +99,7 @@ class ClosedSurfaceSlicer {
     bool touchesBoundary(const CellRange& range) const;
     void cutBrick(const CellRange& range);
     void cutCell(glm::ivec4 cell, const std::array<double, 16>& heights, const std::array<double, 16>& values);
-    void cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary);
+    void cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets);
     void addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole);
     void findCrossings(CutPentatope& cut, unsigned above) const;
     void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);

@@ -57,13 +57,13 @@ TEST(Histogram, IsShownOfFieldsUnlessItIsHidden) {
 TEST(Histogram, HasALineForEachLevelInsideItsRange) {
     FieldPictures pictures;
     const scene::HistogramAxes& histogram = pictures.composed(lookAt({0.5, 2, 17, -1})).histogram;
-    ASSERT_EQ(histogram.levels.size(), 2U);
-    EXPECT_EQ(histogram.levels[0].value, 0.5);
-    EXPECT_EQ(histogram.levels[0].color, scene::levelColor(0, 4));
-    EXPECT_EQ(histogram.levels[1].color, scene::levelColor(1, 4));
+    ASSERT_EQ(histogram.levelLines.size(), 2U);
+    EXPECT_EQ(histogram.levelLines[0].value, 0.5);
+    EXPECT_EQ(histogram.levelLines[0].color, scene::levelColor(0, 4));
+    EXPECT_EQ(histogram.levelLines[1].color, scene::levelColor(1, 4));
     EXPECT_EQ(histogram.height(histogram.least), 0);
     EXPECT_EQ(histogram.height(histogram.greatest), 1);
-    EXPECT_EQ(pictures.composed(lookAt({1})).histogram.levels.size(), 1U);
+    EXPECT_EQ(pictures.composed(lookAt({1})).histogram.levelLines.size(), 1U);
 }
 
 TEST(Histogram, FollowsTheRotationAndTheObject) {

@@ -201,10 +201,10 @@ export class ElementSources {
     private isVertexOf(vertex: number, cell: number): boolean {
         const plane = this.hyperplaneOf(cell);
         if (!plane) return false;
-        return Math.abs(heightAbove(plane, this.picture.coordinates, vertex)) <= kFlat * this.radius;
+        return Math.abs(heightAbove(plane, this.picture.coordinates, vertex)) <= kFlat * this.circumradius;
     }
 
-    private get radius(): number {
+    private get circumradius(): number {
         return this.picture.scene.circumradius;
     }
 
@@ -235,7 +235,7 @@ export class ElementSources {
         let m = Infinity;
         for (let v = 0; v < coordinates.length; v += 4) {
             const level = coordinates[v + 3]! - slice.w;
-            if (level <= kLevel * this.radius) continue;
+            if (level <= kLevel * this.circumradius) continue;
             const height = a * coordinates[v]! + b * coordinates[v + 1]! + c * coordinates[v + 2]! - offset;
             m = Math.min(m, -height / level);
         }

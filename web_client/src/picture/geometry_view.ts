@@ -202,7 +202,7 @@ export class GeometryView {
             else surfacePainter.draw("translucent", viewCamera);
             return;
         }
-        const passes = [["farther", true], ["all", false], ["nearer", true]] as const;
+        const passes = [["behindProjection", true], ["all", false], ["inFrontOfProjection", true]] as const;
         for (const [slices, paintsSlices] of passes) {
             drawing.visible = paintsSlices;
             for (const projection of projectionDrawings) projection.visible = !paintsSlices;

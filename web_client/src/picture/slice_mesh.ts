@@ -91,10 +91,10 @@ export class SliceMesh {
     }
 
     /** Selects the slices to be drawn: all, or those behind or in front of the position of the projection. */
-    select(slices: "all" | "farther" | "nearer"): void {
+    select(slices: "all" | "behindProjection" | "inFrontOfProjection"): void {
         const { fartherIndexCount } = this.order;
         if (slices === "all") this.geometry.setDrawRange(0, this.count);
-        else if (slices === "farther") this.geometry.setDrawRange(0, fartherIndexCount);
+        else if (slices === "behindProjection") this.geometry.setDrawRange(0, fartherIndexCount);
         else this.geometry.setDrawRange(fartherIndexCount, this.count - fartherIndexCount);
     }
 

@@ -143,11 +143,11 @@ export class SurfacePainter {
         for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.points);
         this.bindAndReserve("normals", 12 * points);
         for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.normals);
-        this.bindAndReserve("colors", this.hasColors(0) ? 4 * points : 0);
+        this.bindAndReserve("colors", this.hasPointColors(false) ? 4 * points : 0);
         for (const { surface, firstPoint } of parts) {
             if (surface.colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.colors);
         }
-        this.bindAndReserve("capColors", this.hasColors(1) ? 4 * points : 0);
+        this.bindAndReserve("capColors", this.hasPointColors(true) ? 4 * points : 0);
         for (const { surface, firstPoint } of parts) {
             if (surface.cap_colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.cap_colors);
         }
@@ -159,10 +159,10 @@ export class SurfacePainter {
         this.renderer.resetState();
     }
 
-    /** Whether the points of level sets (`cap` is 0) or those of caps (`cap` is 1) have colors of their own. */
-    private hasColors(cap: number): boolean {
+    /** Whether the points of level sets or, if `isCap` is true, those of caps have colors of their own. */
+    private hasPointColors(isCap: boolean): boolean {
         const surface = this.parts[0]?.surface;
-        return (cap === 1 ? surface?.cap_colors : surface?.colors) !== undefined;
+        return (isCap ? surface?.cap_colors : surface?.colors) !== undefined;
     }
 
     /** Binds a buffer. If it has fewer than this many bytes, makes it larger; its contents are then lost. */
@@ -253,26 +253,26 @@ export class SurfacePainter {
         }
         const size = groups.triangles.BYTES_PER_ELEMENT;
         const type = size === 4 ? gl.UNSIGNED_INT : size === 2 ? gl.UNSIGNED_SHORT : gl.UNSIGNED_BYTE;
-        for (const cap of [0, 1]) {
-            const [begin, end] = groups.range(level, cap);
-            if (begin === end || (cap === 1 && !caps)) continue;
-            gl.uniform1i(uniforms.isCap, cap);
-            this.useColors(cap, firstPoint);
+        for (const isCap of [false, true]) {
+            const [begin, end] = groups.range(level, Number(isCap));
+            if (begin === end || (isCap && !caps)) continue;
+            gl.uniform1i(uniforms.isCap, Number(isCap));
+            this.selectColors(isCap, firstPoint);
             gl.drawElements(gl.TRIANGLES, 3 * (end - begin), type, firstByte + 3 * begin * size);
         }
     }
 
     /**
-     * Selects the colors of the triangles that are drawn next: those of the points of level sets (`cap` is 0) or of
-     * caps (`cap` is 1). If these points have no colors of their own, selects the color of the level.
+     * Selects the colors of the triangles that are drawn next: those of the points of level sets or, if `isCap` is
+     * true, of caps. If these points have no colors of their own, selects the color of the level.
      */
-    private useColors(cap: number, firstPoint: number): void {
+    private selectColors(isCap: boolean, firstPoint: number): void {
         const { gl } = this;
         const { uniforms, buffers } = this.resources!;
-        gl.uniform1i(uniforms.hasPointColors, Number(this.hasColors(cap)));
-        if (this.hasColors(cap)) {
+        gl.uniform1i(uniforms.hasPointColors, Number(this.hasPointColors(isCap)));
+        if (this.hasPointColors(isCap)) {
             gl.enableVertexAttribArray(2);
-            gl.bindBuffer(gl.ARRAY_BUFFER, (cap === 1 ? buffers.capColors : buffers.colors).buffer);
+            gl.bindBuffer(gl.ARRAY_BUFFER, (isCap ? buffers.capColors : buffers.colors).buffer);
             gl.vertexAttribPointer(2, 4, gl.UNSIGNED_BYTE, true, 0, 4 * firstPoint);
         } else {
             gl.disableVertexAttribArray(2);

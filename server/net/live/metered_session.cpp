@@ -1,4 +1,4 @@
-#include "net/live/held_session.hpp"
+#include "net/live/metered_session.hpp"
 
 #include <utility>
 
@@ -6,13 +6,13 @@
 
 namespace oval4d::net {
 
-HeldSession::HeldSession(AddressAccountPtr client, session::Session opened)
+MeteredSession::MeteredSession(AddressAccountPtr client, session::Session opened)
     : value(std::move(opened)),
       client_(std::move(client)),
       objectMemory_(session::ownObjectMemory(value)),
       reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemoryWithoutObjects(value))) {}
 
-void HeldSession::updateReservation(bool objectsChanged) {
+void MeteredSession::updateReservation(bool objectsChanged) {
     if (objectsChanged) objectMemory_ = session::ownObjectMemory(value);
     const std::size_t bytes = objectMemory_ + session::historyMemoryWithoutObjects(value);
     if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {

@@ -10,7 +10,7 @@ interface FocusAtRevision {
     revision: number;
 }
 
-export class FocusControl {
+export class FocusMover {
     private wanted = 0;
     private isUnsent = false;
     private continues = false; // whether the next move belongs to the undo step of the last one
@@ -48,7 +48,7 @@ export class FocusControl {
     }
 
     /**
-     * Records the focus in the newest state. Returns whether something other than this control has moved it there;
+     * Records the focus in the newest state. Returns whether something other than this object has moved it there;
      * false for a state from before the last answered move.
      */
     recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {

@@ -11,9 +11,9 @@
 namespace oval4d::net {
 
 /// A session whose memory counts against the byte account of the client that opened it. Not thread-safe.
-class HeldSession {
+class MeteredSession {
   public:
-    HeldSession(AddressAccountPtr client, session::Session opened);
+    MeteredSession(AddressAccountPtr client, session::Session opened);
 
     const AddressAccountPtr& client() const { return client_; }
 
