@@ -8,6 +8,7 @@
 
 #include "polytopes/catalogue/names.hpp"
 #include "polytopes/construction/convex_hull.hpp"
+#include "polytopes/construction/diagram_names.hpp"
 #include "polytopes/construction/diagram_text.hpp"
 #include "polytopes/construction/diminished.hpp"
 #include "polytopes/construction/uniform.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "polytopes/construction/design.hpp"
-#include "polytopes/construction/notation.hpp"
+#include "polytopes/construction/notations.hpp"
 
 namespace oval4d::polytopes {
 

@@ -1,10 +1,9 @@
-#include "polytopes/construction/combination.hpp"
-
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "polytopes/construction/convex_hull.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/dual.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/construction/polyhedra.hpp"
 #include "text/message_text.hpp"
 #include "text/words.hpp"
@@ -130,8 +130,18 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
     return duoprism(*p, *q);
 }
 
-}  // namespace
-
+// Parses the name of a combination of two polytopes: "hull of tesseract and 16-cell", "intersection of 120-cell and
+// 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
+// "intersection of" or "product of" but is not a valid name; std::nullopt for other texts.
+//
+// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
+// polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius of the
+// first. "of circumradius" and a number from 0.01 to 100 after a name scale this polytope to the given circumradius.
+// The result is moved such that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if
+// one of the two polytopes is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
+//
+// The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
+// over the polyhedron.
 std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     const Words& words = text.words;
     if (!isOfTwo(words[0]) || words.size() < 3 || words[1] != "of") return {};
@@ -153,5 +163,23 @@ std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     return Design{words[0] + " of " + a.name() + " and " + b.name(),
                   std::make_shared<HullOrIntersection>(words[0] == "intersection", a, b)};
 }
+
+}  // namespace
+
+constinit const Notation kCombinationNotation{
+    .polytopes =
+        "`product of A and B`, of two polygons such as `5-gon`, `pentagon` and `5/2-gon`, or of a "
+        "polyhedron and `segment`: the duoprism, or the prism over the polyhedron.<br>`hull of X and Y`, "
+        "of two convex polytopes: the convex hull of both, with the same center.<br>`intersection of X "
+        "and Y`, of two convex polytopes: the points that belong to both, with the same center",
+    .examples =
+        "`product of 5-gon and 7-gon`, `hull of tesseract and 16-cell`, `intersection of tesseract and "
+        "16-cell of circumradius 3`",
+    .edges =
+        "2 for the product of polygons, or of a uniform polyhedron and a segment; otherwise they follow from "
+        "X and Y, or from the polyhedron",
+    .constructions = "product,hull,intersection",
+    .parse = combinationNamed,
+};
 
 }  // namespace oval4d::polytopes

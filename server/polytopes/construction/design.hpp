@@ -46,7 +46,7 @@ std::string schlaefliOf(const Design& design);
 
 /// Builds the polytope, centered at the origin. In a uniform polytope, all edges have length 2. Throws
 /// std::invalid_argument if elements of the polytope would coincide, which happens for some star diagrams; if a dual
-/// does not exist because a cell's hyperplane passes through the center (see dual.hpp); or if a construction requires a
+/// does not exist because a cell's hyperplane passes through the center (see dual.cpp); or if a construction requires a
 /// convex polytope and gets a nonconvex one. Throws TooLarge (convex_hull.hpp) if a hull exceeds its limits.
 Polytope build(const Design& design);
 

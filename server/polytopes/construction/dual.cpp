@@ -10,6 +10,7 @@
 
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/polytope.hpp"
 
 namespace oval4d::polytopes {
@@ -108,6 +109,18 @@ std::optional<Diagram> regularDiagram(const Design& design) {
     return {};
 }
 
+namespace {
+
+// Parses a text such as "dual of rectified 5-cell". Returns the design of the dual, an error if the rest of the text
+// names no polytope, or std::nullopt if the text does not begin with "dual".
+//
+// The dual is the polar reciprocal of the named polytope (Coxeter, Regular Polytopes, §7.5): a vertex v of the dual
+// corresponds to the cell of the polytope in the hyperplane v · x = r², where r² is the circumradius times the least
+// distance of a cell's hyperplane from the center. With this r, the dual has the circumradius of the named polytope.
+// The dual of a dual has the design of the original polytope. The dual of a regular polytope has the design, and
+// therefore the size, of a regular polytope: the dual of the 8-cell is the 16-cell with edge length 2. If the
+// hyperplane of a cell passes through the center, the dual does not exist, and Recipe::build throws
+// std::invalid_argument.
 std::optional<DesignOrError> dualNamed(const NameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
@@ -121,5 +134,18 @@ std::optional<DesignOrError> dualNamed(const NameWords& text) {
     }
     return Design{"dual of " + base->name, std::make_shared<DualRecipe>(*base)};
 }
+
+}  // namespace
+
+constinit const Notation kDualNotation{
+    .polytopes =
+        "`dual of X`, of a convex polytope, or of a star without cells whose hyperplanes pass through the "
+        "center: the polar reciprocal about the center. Its circumradius is that of X, unless X is "
+        "regular. The dual of a dual is the polytope itself",
+    .examples = "`dual of rectified 5-cell`, `dual 3,5-duoprism`",
+    .edges = "2 if X is regular; otherwise they follow from X",
+    .constructions = "dual",
+    .parse = dualNamed,
+};
 
 }  // namespace oval4d::polytopes

@@ -2,28 +2,14 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <glm/vec4.hpp>
 
-#include "polytopes/construction/notation.hpp"
 #include "polytopes/construction/recipe.hpp"
 #include "polytopes/polytope.hpp"
 
 namespace oval4d::polytopes {
-
-/// Parses a text such as "dual of rectified 5-cell". Returns the design of the dual, an error if the rest of the text
-/// names no polytope, or std::nullopt if the text does not begin with "dual".
-///
-/// The dual is the polar reciprocal of the named polytope (Coxeter, Regular Polytopes, §7.5): a vertex v of the dual
-/// corresponds to the cell of the polytope in the hyperplane v · x = r², where r² is the circumradius times the least
-/// distance of a cell's hyperplane from the center. With this r, the dual has the circumradius of the named polytope.
-/// The dual of a dual has the design of the original polytope. The dual of a regular polytope has the design, and
-/// therefore the size, of a regular polytope: the dual of the 8-cell is the 16-cell with edge length 2. If the
-/// hyperplane of a cell passes through the center, the dual does not exist, and Recipe::build throws
-/// std::invalid_argument.
-std::optional<DesignOrError> dualNamed(const NameWords& text);
 
 /// Returns the pole of each cell: the point p with p · x = 1 for all points x in the cell's hyperplane. Throws
 /// std::invalid_argument if the hyperplane of a cell passes through the origin.

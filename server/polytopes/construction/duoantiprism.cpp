@@ -1,11 +1,10 @@
-#include "polytopes/construction/duoantiprism.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,6 +16,7 @@
 #include "geometry/jagged_array.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/construction/polyhedra.hpp"
 #include "polytopes/polytope.hpp"
 
@@ -124,8 +124,19 @@ class Duoantiprism : public Recipe {
     std::uint32_t p_, q_;
 };
 
-}  // namespace
-
+// Parses the name of a duoantiprism of two regular polygons: "3,4-duoantiprism", "3-4 duoantiprism",
+// "triangular-square duoantiprism", "pentagonal duoantiprism" (of two pentagons). Returns an error if the text ends
+// with "duoantiprism", but does not name two polygons before it, or if one of them is a star; std::nullopt for other
+// texts. The canonical name has the smaller number of sides first, as in "3,4-duoantiprism".
+//
+// The duoantiprism of a p-gon and a q-gon is the convex hull of every other vertex of the duoprism of a 2p-gon and a
+// 2q-gon. Its cells are 2p q-gonal antiprisms, 2q p-gonal antiprisms and, in place of the removed vertices, 2pq
+// disphenoids. A polygon may have two sides: this digon is a single edge, and an antiprism over it is a disphenoid.
+// The design for p = q = 2 is that of the 16-cell.
+//
+// The sides of all p-gons and q-gons have length 2, because with equal sides, the ratio of the longest edge to the
+// shortest one is least. The other edges, which join these polygons, are equally long; their length is greater than √2
+// and less than 2, except for p = q = 2, where it is 2.
 std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
     if (text.words.back() != "duoantiprism") return {};
     const auto polygons = polygonsNamed(text.withoutLast());
@@ -139,5 +150,20 @@ std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
     if (q == 2) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
     return Design{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism", std::make_shared<Duoantiprism>(p, q)};
 }
+
+}  // namespace
+
+constinit const Notation kDuoantiprismNotation{
+    .polytopes =
+        "a duoantiprism: the convex hull of every other vertex of the duoprism of two polygons with twice as "
+        "many sides. The polygons have at least two sides and are no stars; a single polygon stands for two",
+    .examples =
+        "`3,4-duoantiprism`, `3-4 duoantiprism`, `triangular-square duoantiprism`, `pentagonal "
+        "duoantiprism`, `2,5-duoantiprism`",
+    .edges =
+        "2 for the sides of the polygons; the other edges are equally long, and shorter unless the polytope "
+        "is the 16-cell",
+    .parse = duoantiprismNamed,
+};
 
 }  // namespace oval4d::polytopes

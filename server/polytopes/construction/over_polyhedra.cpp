@@ -1,18 +1,19 @@
-#include "polytopes/construction/over_polyhedra.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "polytopes/construction/design.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/construction/prism_over.hpp"
 #include "polytopes/construction/solids.hpp"
 #include "text/words.hpp"
@@ -109,8 +110,15 @@ Design overPolyhedron(Over over, const Solid& solid) {
     return {std::string(word) + " of " + nameOf(solid), std::make_shared<OverPolyhedron>(over, solid)};
 }
 
-}  // namespace
-
+// Parses the name of a prism, pyramid or bipyramid over a polyhedron: "prism of cube", "pyramid of rhombic
+// dodecahedron", "bipyramid of 5-gonal antiprism". solids.hpp describes the polyhedra. Returns an error if the text
+// begins with "prism of", "pyramid of" or "bipyramid of", but the rest names no convex polyhedron; std::nullopt for
+// other texts.
+//
+// The prism has the height 2. If the polyhedron is uniform and its circumradius is less than 2, the height of a
+// pyramid, and of each half of a bipyramid, is such that all edges to the apex have length 2; otherwise the height is
+// the circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
+// returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};
     const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, Over>::first);
@@ -126,5 +134,20 @@ std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (const auto* error = std::get_if<NameError>(&*solid)) return *error;
     return overPolyhedron(word->second, std::get<Solid>(*solid));
 }
+
+}  // namespace
+
+constinit const Notation kOverPolyhedronNotation{
+    .polytopes =
+        "`prism of P`, `pyramid of P` and `bipyramid of P`, over a polyhedron: the prism of height 2, or "
+        "the convex hull of P and a point, or two points, on its axis",
+    .examples = "`prism of rhombic dodecahedron`, `pyramid of cube`, `bipyramid of icosahedron`",
+    .edges =
+        "those of P, which are 2 if P is uniform; 2 between the bases of a prism; to an apex, 2 if P is "
+        "uniform and has a circumradius of less than 2, otherwise such that the distance of the apex from the "
+        "center of P is the circumradius of P",
+    .constructions = "prism,pyramid,bipyramid",
+    .parse = overPolyhedronNamed,
+};
 
 }  // namespace oval4d::polytopes

@@ -1,7 +1,6 @@
-#include "polytopes/construction/prism_names.hpp"
-
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,11 +8,17 @@
 
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/construction/polyhedra.hpp"
 #include "text/words.hpp"
 
 namespace oval4d::polytopes {
 
+namespace {
+
+// Parses the name of a duoprism of two regular polygons: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism",
+// "pentagonal duoprism" (of two pentagons). Returns an error if the text ends with "duoprism", but does not name two
+// polygons with at least three sides before it; std::nullopt for other texts.
 std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     if (text.words.back() != "duoprism") return {};
     const auto polygons = polygonsNamed(text.withoutLast());
@@ -26,6 +31,9 @@ std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     return duoprism((*polygons)[0], (*polygons)[1]);
 }
 
+// Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub
+// cube prism", "truncated cubic prism". Returns an error for a polygon with fewer than three sides, and for a star as
+// the polygon of an antiprism; std::nullopt if the text is no such name.
 std::optional<DesignOrError> prismNamed(const NameWords& text) {
     if (text.words.back() != "prism" || text.words.size() < 2) return {};
     const std::vector<std::string> words = text.withoutLast();
@@ -47,6 +55,8 @@ std::optional<DesignOrError> prismNamed(const NameWords& text) {
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
 
+// Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns std::nullopt for
+// other texts.
 std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
     const std::string wanted = text::normalizedName(text.joinedFrom(0));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
@@ -65,5 +75,32 @@ std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
     }
     return {};
 }
+
+}  // namespace
+
+constinit const Notation kDuoprismNotation{
+    .polytopes = "a duoprism, including those of star polygons; a single polygon stands for two",
+    .examples = "`5,7-duoprism`, `5-7 duoprism`, `triangular-square duoprism`, `pentagonal duoprism`, `5/2,5-duoprism`",
+    .edges = "2",
+    .parse = duoprismNamed,
+};
+
+constinit const Notation kPrismNotation{
+    .polytopes = "a prism over a Platonic, Archimedean or Kepler–Poinsot solid, a prism or an antiprism",
+    .examples =
+        "`snub cube prism`, `truncated cubic prism`, `great icosahedral prism`, `9-gonal prism prism`, "
+        "`pentagonal antiprism prism`",
+    .edges = "2",
+    .parse = prismNamed,
+};
+
+constinit const Notation kSnubPrismDiagramNotation{
+    .polytopes =
+        "the diagram of a prism over a snub polyhedron or an antiprism, in which s is a node of the snub "
+        "or antiprism",
+    .examples = "`s4s3s x`, `s2s5s x`",
+    .edges = "2",
+    .parse = snubPrismDiagramNamed,
+};
 
 }  // namespace oval4d::polytopes

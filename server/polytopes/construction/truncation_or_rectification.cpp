@@ -1,7 +1,6 @@
-#include "polytopes/construction/truncation_or_rectification.hpp"
-
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "polytopes/construction/convex_hull.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/dual.hpp"
+#include "polytopes/construction/notations.hpp"
 
 namespace oval4d::polytopes {
 
@@ -59,8 +59,17 @@ bool isConvex(const Diagram& diagram) {
     });
 }
 
-}  // namespace
-
+// Parses the name of a convex polytope whose vertices are cut off: "truncation of grand antiprism", "rectification of
+// dual of 5,7-duoprism". Returns an error if the text begins with "truncation of" or "rectification of", but the rest
+// names no polytope; std::nullopt for other texts.
+//
+// The rectification is the convex hull of the midpoints of the edges. The truncation is the convex hull of the points
+// that divide the edges into thirds. If these points on the edges at a vertex do not lie in one hyperplane, several
+// cells replace the vertex. The rectification of a regular polytope has the design of the rectified uniform polytope.
+// The truncation of a regular polytope has the design of the truncated uniform polytope if the 2-faces of the regular
+// polytope are triangles; for other 2-faces, the uniform truncation does not cut the edges at their thirds.
+// Recipe::build throws std::invalid_argument if the named polytope is not convex, and TooLarge if a limit of
+// convex_hull.hpp is exceeded.
 std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& text) {
     const bool truncation = text.words[0] == "truncation";
     if ((!truncation && text.words[0] != "rectification") || text.words.size() < 3 || text.words[1] != "of") return {};
@@ -74,5 +83,19 @@ std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& tex
     }
     return Design{text.words[0] + " of " + base->name, std::make_shared<TruncationOrRectification>(truncation, *base)};
 }
+
+}  // namespace
+
+constinit const Notation kTruncationOrRectificationNotation{
+    .polytopes =
+        "`truncation of X`, of a convex polytope: the convex hull of the points that divide the edges into thirds. "
+        "For regular polytopes with triangles, this is the `truncated` polytope; the squares of a `truncated "
+        "tesseract` are cut to regular octagons instead.<br>`rectification of X`, of a convex polytope: the convex "
+        "hull of the midpoints of the edges. For regular polytopes, this is the `rectified` polytope",
+    .examples = "`truncation of grand antiprism`, `rectification of pyramid of cube`",
+    .edges = "2 if it is a `truncated` or `rectified` polytope; otherwise they follow from X",
+    .constructions = "truncation,rectification",
+    .parse = truncationOrRectificationNamed,
+};
 
 }  // namespace oval4d::polytopes

@@ -1,4 +1,4 @@
-// The table of notations: its examples are built, and its texts are those of the specification.
+// The list of notations: its examples are built, and its texts are those of the specification.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,6 +15,7 @@
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/names.hpp"
 #include "polytopes/construction/design.hpp"
+#include "polytopes/construction/notations.hpp"
 #include "polytopes/polytope.hpp"
 #include "text/words.hpp"
 #include "unit/polytopes/support.hpp"
@@ -23,7 +24,7 @@ namespace oval4d::polytopes {
 namespace {
 
 // Returns the names in backquotes.
-std::vector<std::string> examplesOf(const NotationRow& notation) {
+std::vector<std::string> examplesOf(const Notation& notation) {
     std::vector<std::string> examples;
     std::string_view rest = notation.examples;
     for (std::size_t begin = rest.find('`'); begin != std::string_view::npos; begin = rest.find('`')) {
@@ -37,13 +38,13 @@ std::vector<std::string> examplesOf(const NotationRow& notation) {
 
 TEST(Notations, parseTheirExamples) {
     const DesignLookup lookup = [](std::string_view name) { return designNamed(name, 100'000); };
-    for (const NotationRow& notation : notations()) {
-        ASSERT_TRUE(notation.parse != nullptr);
-        EXPECT_FALSE(examplesOf(notation).empty()) << notation.polytopes;
-        for (const std::string& example : examplesOf(notation)) {
+    for (const Notation* notation : kNotations) {
+        ASSERT_TRUE(notation->parse != nullptr);
+        EXPECT_FALSE(examplesOf(*notation).empty()) << notation->polytopes;
+        for (const std::string& example : examplesOf(*notation)) {
             SCOPED_TRACE(example);
             const std::vector<std::string> words = text::wordsOf(example);
-            const auto parsed = notation.parse({words, lookup});
+            const auto parsed = notation->parse({words, lookup});
             ASSERT_TRUE(parsed && std::holds_alternative<Design>(*parsed));
             const std::string& name = std::get<Design>(*parsed).name;
             EXPECT_EQ(name, support::designFor(example).name) << "an earlier notation fits, too";
@@ -54,8 +55,8 @@ TEST(Notations, parseTheirExamples) {
 }
 
 TEST(Notations, haveExamplesWithTheStatedElements) {
-    for (const NotationRow& notation : notations()) {
-        for (const std::string& example : examplesOf(notation)) {
+    for (const Notation* notation : kNotations) {
+        for (const std::string& example : examplesOf(*notation)) {
             SCOPED_TRACE(example);
             const Design design = support::designFor(example);
             const Polytope p = build(design);
@@ -68,7 +69,7 @@ TEST(Notations, haveExamplesWithTheStatedElements) {
             if (p.convex) {
                 EXPECT_EQ(found.vertices + found.faces, found.edges + found.cells);
             }
-            if (notation.edges != "2") continue;
+            if (notation->edges != "2") continue;
             for (const auto& [a, b] : p.edges)
                 ASSERT_NEAR(glm::distance(p.vertices[a], p.vertices[b]), 2, 1e-9 * p.circumradius);
         }
@@ -78,17 +79,17 @@ TEST(Notations, haveExamplesWithTheStatedElements) {
 TEST(Notations, areInTheSpecification) {
     std::ifstream in(std::string(OVAL4D_SOURCE_DIR) + "/protocol/README.md");
     const std::string specification((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    for (const NotationRow& notation : notations()) {
-        const std::string row = "| " + std::string(notation.polytopes) + " | " + std::string(notation.examples) +
-                                " | " + std::string(notation.edges) + " |\n";
+    for (const Notation* notation : kNotations) {
+        const std::string row = "| " + std::string(notation->polytopes) + " | " + std::string(notation->examples) +
+                                " | " + std::string(notation->edges) + " |\n";
         EXPECT_NE(specification.find(row), std::string::npos) << row << "run tests/lint --fix";
     }
 }
 
 TEST(Constructions, areCounted) {
     std::size_t count = 0;
-    for (const NotationRow& notation : notations()) {
-        for (const std::string_view word : text::splitAtCommas(notation.constructions)) {
+    for (const Notation* notation : kNotations) {
+        for (const std::string_view word : text::splitAtCommas(notation->constructions)) {
             std::string name = "5-cell";
             for (std::size_t i = 0; i <= kMaxConstructions; ++i) name = std::string(word) + " of " + name;
             const auto named = designNamed(name, 100'000);

@@ -1,0 +1,16 @@
+#pragma once
+// Names and symbols that stand for Coxeter–Dynkin diagrams: the diagrams themselves, Schläfli symbols, and operations
+// on regular polychora, such as "truncated tesseract".
+
+#include <string>
+#include <vector>
+
+#include "polytopes/construction/diagram.hpp"
+
+namespace oval4d::polytopes {
+
+/// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as
+/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell"; an empty list if there are none.
+std::vector<std::string> operationNames(const Diagram& diagram);
+
+}  // namespace oval4d::polytopes

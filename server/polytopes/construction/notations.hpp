@@ -1,0 +1,79 @@
+#pragma once
+// Notations, that is, systems of names and symbols for polytopes. The source of each family of polytopes defines the
+// notation of its names; this file lists them.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/recipe.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+/// The design that a text denotes, or the reason why it denotes none.
+using DesignOrError = std::variant<Design, NameError>;
+
+/// A function that returns the design that a text in any notation denotes. A notation calls it for the name of another
+/// polytope within its own text, as in "dual of rectified 5-cell".
+using DesignLookup = std::function<DesignOrError(std::string_view text)>;
+
+/// A text that may name a polytope, split into lower-case words (at least one), and the function that looks up names of
+/// other polytopes within the text. The referenced objects must outlive it.
+struct NameWords {
+    const std::vector<std::string>& words;
+    const DesignLookup& lookup;
+
+    /// Returns the words from index `first` on, joined by spaces.
+    std::string joinedFrom(std::size_t first) const { return text::joined(words, first, words.size()); }
+    /// Returns all words except the last one.
+    std::vector<std::string> withoutLast() const { return {words.begin(), words.end() - 1}; }
+};
+
+/// A notation. The first three texts are Markdown, of which tests/lint --fix makes a row of protocol/README.md.
+struct Notation {
+    std::string_view polytopes;  ///< the polytopes with names in the notation: "a duoprism"
+    std::string_view examples;   ///< names in backquotes: "`5,7-duoprism`, `5/2,5-duoprism`"
+    std::string_view edges;      ///< the lengths of edges; "2" if all edges of all these polytopes have the length 2
+    /// The words with which constructions begin, separated by commas. A construction is a name such as "hull of X and
+    /// Y".
+    std::string_view constructions = {};
+    /// Parses a text. Returns the design; an error if the text is in this notation but denotes no polytope;
+    /// std::nullopt if the text is not in this notation.
+    std::optional<DesignOrError> (*parse)(const NameWords& text);
+};
+
+extern const Notation kDualNotation;                       // dual.cpp
+extern const Notation kOverPolyhedronNotation;             // over_polyhedra.cpp
+extern const Notation kTruncationOrRectificationNotation;  // truncation_or_rectification.cpp
+extern const Notation kCombinationNotation;                // combination.cpp
+extern const Notation kSchlaefliNotation;                  // diagram_names.cpp
+extern const Notation kDiagramNotation;                    // diagram_names.cpp
+extern const Notation kSnubPrismDiagramNotation;           // prism_names.cpp
+extern const Notation kDuoprismNotation;                   // prism_names.cpp
+extern const Notation kDuoantiprismNotation;               // duoantiprism.cpp
+extern const Notation kPrismNotation;                      // prism_names.cpp
+extern const Notation kOperationNotation;                  // diagram_names.cpp
+
+/// All notations, in the order in which they are tried. The first one that returns a design, or an error with a
+/// message, gives the result.
+inline constexpr auto kNotations = std::to_array<const Notation*>({
+    &kDualNotation,
+    &kOverPolyhedronNotation,
+    &kTruncationOrRectificationNotation,
+    &kCombinationNotation,
+    &kSchlaefliNotation,
+    &kDiagramNotation,
+    &kSnubPrismDiagramNotation,
+    &kDuoprismNotation,
+    &kDuoantiprismNotation,
+    &kPrismNotation,
+    &kOperationNotation,
+});
+
+}  // namespace oval4d::polytopes
