@@ -111,7 +111,7 @@ std::vector<std::string> DataFolder::names() const {
     if (auto known = knownNames()) return *std::move(known);
     const Clock::time_point began = Clock::now();
     std::vector<std::string> found = list();
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(namesMutex_);
     names_ = found;
     listed_ = began;
     return found;
@@ -119,7 +119,7 @@ std::vector<std::string> DataFolder::names() const {
 
 std::optional<std::vector<std::string>> DataFolder::knownNames() const {
     if (folder_.empty()) return std::vector<std::string>();
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(namesMutex_);
     if (listed_ == Clock::time_point::min() || Clock::now() - listed_ >= kListedFor) return {};
     return names_;
 }
@@ -303,9 +303,6 @@ Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadO
     return keep(key, std::move(*marked), onDisk);
 }
 
-std::size_t DataFolder::bytes() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
-}
+std::size_t DataFolder::bytes() const { return bytes_; }
 
 }  // namespace oval4d::net

@@ -1,6 +1,7 @@
 #pragma once
 // The folder of arrays that the server offers to all sessions (--data).
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -91,11 +92,14 @@ class DataFolder {
     const std::filesystem::path folder_;
     const std::size_t maxBytes_;
     SampleFiles& sampleFiles_;
-    mutable std::mutex mutex_;  // guards the members below
+    mutable std::mutex namesMutex_;  // guards names_ and listed_
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
+    // Guards the members below. A thread may hold it while it allocates or frees gigabytes on the disk. Therefore
+    // knownNames() and bytes(), which the threads of the network call, do not lock it.
+    std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first
-    std::size_t bytes_ = 0;              // total memory of the fields in `recent_`, in bytes
+    std::atomic<std::size_t> bytes_{0};  // total memory of the fields in `recent_`, in bytes
     std::set<std::string> reading_;      // the keys of the fields that threads are reading now
     std::condition_variable readEnded_;  // notified when a key is removed from `reading_`
 };

@@ -126,24 +126,34 @@ bool isBadNumber(std::string_view word) {
     return fault == std::errc::result_out_of_range && end == word.data() + word.size() && !tooSmall;
 }
 
-// Returns the text with null in place of each number that is NaN, ±Infinity or too large, outside of strings.
+// Returns the length of the string that begins with the quotation mark at the start of the text, with both quotation
+// marks. If the string does not end, returns the length of the text.
+std::size_t lengthOfString(std::string_view text) {
+    for (std::size_t i = 1; i < text.size(); ++i) {
+        if (text[i] == '"') return i + 1;
+        if (text[i] == '\\') ++i;
+    }
+    return text.size();
+}
+
+// Returns the length of the run of letters, digits, signs and points at the start of the text.
+std::size_t lengthOfWord(std::string_view text) {
+    const auto inWord = [](char c) {
+        return text::isLetter(c) || text::isDigit(c) || c == '+' || c == '-' || c == '.';
+    };
+    return static_cast<std::size_t>(std::ranges::find_if_not(text, inWord) - text.begin());
+}
+
+// Returns the text with null in place of each number that is NaN, ±Infinity or too large, outside of strings. Takes
+// time linear in the length of the text, which may come from an attacker.
 std::string withNulls(std::string_view text) {
     std::string out;
-    bool inString = false;
     for (std::size_t i = 0; i < text.size();) {
-        const auto inWord = [](char c) {
-            return text::isLetter(c) || text::isDigit(c) || c == '+' || c == '-' || c == '.';
-        };
-        const auto end = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(), inWord);
-        const std::string_view word(text.begin() + static_cast<std::ptrdiff_t>(i), end);
-        if (!inString && !word.empty()) {
-            out += isBadNumber(word) ? std::string_view("null") : word;
-            i += word.size();
-            continue;
-        }
-        if (text[i] == '"') inString = !inString;
-        if (inString && text[i] == '\\') out += text[i++];
-        if (i < text.size()) out += text[i++];
+        const std::string_view rest = text.substr(i);
+        const std::size_t word = lengthOfWord(rest);
+        const std::size_t length = word > 0 ? word : rest.front() == '"' ? lengthOfString(rest) : 1;
+        out += isBadNumber(rest.substr(0, word)) ? std::string_view("null") : rest.substr(0, length);
+        i += length;
     }
     return out;
 }

@@ -1,5 +1,8 @@
 """The end of WebSockets (RFC 6455, section 7), as in group 7 of the Autobahn test suite: close frames, and disconnects."""
 
+import json
+from pathlib import Path
+
 import pytest
 from harness import Server
 from raw import BINARY, CLOSE, PING, TEXT, WebSocket, close_frame, frame
@@ -88,6 +91,31 @@ def test_the_server_survives_abrupt_disconnects(server, session, leave):
     server.wait_for(lambda: server.metric("oval4d_websockets") == 0)
     with session.join() as another:
         assert_answers(another)
+
+
+def test_the_server_closes_a_half_closed_connection_that_does_not_read():
+    """The end of the client's side arrives while answers wait to be written."""
+    with Server("--max-unsent", "256M", "--max-client-bytes", "256M", "--min-read-rate", 1) as server:
+        with WebSocket(server, receive_buffer=4096) as peer:
+            peer.request(type="hello")
+            assert peer.request(type="command", line="polytope 600-cell")["type"] == "done"
+            answer = len(json.dumps(peer.request(type="get", what="slices")))
+            # Much more than the buffers of the sockets hold.
+            peer.send(frame(TEXT, b'{"type":"get","what":"slices"}') * ((64 << 20) // answer))
+            server.wait_for(lambda: server.metric("oval4d_client_bytes") > 32 << 20)
+            peer.half_close()
+            server.wait_for(lambda: not is_open_in_server(peer))
+            server.wait_for(lambda: server.metric("oval4d_client_bytes") == 0)
+
+
+def is_open_in_server(peer):
+    """Returns whether a process has the server's end of the connection open: whether it has an inode (proc(5))."""
+    ports = peer.server.port, peer.socket.getsockname()[1]
+    for row in Path("/proc/net/tcp").read_text(encoding="ascii").splitlines()[1:]:
+        fields = row.split()
+        if tuple(int(address.partition(":")[2], 16) for address in fields[1:3]) == ports:
+            return fields[9] != "0"
+    return False
 
 
 def test_a_half_closed_connection_is_answered(peer):

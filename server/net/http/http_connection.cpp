@@ -16,6 +16,8 @@
 #include "net/http/access_check.hpp"
 #include "net/http/request_validation.hpp"
 #include "net/http/upload.hpp"
+#include "net/jobs/run_on_pool.hpp"
+#include "net/live/errors.hpp"
 #include "net/transfer_deadline.hpp"
 #include "net/ws/websocket_connection.hpp"
 #include "text/message_text.hpp"
@@ -58,6 +60,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<Reply> answer(const HttpRequest& request);
     std::optional<Reply> refuseConnection() const;
     asio::awaitable<bool> serveUpload(HttpRequest request);
+    asio::awaitable<std::optional<Result<LiveSession::Applied>>> restoreState(
+        std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file);
     std::optional<Reply> checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const;
     asio::awaitable<SessionManager::JoinResult> joinSession(std::string session, std::string token);
     std::function<void(SessionManager::JoinHandler)> sessionJoiner(std::string session, std::string token) const;
@@ -245,13 +249,26 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     if (upload.load) {
         upload.load->file = file;
         applied = co_await session->apply(client_, std::move(*upload.load));
-    } else if (auto set = setCommandFromUpload(*file, options().maxLoadMessageBytes)) {
-        applied = co_await session->apply(client_, std::move(*set));
     } else {
-        applied = set.error();
+        applied = co_await restoreState(session, file);
     }
     Reply reply = replyTo(*applied);
     co_return co_await write(request, std::move(reply));
+}
+
+/// Restores the state in an uploaded file. A worker parses the file, because that may take long.
+asio::awaitable<std::optional<Result<LiveSession::Applied>>> HttpConnection::restoreState(
+    std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file) {
+    constexpr parallel::WorkerPool::Seconds kRoughCost{0.1};
+    try {
+        auto work = parseStateFileJob(std::move(file), options().maxLoadMessageBytes);
+        ParsedStateFile parsed = co_await runOnPool<ParsedStateFile>(
+            context_.services.pictureWorkers.workers(), std::move(work), client_->pictureLane(), kRoughCost);
+        if (!*parsed) co_return parsed->error();
+        co_return co_await session->apply(client_, std::move(**parsed));
+    } catch (const parallel::QueueFull&) {
+        co_return kTooManyJobs;
+    }
 }
 
 Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {

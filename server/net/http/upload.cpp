@@ -111,11 +111,14 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     return upload;
 }
 
-Result<session::Set> setCommandFromUpload(const fields::FileHandle& file, std::size_t maxMessage) {
-    const auto contents = fields::FileContents::map(file.descriptor());
-    if (!contents) return contents.error();
-    return wire::setCommandFromFile({reinterpret_cast<const char*>(contents->bytes.data()), contents->bytes.size()},
-                                    maxMessage);
+std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared_ptr<const fields::FileHandle> file,
+                                                                     std::size_t maxMessage) {
+    return [file = std::move(file), maxMessage](std::size_t /*worker*/) -> ParsedStateFile {
+        const auto contents = fields::FileContents::map(file->descriptor());
+        if (!contents) return contents.error();
+        const auto& bytes = contents->bytes;
+        return wire::setCommandFromFile({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, maxMessage);
+    };
 }
 
 Reply uploadErrorReply(const Error& error) {

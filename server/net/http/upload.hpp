@@ -3,6 +3,7 @@
 // bodies.
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,9 +41,12 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
 /// smaller.
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
-/// Returns the command that restores the state in an uploaded file. `maxMessage`: the maximum number of bytes of the
-/// `state` message in it. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is empty.
-Result<session::Set> setCommandFromUpload(const fields::FileHandle& file, std::size_t maxMessage);
+/// The command that restores the state in an uploaded file, or an error; empty before the file is parsed.
+using ParsedStateFile = std::optional<Result<session::Set>>;
+/// Returns a job for a worker pool that parses an uploaded file with a state. `maxMessage`: the maximum number of bytes
+/// of the `state` message in the file. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is empty.
+std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared_ptr<const fields::FileHandle> file,
+                                                                     std::size_t maxMessage);
 
 /// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format`, and with
 /// status 429 and a time to wait for `too_many`.

@@ -57,7 +57,10 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     co_await readLoop();
     services_.metrics.webSockets.Decrement();
     ended_ = true;
-    outbox_.clear();
+    // A client that sends no more may not read either. Closing the socket ends a pending write; its handler releases
+    // the message that is being written, from whose bytes the socket sends until then.
+    beast::get_lowest_layer(stream_).close();
+    if (!writing_) outbox_.clear();
     deadline_.cancel();
     helloDeadline_.cancel();
     if (session_) sessions_->leave(std::exchange(session_, nullptr), shared_from_this());
@@ -77,15 +80,19 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
     stream_.auto_fragment(false);
 }
 
-/// Closes the connection if no hello arrives in time.
+/// Closes the connection if no hello arrives in time. If the time ends while a hello is being handled, which may take
+/// long because the session is read from the store, handleHello() closes the connection after a failure.
 void WebSocketConnection::startHelloTimer() {
     helloDeadline_.expires_after(toSteadyDuration(services_.options.helloTimeout));
     helloDeadline_.async_wait([weak = weak_from_this()](boost::system::error_code canceled) {
         const auto self = weak.lock();
-        if (canceled || !self || self->session_ || self->ended_) return;
-        self->sendError({ErrorCode::hello_first, "no hello arrived in time"}, {});
-        self->close(close_code::kPolicy, "no hello");
+        if (!canceled && self && !self->session_ && !self->joining_ && !self->ended_) self->closeWithoutHello();
     });
+}
+
+void WebSocketConnection::closeWithoutHello() {
+    sendError({ErrorCode::hello_first, "no hello arrived in time"}, {});
+    close(close_code::kPolicy, "no hello");
 }
 
 /// Executes the client's messages one after another. While one of them takes long, the next one is read, because Beast
@@ -264,12 +271,15 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
         sendError(fits.error(), id);
         co_return;
     }
+    joining_ = true;
     const auto joined = co_await joinSession(hello);
+    joining_ = false;
     if (!joined) {
         sendError(joined.error(), id);
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
         if (joined.error().code == ErrorCode::bad_token) close(close_code::kBadToken, "wrong token");
         if (joined.error().code == ErrorCode::internal) close(close_code::kTryLater, "try again later");
+        if (!session_ && helloDeadline_.expiry() <= std::chrono::steady_clock::now()) closeWithoutHello();
         co_return;
     }
     if (!session_) {

@@ -74,6 +74,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
 
     void configureStream(bool offersSubprotocol);
     void startHelloTimer();
+    void closeWithoutHello();
     boost::asio::awaitable<void> readLoop();
     void startHandling(Incoming incoming);
     boost::asio::awaitable<void> handleMessage(Incoming incoming);
@@ -104,6 +105,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;
     std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
+    bool joining_ = false;                  // whether the session is being opened that a hello requests
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed

@@ -306,6 +306,14 @@ TEST(Parse, ManyBadNumbersAreNoWork) {
     EXPECT_TRUE(std::holds_alternative<BadRequest>(parseRequest(text)));
 }
 
+TEST(Parse, LongStringsBesideABadNumberAreNoWork) {
+    const std::string word(8 << 20, 'a');  // in time that grows with its square, this would take hours
+    const auto result = parseRequest(R"({"type":"undo","x":")" + word + R"(\"NaN","id":5,"y":NaN})");
+    const auto& bad = std::get<BadRequest>(result);
+    EXPECT_EQ(bad.id, 5);
+    EXPECT_FALSE(bad.notJson);
+}
+
 TEST(Parse, ManyValuesAreRefused) {
     std::string text = R"({"type":"rotate","planes":["xw"],"angles":[)";
     for (int i = 0; i < 1'000'000; ++i) text += "\"\",";
