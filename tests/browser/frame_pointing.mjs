@@ -283,6 +283,8 @@ test("frame pointing: a new picture ends the label, and the page asks again when
     await hoverAt(at[0] + 2, at[1]);
     assert.deepEqual(await asked(), []);
     await press("Space");
+    const { revision: last } = await script.until(({ turning }) => !turning, "the end of the turning");
+    await presented(page, last); // the page counts its time to rest from the last picture
     await pass(kLong);
     await untilAsked(1);
     await close();
