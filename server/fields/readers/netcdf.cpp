@@ -150,13 +150,22 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
+// Returns the coordinate variable of one of the variable's dimensions: the one with the dimension's name and with this
+// dimension alone. The name does not suffice: a variable may be named like a dimension that it does not have, and a
+// dimension of a group may be named like one of an outer group.
+std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
+    auto found = variableNamed(variable.group, dimensionName(variable.group, dimension));
+    if (!found || found->dimensions != std::vector{dimension}) return {};
+    return found;
+}
+
 // Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
 // bounds of a coordinate variable.
 bool isAuxiliary(const Variable& variable) {
     if (variable.dimensions.empty()) return true;
-    const std::string dimension = dimensionName(variable.group, variable.dimensions.front());
-    if (variable.dimensions.size() == 1) return variable.name == dimension;
-    const auto coordinate = variableNamed(variable.group, dimension);
+    const int dimension = variable.dimensions.front();
+    if (variable.dimensions.size() == 1) return variable.name == dimensionName(variable.group, dimension);
+    const auto coordinate = coordinateOf(variable, dimension);
     return coordinate &&
            (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
 }
@@ -198,25 +207,32 @@ Result<Variable> variableAtPath(int file, const std::string& path) {
 
 std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t size, const std::string& name,
                                      ReadField& field) {
-    if (coordinate.dimensions.size() != 1 || rowOf(coordinate.type) == nullptr) return {};
+    const TypeRow* const row = rowOf(coordinate.type);
+    if (row == nullptr) return {};
+    const std::size_t start = 0;
     std::vector<double> at(size);
-    if (nc_get_var_double(coordinate.group, coordinate.id, at.data()) != NC_NOERR) return {};
+    if (nc_get_vara_double(coordinate.group, coordinate.id, &start, &size, at.data()) != NC_NOERR) return {};
+    const NumberFormat format = formatOf(coordinate, *row);
+    for (double& each : at) each = each * format.scale + format.offset;  // packed data: CF conventions, section 8.1
     return endsOfCoordinates(at, name, field.warnings);
 }
 
 // Assigns dimensions to axes, and finds the box and the units.
 Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, ReadField& field) {
     std::vector<CfDimension> stated;
+    std::vector<std::optional<Variable>> coordinates;
     std::vector<Dimension> dimensions;
     for (const int id : variable.dimensions) {
         CfDimension each{dimensionName(variable.group, id), {}, {}, {}, {}};
-        if (const auto coordinate = variableNamed(variable.group, each.name)) {
+        auto coordinate = coordinateOf(variable, id);
+        if (coordinate) {
             each.axis = textOf(*coordinate, "axis");
             each.standardName = textOf(*coordinate, "standard_name");
             each.units = textOf(*coordinate, "units");
             each.positive = textOf(*coordinate, "positive");
         }
         stated.push_back(std::move(each));
+        coordinates.push_back(std::move(coordinate));
         std::size_t size = 0;
         if (nc_inq_dimlen(variable.group, id, &size) != NC_NOERR) return badField("a dimension cannot be read");
         if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
@@ -231,8 +247,7 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
         each.axis = (*axes)[i];
         if (each.size == 0) return badField("the array is empty");
         field.units[each.axis] = stated[i].units;
-        const auto coordinate = variableNamed(variable.group, stated[i].name);
-        const auto ends = coordinate ? endsOf(*coordinate, each.size, stated[i].name, field) : std::nullopt;
+        const auto ends = coordinates[i] ? endsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
         field.boxIsKnown = field.boxIsKnown || ends;
         const CoordinateEnds found = ends.value_or(CoordinateEnds{0, static_cast<double>(each.size - 1)});
         each.reversed = found.last < found.first;

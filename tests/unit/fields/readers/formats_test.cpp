@@ -213,6 +213,71 @@ TEST(Netcdf, FollowsTheConventions) {
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
 }
 
+TEST(Netcdf, ANameAloneMakesNoCoordinates) {
+    const std::array<float, 2> samples{1, 2};
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, x = 0, other = 0, variable = 0, coordinate = 0;
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_def_dim(file, "x", 2, &x));
+    check(nc_def_dim(file, "n", 100'000, &other));
+    check(nc_def_var(file, "f", NC_FLOAT, 1, &x, &variable));
+    check(nc_def_var(file, "x", NC_DOUBLE, 1, &other, &coordinate));
+    check(nc_enddef(file));
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path), {.variable = "f"});
+    EXPECT_EQ(field.shape, (Shape{2, 1, 1, 1}));
+    EXPECT_FALSE(field.boxIsKnown);
+}
+
+TEST(Netcdf, TheDimensionOfAGroupIsNotTheOuterOneOfTheSameName) {
+    const std::array<float, 2> samples{1, 2};
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, group = 0, outer = 0, inner = 0, variable = 0, coordinate = 0;
+    check(nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &file));
+    check(nc_def_dim(file, "x", 2, &outer));
+    check(nc_def_grp(file, "g", &group));
+    check(nc_def_dim(group, "x", 100'000, &inner));
+    check(nc_def_var(group, "f", NC_FLOAT, 1, &outer, &variable));
+    check(nc_def_var(group, "x", NC_DOUBLE, 1, &inner, &coordinate));
+    check(nc_enddef(file));
+    check(nc_put_var_float(group, variable, samples.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path), {.variable = "g/f"});
+    EXPECT_EQ(field.shape, (Shape{2, 1, 1, 1}));
+    EXPECT_FALSE(field.boxIsKnown);
+}
+
+TEST(Netcdf, PackedCoordinatesAreUnpacked) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, variable = 0;
+    std::array<int, 2> dimensions{}, coordinates{};
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    const std::array<const char*, 2> names{"y", "x"};
+    const std::array<std::size_t, 2> sizes{2, 3};
+    const std::array<double, 2> scales{-0.5, 0.25}, offsets{3, -1};
+    for (std::size_t i = 0; i < 2; ++i) {
+        check(nc_def_dim(file, names[i], sizes[i], &dimensions[i]));
+        check(nc_def_var(file, names[i], NC_SHORT, 1, &dimensions[i], &coordinates[i]));
+        check(nc_put_att_double(file, coordinates[i], "scale_factor", NC_DOUBLE, 1, &scales[i]));
+        check(nc_put_att_double(file, coordinates[i], "add_offset", NC_DOUBLE, 1, &offsets[i]));
+    }
+    check(nc_def_var(file, "f", NC_FLOAT, 2, dimensions.data(), &variable));
+    check(nc_enddef(file));
+    const std::array<short, 3> stored{0, 1, 2};
+    const std::array<float, 6> samples{0, 1, 2, 3, 4, 5};
+    for (const int coordinate : coordinates) check(nc_put_var_short(file, coordinate, stored.data()));
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path));
+    EXPECT_EQ(field.box, (Box{{-1, 2.5, 0, 0}, {-0.5, 3, 0, 0}}));
+    const auto values = field.samples.values();
+    EXPECT_EQ(std::vector(values.begin(), values.end()), (std::vector<float>{3, 4, 5, 0, 1, 2}));  // y decreases
+}
+
 TEST(Netcdf, ValuesNeverWrittenAreMissing) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
