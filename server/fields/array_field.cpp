@@ -19,9 +19,14 @@ Result<Field> fieldFromArray(std::string name, const ReadField& array) {
     glm::dvec4 scale(1);
     for (int axis = 0; axis < 4; ++axis) {
         if (array.shape[static_cast<std::size_t>(axis)] == 1) {
-            const double middle = box.center()[axis];
-            box.min[axis] = middle - 0.25 * longest;
-            box.max[axis] = middle + 0.25 * longest;
+            // Far from 0, floats could not tell the ends of a short interval apart. The function is constant along this
+            // axis, so the box may be as long as floats need; in the object, the length remains the same.
+            constexpr double kMinRelativeReach = 1e-4;
+            const double middle = box.center()[axis], reach = 0.25 * longest;
+            const double inBox = std::max(reach, kMinRelativeReach * std::abs(middle));
+            box.min[axis] = middle - inBox;
+            box.max[axis] = middle + inBox;
+            scale[axis] = reach / inBox;
         } else if (axis == 3) {
             scale.w = longest / (box.max.w - box.min.w);
         }
