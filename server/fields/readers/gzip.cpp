@@ -26,6 +26,19 @@ struct GzipReader::State {
         inflate.avail_in = static_cast<std::uint32_t>(count);
         rest = rest.subspan(count);
     }
+
+    // Prepares the library for its next call: begins the next member of a gzip file (RFC 1952, section 2.2) after the
+    // end of one, and calls refill(). Returns false if the data have ended and no member follows.
+    bool proceed() {
+        if (inflate.block_state == ISAL_BLOCK_FINISH) {
+            // The bytes of `rest` lie behind those that the library has got and not used.
+            const std::span left(reinterpret_cast<const std::byte*>(inflate.next_in), inflate.avail_in + rest.size());
+            if (inflate.crc_flag != ISAL_GZIP || !isGzipStart(left)) return false;
+            isal_inflate_reset(&inflate);
+        }
+        refill();
+        return true;
+    }
 };
 
 bool isGzipStart(std::span<const std::byte> start) {
@@ -52,16 +65,15 @@ Result<bool> GzipReader::extendTo(std::size_t size, std::vector<std::byte>& to) 
 Result<bool> GzipReader::fill(std::span<std::byte> to) {
     inflate_state& inflate = state_->inflate;
     while (!to.empty()) {
-        state_->refill();
+        if (!state_->proceed()) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
         const auto room = static_cast<std::uint32_t>(std::min(to.size(), kStep));
         inflate.next_out = reinterpret_cast<std::uint8_t*>(to.data());
         inflate.avail_out = room;
         const int status = isal_inflate(&inflate);
         const bool stuck = inflate.avail_out == room && inflate.avail_in == 0 && state_->rest.empty();
-        const bool ended = inflate.block_state == ISAL_BLOCK_FINISH && inflate.avail_out > 0;
         to = to.subspan(room - inflate.avail_out);
         if (status != ISAL_DECOMP_OK) return Error{ErrorCode::bad_field, "the compressed file is faulty"};
-        if (stuck || ended) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
+        if (stuck) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
     }
     return true;
 }
@@ -69,14 +81,14 @@ Result<bool> GzipReader::fill(std::span<std::byte> to) {
 bool GzipReader::verifyEnd() {
     inflate_state& inflate = state_->inflate;
     std::uint8_t more = 0;
-    for (int part = 0; part < 2; ++part) {  // the checksum may be in the next part of the input
-        state_->refill();
+    while (state_->proceed()) {  // the checksum may be in the next part of the input, and an empty member may follow
         inflate.next_out = &more;
         inflate.avail_out = 1;
         if (isal_inflate(&inflate) != ISAL_DECOMP_OK || inflate.avail_out == 0) return false;
-        if (inflate.block_state == ISAL_BLOCK_FINISH) return true;
+        const bool noneLeft = inflate.avail_in == 0 && state_->rest.empty();
+        if (noneLeft && inflate.block_state != ISAL_BLOCK_FINISH) return false;
     }
-    return false;
+    return true;
 }
 
 }  // namespace oval4d::fields
