@@ -146,14 +146,14 @@ class ChunkReader {
 
 // Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
 // dimension's name. Sets `units` and `stated` from its attributes. Returns an empty optional if there is no such array,
-// or if it cannot be read.
+// if it cannot be read, or if the dimension is empty.
 std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {
     const auto found = zarr.array(path);
     if (!found || !*found) return {};
     ZarrArray array = **found;
-    if (array.shape != std::vector{size} || size > kMaxSamplesPerAxis) return {};
+    if (array.shape != std::vector{size} || size == 0 || size > kMaxSamplesPerAxis) return {};
     units = text::printable(array.text("units"), kMaxZarrText);
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};

@@ -1,10 +1,13 @@
 #include "fields/readers/zarr_metadata.hpp"
 
+#include <sodium.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -39,9 +42,12 @@ std::string quoted(const json& value) {
 std::string withoutNan(std::string text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '\\' && inString) ++i;
-        if (i < text.size() && text[i] == '"') inString = !inString;
-        if (inString || i >= text.size()) continue;
+        if (text[i] == '\\' && inString) {
+            ++i;  // the escaped character, which may be a quote, does not end the string
+            continue;
+        }
+        if (text[i] == '"') inString = !inString;
+        if (inString) continue;
         for (const std::string_view word : {"-Infinity", "Infinity", "NaN"}) {
             if (!std::string_view(text).substr(i).starts_with(word)) continue;
             text.replace(i, word.size(), "null" + std::string(word.size() > 4 ? word.size() - 4 : 0, ' '));
@@ -89,6 +95,22 @@ std::optional<double> numberIn(const json& value) {
     if (text == "Infinity") return kInfinite;
     if (text == "-Infinity") return -kInfinite;
     return {};
+}
+
+// Returns the number that a text encodes: a little-endian double in Base64 (RFC 4648), as xarray writes the attribute
+// _FillValue of floats in version 3.
+std::optional<double> base64DoubleIn(const std::string& text) {
+    std::array<std::uint8_t, sizeof(double)> bytes{};
+    std::size_t size = 0;
+    const char* end = nullptr;
+    if (sodium_base642bin(bytes.data(), bytes.size(), text.data(), text.size(), nullptr, &size, &end,
+                          sodium_base64_VARIANT_ORIGINAL) != 0 ||
+        size != bytes.size() || end != text.data() + text.size()) {
+        return {};
+    }
+    std::uint64_t bits = 0;
+    for (std::size_t i = bytes.size(); i-- > 0;) bits = bits << 8U | bytes.at(i);
+    return std::bit_cast<double>(bits);
 }
 
 // Returns the value of missing chunks; NaN if there is none. Version 3 may give the bits of a float, as a hexadecimal
@@ -251,6 +273,11 @@ void applyAttributes(ZarrArray& array) {
         return found.size() == 1 ? found[0] : otherwise;
     };
     array.format.missing = numbers("_FillValue");
+    const NumberType type = array.format.type;
+    if (type == NumberType::f2 || type == NumberType::f4 || type == NumberType::f8) {
+        const auto encoded = base64DoubleIn(textIn(array.attributes, "_FillValue"));
+        if (encoded && !std::isnan(*encoded)) array.format.missing.push_back(*encoded);
+    }
     for (const double number : numbers("missing_value")) array.format.missing.push_back(number);
     array.format.min = first("valid_min", array.format.min);
     array.format.max = first("valid_max", array.format.max);
@@ -275,6 +302,23 @@ Result<ZarrArray> checked(ZarrArray array) {
         bytes *= size;
     }
     return array;
+}
+
+// Applies a transformation of an image, a scale or a translation, to the coordinates of its samples.
+void transform(const json& transformation, ZarrCoordinates& coordinates) {
+    for (const std::string_view kind : {"scale", "translation"}) {
+        const json* const numbers = member(transformation, kind);
+        if (numbers == nullptr || !numbers->is_array() || numbers->size() != coordinates.dimensions.size()) continue;
+        for (std::size_t i = 0; i < numbers->size(); ++i) {
+            const double number = numberIn((*numbers)[i]).value_or(kNone);
+            auto& [name, unit, origin, spacing] = coordinates.dimensions[i];
+            if (kind == "translation" && std::isfinite(number)) origin += number;
+            if (kind == "scale" && std::isfinite(number) && number > 0) {
+                origin *= number;
+                spacing *= number;
+            }
+        }
+    }
 }
 
 // Returns whether a path consists only of names, without . and .., so that it cannot lead out of the folder.
@@ -377,20 +421,11 @@ std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path
     for (const auto& axis : *axes)
         coordinates.dimensions.push_back(
             {axis.is_string() ? axis.get<std::string>() : textIn(axis, "name"), textIn(axis, "unit")});
-    const nlohmann::json* const transformations = member(*level, "coordinateTransformations");
-    if (transformations == nullptr || !transformations->is_array()) return coordinates;
-    for (const auto& each : *transformations) {
-        for (const std::string_view kind : {"scale", "translation"}) {
-            const nlohmann::json* const numbers = member(each, kind);
-            if (numbers == nullptr || !numbers->is_array() || numbers->size() != coordinates.dimensions.size())
-                continue;
-            for (std::size_t i = 0; i < numbers->size(); ++i) {
-                const double number = numberIn((*numbers)[i]).value_or(kNone);
-                if (!std::isfinite(number)) continue;
-                if (kind == "translation") coordinates.dimensions[i].origin = number;
-                if (kind == "scale" && number > 0) coordinates.dimensions[i].spacing = number;
-            }
-        }
+    // The transformations of the level apply first, then those of the image (OME-NGFF 0.4, section "multiscales").
+    for (const nlohmann::json* const owner : {&*level, &image}) {
+        const nlohmann::json* const transformations = member(*owner, "coordinateTransformations");
+        if (transformations == nullptr || !transformations->is_array()) continue;
+        for (const auto& each : *transformations) transform(each, coordinates);
     }
     return coordinates;
 }
