@@ -15,6 +15,17 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
+// Returns the text as a string of an MFString in an XML attribute: in double quotes, before which and before
+// backslashes in the text stands a backslash (ISO/IEC 19776-1).
+std::string quotedString(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
 void appendBody(std::string& out, const PlacedMesh& solid, const MeshesToWrite& meshes) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
@@ -33,8 +44,8 @@ void appendBody(std::string& out, const PlacedMesh& solid, const MeshesToWrite& 
     for (const scene::Color color : colors) appendColor(out, color);
     for (std::size_t t = 0; t < solid.mesh.triangles.size() && colors.empty(); ++t)
         appendColor(out, meshes.colorOf(solid, t));
-    out += "\"/>\n</IndexedFaceSet>\n<MetadataString name=\"name\" value='\"" + xmlEscaped(solid.name) +
-           "\"'/>\n</Shape></Transform>\n";
+    out += "\"/>\n</IndexedFaceSet>\n<MetadataString name=\"name\" value='" + xmlEscaped(quotedString(solid.name)) +
+           "'/>\n</Shape></Transform>\n";
 }
 
 }  // namespace

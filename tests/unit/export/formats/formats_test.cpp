@@ -121,6 +121,11 @@ TEST(Formats, ofBodiesAreNotBrokenByNames) {
     }
 }
 
+TEST(X3d, namesHaveBackslashesBeforeQuotesAndBackslashes) {
+    EXPECT_NE(fileOfBodies(*formatNamed("x3d"), R"(a"b\c'd)").find(R"( value='&quot;a\&quot;b\\c&apos;d&quot;'/>)"),
+              std::string::npos);
+}
+
 TEST(Obj, namesAreWords) {
     EXPECT_NE(fileOfBodies(*formatNamed("obj"), kHostileName).find("\no a_\"b\"_'c'__v_1_2_3_<d/>_&_é\n"),
               std::string::npos);
