@@ -38,11 +38,15 @@ Ref clamp(Graph& graph, Arguments a) {
 
 Ref mix(Graph& graph, Arguments a) { return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2])); }
 
-// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0).
+// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0); min(a, b) if k ≤ 0. Then
+// the overlap k h is 0, and so is its square divided by a positive number, but not 0/0.
 Ref smoothMin(Graph& graph, Arguments a) {
     const Ref distance = graph.unary(Operation::abs, graph.subtract(a[0], a[1]));
     const Ref overlap = graph.binary(Operation::max, graph.subtract(a[2], distance), graph.constant(0));
-    const Ref correction = graph.divide(graph.square(overlap), graph.multiply(a[2], graph.constant(4)));
+    constexpr double kLeastDivisor = std::numeric_limits<float>::min();
+    const Ref divisor =
+        graph.binary(Operation::max, graph.multiply(a[2], graph.constant(4)), graph.constant(kLeastDivisor));
+    const Ref correction = graph.divide(graph.square(overlap), divisor);
     return graph.subtract(graph.binary(Operation::min, a[0], a[1]), correction);
 }
 

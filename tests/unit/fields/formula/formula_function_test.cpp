@@ -182,6 +182,36 @@ TEST(FormulaFunction, GradientsAreZeroWhereTheyDoNotExist) {
     EXPECT_EQ(gradient("z", origin), glm::vec4(0, 0, 1, 0));
 }
 
+TEST(FormulaFunction, SmoothMinimumWithoutSmoothingIsTheMinimum) {
+    Random random(9);
+    const Box box{glm::dvec4(-2), glm::dvec4(2)};
+    const FormulaFunction minimum(parsed("min(x,y)"));
+    // k is 0 or negative, as a number or as a function of the point, or so small that its square underflows.
+    for (const char* text : {"smin(x,y,0)", "smin(x,y,-1)", "smin(x,y,0*z)", "smin(x,y,-abs(z))", "smin(x,y,1e-30)",
+                             "smin(x,y,1e-40)", "smin(x,y,-1e-40)"}) {
+        for (const Kernels& kernels : allKernels()) {
+            const FormulaFunction function(parsed(text), kernels);
+            SamplePoints samples;
+            for (int i = 0; i < 300; ++i) samples.addRandom(random, box);
+            samples.add({1, 1, 0, 0});
+            SamplePoints expected = samples;
+            samples.differentiate(function);
+            expected.differentiate(minimum);
+            EXPECT_EQ(samples.values, expected.values) << text;
+            EXPECT_EQ(samples.gradients, expected.gradients) << text;
+            samples.evaluate(function);
+            EXPECT_EQ(samples.values, expected.values) << text;
+            const Bounds bounds = function.boundsIn(box);
+            EXPECT_TRUE(bounds.hasValueEverywhere) << text;
+            EXPECT_LE(bounds.min, -2) << text;
+            EXPECT_GE(bounds.max, 2) << text;
+        }
+    }
+    EXPECT_EQ(valueAt("smin(x,y,z)", {1, 1, 0, 0}), 1);
+    EXPECT_EQ(valueAt("smin(x,y,z)", {1, 1, 2, 0}), 0.5F);
+    EXPECT_NEAR(FormulaFunction(parsed("smin(x,y,0)")).boundsIn(box).min, -2, 1e-5);
+}
+
 TEST(FormulaFunction, ValuesAreTheSameInAnyBatch) {
     Random random(4);
     for (const Kernels& kernels : allKernels()) {
