@@ -14,6 +14,7 @@ namespace oval4d::text_files {
 namespace {
 
 constexpr const char* kNotANumber = "is not a number";
+constexpr const char* kNotFinite = "is not a finite number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
 // Returns the word without its sign, if it has one. Sets `negative` to whether the sign is a minus.
@@ -25,7 +26,9 @@ std::string_view withoutSign(std::string_view word, bool& negative) {
 
 bool isNotFinite(std::string_view unsignedWord) {
     const std::string name = text::normalizedName(unsignedWord);
-    return name == "nan" || name == "inf" || name == "infinity" || name == "1.#inf" || name == "1.#qnan";
+    const bool isNanWithPayload = name.starts_with("nan(") && name.ends_with(')');  // such as nan(ind) of Visual C++
+    return name == "nan" || isNanWithPayload || name == "inf" || name == "infinity" || name == "1.#inf" ||
+           name == "1.#qnan";
 }
 
 bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
@@ -64,7 +67,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
     bool negative = false;
     const std::string_view digits = withoutSign(word, negative);
     if (bool second = false; withoutSign(digits, second) != digits) return failed(kNotANumber);
-    if (isNotFinite(digits)) return failed("is not a finite number");
+    if (isNotFinite(digits)) return failed(kNotFinite);
     const bool hasComma = digits.find(',') != std::string_view::npos;
     if (hasComma && digits.find('.') != std::string_view::npos)
         return failed("has a comma and a point; write numbers without separators of thousands");
@@ -89,6 +92,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
     if (stop != end || error == std::errc::invalid_argument)
         return failed(hasComma && mark == DecimalMark::point ? faultOf(word) : kNotANumber);
+    if (error == std::errc{} && !std::isfinite(result.value)) return failed(kNotFinite);
     const bool tooSmall = error == std::errc::result_out_of_range && isBelowOne(text_);
     if (tooSmall) result.value = 0;
     if ((error != std::errc{} && !tooSmall) || std::abs(result.value) > kMaxCoordinate)

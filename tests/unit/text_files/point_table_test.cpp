@@ -137,6 +137,11 @@ TEST(Columns, AreRefusedWithLineAndColumn) {
     EXPECT_EQ(read("1 2 3 4\n1 2 x 4\n"), "line 2, column 3: 'x' is not a number");
     EXPECT_EQ(read("nan 0 0 1\n"), "line 1, column 1: 'nan' is not a finite number");
     EXPECT_EQ(read("0 0 0 -Infinity\n"), "line 1, column 4: '-Infinity' is not a finite number");
+    for (const std::string word : {"nan(ind)", "-nan(ind)", "NaN(snan)", "nan()", "nan(0x7ff)"}) {
+        const std::string said = "column 1: '" + word + "' is not a finite number";
+        EXPECT_EQ(read(word + " 0 0 1\n"), "line 1, " + said);
+        EXPECT_EQ(read("0 0 0 1\n" + word + " 0 0 1\n"), "line 2, " + said);
+    }
     EXPECT_EQ(read("1e15 0 0 1\n"), "line 1, column 1: '1e15' is beyond ±1e14, the range of coordinates");
     EXPECT_EQ(read("0 0 0 \u00FCber\n"), "line 1, column 4: '\u00FCber' is not a number");
     EXPECT_EQ(read("0 0 0 +-1\n"), "line 1, column 4: '+-1' is not a number");
