@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
@@ -30,16 +32,22 @@ using Done = Result<std::monostate>;
 using ExtendedImages = std::map<const void*, slicing::Object>;
 
 // If `state` shows the field `before`, replaces it by `after`, a longer version of it, and returns true; otherwise
-// returns false. Keeps all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent().
-// States that share an image of `before` also share one of `after`: `images` has the images that have been made so far.
+// returns false. Keeps all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent(),
+// that they and the focus point are clamped to their bounds, and that no cells of the domain are hidden or faded if
+// their types change. States that share an image of `before` also share one of `after`: `images` has the images that
+// have been made so far.
 bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
     if (isNew) image->second = slicing::transformedTo(after, state.referenceFrame);
     slicing::Object object = image->second;
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
-    state.slices.spacing *= ratio;
-    state.slices.offset *= ratio;
+    const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
+    // The second time step of an array makes the domain longer along w by a greater factor than the circumradius.
+    state.slices.spacing = std::clamp(state.slices.spacing * ratio, kMinSpacing * radius, kMaxSpacing * radius);
+    state.slices.offset = std::clamp(state.slices.offset * ratio, -reach, reach);
+    state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
+    if (slicing::infoOf(object).cellTypes != slicing::infoOf(state.object).cellTypes) state.look.cellTypes = {};
     state.source = after;
     state.object = std::move(object);
     return true;

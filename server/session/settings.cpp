@@ -99,7 +99,8 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
             const std::string name = std::string("the point's ") + "xyzw"[axis];
             if (auto done = put(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done) return done;
         }
-        point -= origin;
+        // Far from the origin, the sum of the origin and the reach is rounded, perhaps to a number beyond the reach.
+        point = glm::clamp(point - origin, -reach, reach);
         state.look.focusPoint = glm::dvec3(point);
         if (!placed) moveFocusTo(state, point.w);
     }
@@ -189,7 +190,11 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     if (hadSecond && !hasSecond && state.look.coloring == scene::Coloring::value)
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
-    if (field != nullptr) initial.look.field = {{field->initialLevel}, field->initialInside};
+    if (field != nullptr) {
+        // Few samples of an array may be far beyond all levels, such as a mark of missing samples.
+        const double level = std::clamp(field->initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
+        initial.look.field = {{level}, field->initialInside};
+    }
     setBack(state, ResetOccasion::by_another_object, initial);
     state.look.focusPoint = initial.look.focusPoint;  // setBack() omits the setting `point`
     state.source = std::move(source);
@@ -222,7 +227,9 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
     const double radius = slicing::infoOf(state.object).circumradius, reach = kMaxOffset * radius;
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
     if (spans) {
-        state.slices.spacing = spanningSpacing(state.object, state.slices.count);
+        // The box of a field may be so thin along w that this spacing is below the least one.
+        state.slices.spacing =
+            std::clamp(spanningSpacing(state.object, state.slices.count), kMinSpacing * radius, kMaxSpacing * radius);
         moveFocusTo(state, std::clamp(w, -reach, reach));
     } else {
         state.slices.spacing = std::clamp(state.slices.spacing, kMinSpacing * radius, kMaxSpacing * radius);

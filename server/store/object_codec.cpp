@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,7 +29,7 @@ namespace {
 using nlohmann::json;
 using polytopes::Polytope;
 
-constexpr double kMaxCoordinate = 1e15;
+constexpr double kMaxCoordinate = 1e15;  // of vertices, points and origins
 
 json rows(const geometry::JaggedArray& array) {
     json list = json::array();
@@ -48,11 +49,11 @@ json encoded(const std::vector<glm::dvec4>& vertices) {
     return list;
 }
 
-std::vector<glm::dvec4> verticesIn(const json& value) {
+std::vector<glm::dvec4> verticesIn(const json& value, double most = kMaxCoordinate) {
     std::vector<glm::dvec4> vertices;
     for (const json& v : value)
-        vertices.emplace_back(readNumber(v.at(0), kMaxCoordinate), readNumber(v.at(1), kMaxCoordinate),
-                              readNumber(v.at(2), kMaxCoordinate), readNumber(v.at(3), kMaxCoordinate));
+        vertices.emplace_back(readNumber(v.at(0), most), readNumber(v.at(1), most), readNumber(v.at(2), most),
+                              readNumber(v.at(3), most));
     return vertices;
 }
 
@@ -87,7 +88,10 @@ void readSecond(const json& second, const json& shape, fields::Field& field) {
         error = fields::setSecondFormula(field, second.get<std::string>());
     } else if (field.array) {
         const fields::ReadField array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
-        error = fields::setSecondArray(field, array, readShortText(second.at(0)));
+        // The name of a variable may be longer than that of an object.
+        auto variable = second.at(0).get<std::string>();
+        if (!text::isUtf8(variable)) throwUnreadable("the name of a variable is not UTF-8");
+        error = fields::setSecondArray(field, array, std::move(variable));
     } else {
         throwUnreadable("a formula has an array");
     }
@@ -102,8 +106,9 @@ json encoded(const fields::FileSource& source) {
                         box ? encoded(std::vector{box->min, box->max}) : json()});
 }
 
+// Reads any box of finite numbers; the functions that make fields check how far a box may reach.
 fields::Box boxIn(const json& value) {
-    const std::vector<glm::dvec4> corners = verticesIn(value);
+    const std::vector<glm::dvec4> corners = verticesIn(value, std::numeric_limits<double>::max());
     if (corners.size() != 2) throwUnreadable("a box does not have two corners");
     return {corners[0], corners[1]};
 }

@@ -47,14 +47,15 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
     if (known != images_.end()) return known->image;
-    // A source counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its share of
-    // the other elements: a record may list few vertices, but many 2-faces.
+    slicing::Object image = slicing::transformedTo(source, frame);
+    // An image counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its share of
+    // the other elements: a record may list few vertices, but many 2-faces. The samples of an array do not count,
+    // because all images share them.
     constexpr std::size_t kBytesOfVertex = 100;
-    const std::size_t vertices =
-        std::max(slicing::elementCounts(source)[0], slicing::memoryOf(source) / kBytesOfVertex);
+    const std::size_t vertices = std::max(slicing::elementCounts(image)[0], slicing::memoryOf(image) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
     vertexBudget_ -= vertices;
-    images_.push_back({source, frame, slicing::transformedTo(source, frame)});
+    images_.push_back({source, frame, std::move(image)});
     return images_.back().image;
 }
 

@@ -67,6 +67,16 @@ TEST(ReferenceFrames, ApplyBeforeTheOrientationToTheObjectItself) {
         << "the image of the object, not of its image";
 }
 
+TEST(ReferenceFrames, KeepTheSpacingOfThinFieldsWithinItsBounds) {
+    Session session;
+    LoadObject load{"thin", "formula", "x+y+z+w"};
+    load.box = fields::Box{{-1, -1, -1, -1e-4}, {1, 1, 1, 1e-4}};
+    must(session, load);
+    EXPECT_LT(session.current.slices.spacing, 1e-5);
+    line(session, "set pace=0.01");
+    EXPECT_EQ(session.current.slices.spacing, kMinSpacing * radiusOf(session));
+}
+
 TEST(ReferenceFrames, AreUndoneAndRedone) {
     Session session;
     const State before = session.current;
