@@ -101,6 +101,8 @@ test("command line: repeated Tab cycles through the completions, Shift-Tab goes 
     assert.equal(await page.locator("#command-options").isVisible(), false);
     assert.equal(await page.locator("#command-line").isVisible(), true, "Escape closes the list first");
     assert.equal(await active(), undefined);
+    await page.keyboard.type("y"); // the input has kept the focus, so that this is no key of the drawing
+    assert.equal(await page.inputValue("#command"), "color valuey");
 
     await completed(page, "color ");
     await page.click("#command-options [role=option]:text-is('plain')");

@@ -52,8 +52,9 @@ export class CommandLine {
             const page = { PageDown: 1, PageUp: -1 }[event.key];
             if (page !== undefined) this.scroll(event, page);
             if (event.key !== "Escape") return;
-            if (this.list.hidden) this.close();
-            else this.hideList();
+            if (this.list.hidden) return this.close();
+            event.stopPropagation(); // elsewhere, Escape moves the focus to the drawing
+            this.hideList();
         });
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         this.input.addEventListener("input", () => this.hideList());
