@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript } from "./support/browser.mjs";
+import { openWithScript, stateAfter } from "./support/browser.mjs";
 
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 const kRadian = Math.PI / 180;
@@ -53,6 +53,25 @@ test("state fields: an angle is typed in degrees or as an expression, and is sho
         }
     }
     assert.equal(await page.locator("[data-state-field=alpha]").textContent(), "10°");
+    assert.deepEqual(errors, []);
+    await closePage();
+});
+
+test("state fields: a rotation is applied once, even if the field is left before the answer", async () => {
+    const { page, script, errors, close: closePage } = await openWithScript();
+    const before = await script.state();
+    await openField(page, "last");
+    await page.keyboard.type("xw 10°");
+    await page.evaluate(() => {
+        // At once, so that no answer comes between.
+        const input = document.querySelector("[data-field=last]");
+        for (let i = 0; i < 2; ++i) input.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+        input.blur();
+    });
+    await page.waitForSelector("[data-field=last]", { state: "hidden" });
+    const after = await stateAfter(page, script);
+    assert.equal(after.revision, before.revision + 1);
+    assert.ok(close(Math.abs(after.orientation[0][3]), Math.sin(10 * kRadian)));
     assert.deepEqual(errors, []);
     await closePage();
 });

@@ -22,6 +22,7 @@ export class HeaderValue {
     private readonly note: HTMLElement;
     private before = ""; // the text when editing began; a text that equals it is not applied
     private refused: string | undefined; // the text that could not be applied
+    private pending: string | undefined; // the text that is being applied
     private focusAfter: HTMLElement | undefined; // receives the focus after editing
 
     constructor(
@@ -66,7 +67,7 @@ export class HeaderValue {
 
     private open(): void {
         this.before = this.events.editable();
-        this.refused = undefined;
+        this.refused = this.pending = undefined;
         // After a click with the mouse, the drawing still has the focus and gets it back.
         this.focusAfter = document.activeElement === this.button ? this.button : byId("drawing");
         this.input.value = this.before;
@@ -116,6 +117,8 @@ export class HeaderValue {
     private async submit(): Promise<void> {
         const text = this.input.value.trim();
         if (text === this.before.trim()) return this.close();
+        if (text === this.pending) return undefined; // a second Enter, or Tab, before the answer
+        this.pending = text;
         try {
             await this.events.apply(text);
             this.close();
@@ -123,6 +126,7 @@ export class HeaderValue {
             this.refused = this.input.value;
             this.showError((error as Error).message);
         }
+        this.pending = undefined;
         return undefined;
     }
 
