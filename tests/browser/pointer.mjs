@@ -280,6 +280,23 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
     await close();
 });
 
+test("pointer: two fingers that keep their distance are not told that zooming stops", async () => {
+    const { page, script, close } = await openWithScript({ hasTouch: true });
+    const send = await touchOf(page);
+    await page.evaluate(() => {
+        window.notices = [];
+        const note = (changes) => changes.forEach(({ addedNodes }) => window.notices.push(...addedNodes));
+        new MutationObserver(note).observe(document.getElementById("notice"), { childList: true });
+    });
+    await send("touchStart", [460, 300], [540, 300]);
+    for (let y = 301; y <= 308; ++y) await send("touchMove", [460, y], [540, y]);
+    await send("touchEnd");
+    const { camera } = await stateAfter(page, script);
+    assert.ok(Math.abs(camera.zoom - 1) < 1e-6);
+    assert.deepEqual(await page.evaluate(() => window.notices.map((text) => text.data)), []);
+    await close();
+});
+
 test("pointer: dragging with the right or the middle button rolls the 4-D ball", async () => {
     const { page, script, errors, close } = await openWithScript();
     await page.evaluate(() => {

@@ -54,6 +54,7 @@ export class OrbitControl {
         const from = this.stage.orbit;
         const to = this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) });
         this.setOrbit(to);
+        if (Math.abs(factor - 1) <= kLeastZoom) return; // fingers that only move or twist ask for no zoom
         if (Math.abs(to.zoom / from.zoom - 1) > kLeastZoom) return;
         if (factor < 1) this.stopped("The camera is as far away as it can be.");
         else if (to.zoom >= max) this.stopped("The camera is as close as it can be.");
