@@ -53,13 +53,20 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     assert.ok(four.revision > revision);
     assert.ok(four.fog.every(({ value }, i) => i === 0 || value > four.fog[i - 1].value));
     await page.click("[aria-label='Remove point 2']");
-    await script.until(({ fog }) => fog.length === 3, "three points");
+    const three = await script.until(({ fog }) => fog.length === 3, "three points");
     await page.locator("[data-fog='color 1']").evaluate((input) => {
-        input.value = "#00ff80";
-        input.dispatchEvent(new Event("input"));
+        // Both colors of the drag come before the first is sent.
+        for (const color of ["#00ff00", "#00ff80"]) {
+            input.value = color;
+            input.dispatchEvent(new Event("input"));
+        }
         input.dispatchEvent(new Event("change"));
     });
-    const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "a color");
+    await script.until(({ fog }) => fog[0].color === 0x00ff80, "a color");
+    await script.request({ type: "undo" });
+    assert.deepEqual(await fogOf(), three.fog, "a color is an undo step of its own");
+    await script.request({ type: "redo" });
+    const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "the color again");
 
     // The colors of points without one are those of the picture.
     await presented(page, colored.revision);

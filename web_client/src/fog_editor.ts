@@ -33,7 +33,7 @@ export class FogEditor {
     private readonly addButton = byId<HTMLButtonElement>("fog-add");
     private readonly showButton = byId<HTMLButtonElement>("fog-show");
     private readonly offButton = byId<HTMLButtonElement>("fog-off");
-    private readonly changes = new NewestOnly<{ fog: FogPoint[]; continues: boolean }>((change) => this.apply(change));
+    private readonly changes = new NewestOnly<{ fog: FogPoint[]; drag?: number }>((change) => this.apply(change));
     private readonly lastChange = new LastChange();
     private rows: Row[] = [];
     private points: FogPoint[] = []; // what the editor shows
@@ -41,7 +41,8 @@ export class FogEditor {
     private distribution: ValueDistribution | undefined; // of the newest picture with a histogram
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
     private dragged: number | undefined; // the index of the point that is dragged
-    private isContinued = false; // whether the next change belongs to the undo step of the last one
+    private drag = 0; // number of the newest drag on the curve or in a dialog for colors: its changes are one undo step
+    private sentDrag: number | undefined; // the drag to which the last change that was sent belongs
 
     /** `set` changes settings; it rejects with an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
@@ -52,7 +53,7 @@ export class FogEditor {
             this.showButton.focus(); // the button Off disappears
         });
         this.curve.addEventListener("pointerdown", (event) => this.grab(event));
-        this.curve.addEventListener("pointermove", (event) => this.drag(event));
+        this.curve.addEventListener("pointermove", (event) => this.moveGrabbed(event));
         for (const end of ["pointerup", "pointercancel"]) this.curve.addEventListener(end, () => this.release());
     }
 
@@ -83,17 +84,20 @@ export class FogEditor {
         return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
     }
 
-    private change(points: FogPoint[], delay = 0, continues = false): void {
+    /** Shows and sends points; `drag` is the number of the drag that makes this change, if any. */
+    private change(points: FogPoint[], delay = 0, drag?: number): void {
         this.points = points;
         this.mistake = "";
         this.draw();
-        this.changes.submit({ fog: points, continues: continues && this.isContinued }, delay);
-        this.isContinued = continues;
+        this.changes.submit({ fog: points, ...(drag !== undefined && { drag }) }, delay);
     }
 
-    private async apply({ fog, continues }: { fog: FogPoint[]; continues: boolean }): Promise<void> {
+    private async apply({ fog, drag }: { fog: FogPoint[]; drag?: number }): Promise<void> {
+        // Decided here, because a newer change may have replaced the first one of the drag before it was sent.
+        const continues = drag !== undefined && drag === this.sentDrag;
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });
+            this.sentDrag = drag;
             this.lastChange.answered(revision);
             this.refusal = "";
         } catch (error) {
@@ -115,22 +119,22 @@ export class FogEditor {
         event.preventDefault();
         this.curve.setPointerCapture(event.pointerId);
         this.dragged = Number(handle.dataset["point"]);
-        this.isContinued = false;
+        ++this.drag;
     }
 
-    private drag(event: PointerEvent): void {
+    private moveGrabbed(event: PointerEvent): void {
         if (this.dragged === undefined) return;
         const { left, top, width, height } = this.curve.getBoundingClientRect();
         const along = ((event.clientX - left) / width) * kWidth;
         const down = ((event.clientY - top) / height) * kHeight;
         const value = this.ends[0] + ((along - kMargin) / (kWidth - 2 * kMargin)) * (this.ends[1] - this.ends[0]);
         const opacity = 1 - (down - kMargin) / (kHeight - 2 * kMargin);
-        this.change(withPoint(this.points, this.dragged, value, opacity, this.ends), 0, true);
+        this.change(withPoint(this.points, this.dragged, value, opacity, this.ends), 0, this.drag);
     }
 
     private release(): void {
         this.dragged = undefined;
-        this.isContinued = false;
+        ++this.drag;
         this.draw();
     }
 
@@ -242,10 +246,10 @@ export class FogEditor {
             this.change(
                 this.points.map((point, k) => (k === i ? { ...point, color: chosen } : point)),
                 kTypingDelay,
-                true,
+                this.drag,
             );
         });
-        color.addEventListener("change", () => (this.isContinued = false));
+        color.addEventListener("change", () => ++this.drag);
         const remove = element("button", { type: "button", "aria-label": `Remove point ${i + 1}`, title: "Remove" }, "\u00d7");
         remove.addEventListener("click", () => this.change(this.points.filter((_, k) => k !== i)));
         const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);
