@@ -251,7 +251,11 @@ export class FogEditor {
         });
         color.addEventListener("change", () => ++this.drag);
         const remove = element("button", { type: "button", "aria-label": `Remove point ${i + 1}`, title: "Remove" }, "\u00d7");
-        remove.addEventListener("click", () => this.change(this.points.filter((_, k) => k !== i)));
+        remove.addEventListener("click", () => {
+            this.change(this.points.filter((_, k) => k !== i));
+            const next = this.rows[Math.min(i, this.rows.length - 1)]!.remove;
+            (next.disabled ? this.addButton : next).focus(); // the list is a new one, in which nothing has the focus
+        });
         const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);
         return { root, value, opacity, color, remove };
     }
