@@ -581,9 +581,12 @@ class Client:
 
 
 def _samples(values):
-    """Returns the values as a numpy array. Floats of more than 32 bits become float32, in which the server computes."""
+    """Returns the values as a numpy array. Floats of more than 32 bits become float32, in which the server computes.
+    Masked values are missing: they become NaN, and the others of their array float32, too."""
     if numpy is None:
         raise ImportError("arrays need python3-numpy")
+    if numpy.ma.is_masked(values):
+        values = values.astype("f4").filled(numpy.nan)
     values = numpy.asarray(values)
     return values.astype("f4") if values.dtype.kind == "f" and values.dtype.itemsize > 4 else values
 
@@ -622,7 +625,7 @@ def _box(shape, axes, spacing, origin):
     array does not have."""
     spacing = (1 if spacing is None else spacing,) * 4 if spacing is None or numpy.isscalar(spacing) else spacing
     sizes = dict(zip(axes.replace("t", "w"), shape))
-    lows = origin or (0, 0, 0, 0)
+    lows = (0, 0, 0, 0) if origin is None else origin
     return [(low, low + step * (sizes.get(axis, 1) - 1)) for axis, low, step in zip("xyzw", lows, spacing)]
 
 

@@ -183,6 +183,25 @@ def test_arrays_are_fields(server, monkeypatch, size):
             assert without_typed_arrays(one) == without_typed_arrays(two)
 
 
+def test_origins_and_masks_are_numpy_arrays(server):
+    numpy = pytest.importorskip("numpy")
+    values = ball(10)
+    mask = numpy.arange(values.size).reshape(values.shape) % 7 == 0
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+
+        def shown(array, origin):
+            oval.field("ball", array, spacing=2 / 11, origin=origin, levels=[0.36])
+            return [without_typed_arrays(piece) for piece in oval.slices()["slices"]]
+
+        whole = shown(values, (-1, -1, -1, 0))
+        assert shown(values, numpy.array([-1, -1, -1, 0])) == whole
+        assert shown(values, numpy.zeros(4)) == shown(values, (0, 0, 0, 0))
+        missing = shown(numpy.where(mask, numpy.nan, values), (-1, -1, -1, 0))
+        assert missing != whole
+        assert shown(numpy.ma.masked_array(values, mask), (-1, -1, -1, 0)) == missing
+
+
 def test_a_simulation_appends_moments(server):
     values = ball(12)
     with connect(server.url, timeout=DEADLINE) as oval, connect(server.url, timeout=DEADLINE) as whole:
