@@ -295,12 +295,22 @@ test("export: a PNG has the chosen size, and contains the state", async () => {
     const state = await press("y");
     await openExport(page);
     await choose(page, "format", "png");
-    const { width, height } = await page
-        .locator("#drawing")
-        .evaluate((one) => ({ width: one.clientWidth, height: one.clientHeight }));
-    assert.equal(await page.inputValue("#export [name=width]"), String(width));
-    assert.equal(await page.inputValue("#export [name=height]"), String(height));
-    await page.keyboard.press("Escape");
+    const isAsDisplayed = async () => {
+        const { width, height } = await page
+            .locator("#drawing")
+            .evaluate((one) => ({ width: one.clientWidth, height: one.clientHeight }));
+        assert.equal(await page.inputValue("#export [name=width]"), String(width));
+        assert.equal(await page.inputValue("#export [name=height]"), String(height));
+        await page.keyboard.press("Escape");
+    };
+    await isAsDisplayed();
+    await page.setViewportSize({ width: 1000, height: 600 });
+    await page.waitForFunction(() => {
+        const drawing = document.getElementById("drawing");
+        return innerWidth === 1000 && drawing.querySelector("canvas.solids").width === drawing.clientWidth;
+    });
+    await openExport(page);
+    await isAsDisplayed();
     const large = await exported(page, { format: "png", preset: "1920x1080" });
     assert.equal(large.name, "5-cell.png");
     assert.deepEqual([decode(large.bytes).width, decode(large.bytes).height], [1920, 1080]);

@@ -94,11 +94,12 @@ export class ExportDialog {
         byId("export-coordinates").textContent = state.field ? "Histogram" : "Parallel coordinates";
         const { limits = {} } = this.client.welcome ?? {};
         const { width, height } = this.size();
+        const isAsDisplayed = this.form.querySelector('[name=preset][value=""]:checked') !== null;
         for (const [name, pageSize] of Object.entries({ width, height })) {
             const field = this.field(name);
             field.min = String(limits["min_side"] ?? 1);
             field.max = String(limits[`max_${name}`] ?? 8192);
-            field.value ||= String(pageSize);
+            if (isAsDisplayed || field.value === "") field.value = String(pageSize);
         }
         this.selectPreset();
         this.showFormats();
