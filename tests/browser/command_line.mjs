@@ -7,6 +7,7 @@ import { idle, named, openWithScript, ready } from "./support/browser.mjs";
 import { commands, type } from "./support/command_line.mjs";
 import { bytesOf, pagesOf } from "./support/downloads.mjs";
 import { within } from "./support/hang_limit.mjs";
+import { holdSent } from "./support/held.mjs";
 
 const { formats } = JSON.parse(readFileSync(new URL("../../protocol/export_formats.json", import.meta.url)));
 
@@ -56,6 +57,22 @@ test("command line: errors are readable, and the typed line stays for correction
         assert.equal(await page.locator("#command-line").isVisible(), false);
         assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
         await page.keyboard.press(":");
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("command line: an error is shown as a notice if the line was closed or opened again before the answer", async () => {
+    const { page, errors, close } = await openWithScript({ before: holdSent });
+    for (const reopens of [false, true]) {
+        await page.evaluate(() => (window.isHeld = ({ type }) => type === "command"));
+        await type(page, "polytope 25-cell");
+        await page.keyboard.press("Escape");
+        await page.waitForSelector("#drawing:focus");
+        if (reopens) await page.keyboard.press(":");
+        await page.evaluate(() => window.release());
+        await page.waitForFunction(() => /25-cell/.test(document.getElementById("notice").textContent));
+        assert.equal(await error(page), "");
     }
     assert.deepEqual(errors, []);
     await close();

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, named, openWithScript } from "./support/browser.mjs";
+import { holdSent } from "./support/held.mjs";
 import { startProxy } from "./support/proxy.mjs";
 
 const listed = (page) =>
@@ -161,6 +162,20 @@ test("picker: a name that is not listed is sent as typed; an error is shown and 
     await page.fill("#picker-search", "Hyper-Cube"); // an alias, with different spelling
     await page.keyboard.press("Enter");
     await script.until((one) => one.polytope.name === "8-cell", "the 8-cell");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("picker: an error is shown as a notice if the dialog was closed before the answer", async () => {
+    const { page, errors, close } = await openWithScript({ before: holdSent });
+    await page.evaluate(() => (window.isHeld = ({ polytope }) => polytope === "25-cell"));
+    await openPicker(page);
+    await page.keyboard.type("25-cell");
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#picker:not([open])", { state: "attached" });
+    await page.evaluate(() => window.release());
+    await page.waitForFunction(() => /25-cell/.test(document.getElementById("notice").textContent));
     assert.deepEqual(errors, []);
     await close();
 });

@@ -149,6 +149,7 @@ export class App {
     private readonly commandLine = new CommandLine({
         run: (line) => this.execute(line),
         closed: () => this.drawing.focus(),
+        failedLater: (error) => this.notice.show(error.message),
         names: () => ({
             polytopes: this.picker.catalogue,
             kinds: this.state?.polytope.kinds?.map(({ name }) => name) ?? [],
@@ -156,8 +157,9 @@ export class App {
         }),
     });
     private readonly headerValues = new HeaderValues((line) => this.request({ type: "command", line }));
-    private readonly picker = new Picker((name, isData) =>
-        this.request(isData ? { type: "load", name, path: name } : { type: "set", polytope: name }),
+    private readonly picker = new Picker(
+        (name, isData) => this.request(isData ? { type: "load", name, path: name } : { type: "set", polytope: name }),
+        (error) => this.notice.show(error.message),
     );
     private readonly fileLoading = new FileLoading(this.client, (state) =>
         this.request({ ...state, type: "set", turning: false }),

@@ -13,6 +13,8 @@ export interface CommandLineEvents {
     /** Executes a line; rejects with an Error whose message is shown to the user. */
     run(line: string): Promise<unknown>;
     closed(): void;
+    /** Called if a line failed after the command line was closed, or opened again. */
+    failedLater(error: Error): void;
     /** Returns the names that can complete a line, such as those of polytopes and keys. */
     names(): Names;
 }
@@ -219,7 +221,10 @@ export class CommandLine {
             await this.events.run(line);
             if (isSame()) this.close();
         } catch (error) {
-            if (!isSame()) return undefined;
+            if (!isSame() || this.form.hidden) {
+                this.events.failedLater(error as Error);
+                return undefined;
+            }
             this.showError((error as Error).message);
             this.input.select();
         }

@@ -31,8 +31,12 @@ export class Picker {
     /**
      * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true, else an
      * object of the catalogue or one that the name describes. `choose` rejects with an Error whose message is shown.
+     * `failedLater` is called with this error if the dialog has been closed meanwhile.
      */
-    constructor(private readonly choose: (name: string, isData: boolean) => Promise<unknown>) {
+    constructor(
+        private readonly choose: (name: string, isData: boolean) => Promise<unknown>,
+        private readonly failedLater: (error: Error) => void,
+    ) {
         this.input.addEventListener("input", () => this.search());
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         byId("picker-form").addEventListener("submit", (event) => {
@@ -144,7 +148,8 @@ export class Picker {
             await this.choose(chosen.dataset["name"]!, chosen.dataset["family"] === kDataFamily);
             if (number === this.choiceNumber) this.dialog.close();
         } catch (error) {
-            if (number === this.choiceNumber) this.showError((error as Error).message);
+            if (!this.isOpen) this.failedLater(error as Error);
+            else if (number === this.choiceNumber) this.showError((error as Error).message);
         } finally {
             if (number === this.choiceNumber) this.list.removeAttribute("aria-busy");
         }
