@@ -2,8 +2,9 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { idle, openPage, named, ready, scriptFor, openWithScript, spoken } from "./support/browser.mjs";
+import { common, idle, openPage, named, ready, scriptFor, openWithScript, spoken } from "./support/browser.mjs";
 import { focusSurface, openPanel, write } from "./support/field.mjs";
+import { startProxy } from "./support/proxy.mjs";
 
 const kMovingBall = "(x-0.5*t)^2 + y^2 + z^2 < 0.09";
 
@@ -85,11 +86,37 @@ test("observer: the slider sets the pace, and a drag is one step of undo", async
     await script.until((state) => state.pace < pace, "a slower pace");
     await script.request({ type: "undo" });
     assert.equal((await script.state()).pace, pace, "a key is a step of its own");
+    // The thumb follows the undo although the slider has the focus.
+    const isAtThumb = (value) => Math.abs(document.getElementById("observer-pace").value - Math.log10(value)) < 0.02;
+    await page.waitForFunction(isAtThumb, pace);
+    await script.request({ type: "set", pace: 0.25 });
+    await page.waitForFunction(isAtThumb, 0.25);
+    await script.request({ type: "undo" });
     await script.request({ type: "undo" });
     const after = await script.state();
     assert.deepEqual([after.pace, after.slices], [before.pace, before.slices]);
     assert.deepEqual(errors, []);
     await close();
+});
+
+test("observer: a pace that cannot be applied is taken back, and the reason is shown", async () => {
+    const proxy = await startProxy((await common()).url, "/pace");
+    const { page, errors, close } = await openPanel({ url: proxy.url });
+    await page.focus("#observer-pace");
+    proxy.cut();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    await page.keyboard.press("End");
+    await page.waitForFunction(() => /no connection/.test(document.getElementById("observer-error").textContent));
+    assert.equal(await page.inputValue("#observer-pace"), "0");
+    assert.equal(await page.locator("#observer-pace-value").textContent(), "1");
+    proxy.restore();
+    await page.waitForSelector("#connection[data-kind=open]");
+    await page.keyboard.press("End");
+    await page.waitForFunction(() => document.getElementById("observer-error").textContent === "");
+    await page.waitForFunction(() => document.getElementById("observer-pace-value").textContent === "10");
+    assert.deepEqual(errors.filter((error) => !/WebSocket/.test(error)), []);
+    await close();
+    await proxy.stop();
 });
 
 test("observer: an address and the command line move the observer of a polytope", async () => {

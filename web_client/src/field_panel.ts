@@ -128,6 +128,7 @@ export class FieldPanel {
 
     restart(): void {
         this.fog.restart();
+        this.observer.restart();
     }
 
     update(state: State): void {

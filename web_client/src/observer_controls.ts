@@ -6,6 +6,7 @@ import type { Settings, State, Vector } from "@oval4d/protocol";
 import { byId, element } from "./element";
 import { parseNumbers } from "./fields";
 import { formatDecimal, toSentence } from "./format";
+import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
 import type { Velocity } from "./reference_frame";
 
@@ -24,20 +25,23 @@ export class ObserverControls {
     private readonly components: Record<Velocity, HTMLInputElement[]> = { follow: [], boost: [] };
     private readonly paces = new NewestOnly<number>((pace) => this.applyPace(pace));
     private readonly velocities: Record<Velocity, NewestOnly<Vector>> = {
-        follow: new NewestOnly((follow) => this.apply({ follow }, "follow")),
-        boost: new NewestOnly((boost) => this.apply({ boost }, "boost")),
+        follow: new NewestOnly(async (follow) => void (await this.apply({ follow }, "follow"))),
+        boost: new NewestOnly(async (boost) => void (await this.apply({ boost }, "boost"))),
     };
     private continues = false; // whether the next pace belongs to the undo step of the last one
+    private readonly lastPace = new LastChange();
+    private statePace = 1; // of the newest state
+    private readonly errors = { pace: "", follow: "", boost: "" };
 
     /** `set` changes settings. If the server refuses, it must reject with an Error, whose message is shown. */
-    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
+    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
         for (const begin of ["pointerdown", "keydown"]) {
             this.pace.addEventListener(begin, () => (this.continues = false));
         }
         this.pace.addEventListener("input", () => {
-            const pace = Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
-            this.showPace(pace);
-            this.paces.submit(pace, 0);
+            this.showError("pace", "");
+            this.showPace(this.chosenPace);
+            this.paces.submit(this.chosenPace, 0);
         });
         for (const name of ["follow", "boost"] as const) {
             this.components[name] = kAxes.map((axis) => this.componentInput(name, axis));
@@ -46,10 +50,19 @@ export class ObserverControls {
         }
     }
 
-    /** Shows the frame of reference of a state, but does not change a field in which the user types. */
+    /** Prepares for the states of a new connection. */
+    restart(): void {
+        this.lastPace.restart();
+    }
+
+    /**
+     * Shows the frame of reference of a state, but does not change a field in which the user types, nor a pace that has
+     * not been answered.
+     */
     update(state: State): void {
-        if (document.activeElement !== this.pace) this.pace.value = String(Math.log10(state.pace));
-        this.showPace(state.pace);
+        this.statePace = state.pace;
+        const isOld = this.lastPace.recordAndCheckIfOld(state);
+        if (!isOld && !this.paces.isBusy) this.showPace(state.pace);
         for (const name of ["follow", "boost"] as const) {
             this.components[name].forEach((input, i) => {
                 if (document.activeElement === input || parseNumbers(input.value)[0] === state[name][i]) return;
@@ -59,7 +72,14 @@ export class ObserverControls {
         }
     }
 
+    /** The pace at the thumb of the slider, rounded. */
+    private get chosenPace(): number {
+        return Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
+    }
+
     private showPace(pace: number): void {
+        // The thumb of a rounded pace stays where it is. Otherwise an arrow key might not reach the next rounded pace.
+        if (this.chosenPace !== pace) this.pace.value = String(Math.log10(pace));
         const text = formatDecimal(pace, 3);
         this.paceValue.textContent = text;
         this.pace.setAttribute("aria-valuetext", text);
@@ -75,21 +95,31 @@ export class ObserverControls {
     private async applyPace(pace: number): Promise<void> {
         const { continues } = this;
         this.continues = true;
-        await this.apply({ pace, continues });
+        const revision = await this.apply({ pace, continues }, "pace");
+        if (revision === undefined) this.showPace(this.statePace);
+        else this.lastPace.answered(revision);
     }
 
-    private async apply(change: Settings & { continues?: boolean }, name?: Velocity): Promise<void> {
+    /** Resolves to the revision after the change; undefined if the server refuses it. */
+    private async apply(
+        change: Settings & { continues?: boolean },
+        name: "pace" | Velocity,
+    ): Promise<number | undefined> {
         try {
-            await this.set(change);
-            if (name) this.showError(name, "");
+            const { revision } = await this.set(change);
+            this.showError(name, "");
+            return revision;
         } catch (error) {
-            if (name) this.showError(name, toSentence((error as Error).message));
+            this.showError(name, toSentence((error as Error).message));
+            return undefined;
         }
     }
 
-    private showError(name: Velocity, error: string): void {
-        this.error.textContent = error;
-        for (const input of this.components[name]) input.setAttribute("aria-invalid", String(error !== ""));
+    private showError(name: "pace" | Velocity, error: string): void {
+        this.errors[name] = error;
+        this.error.textContent = Object.values(this.errors).filter((one) => one !== "").join(" ");
+        const inputs = name === "pace" ? [] : this.components[name];
+        for (const input of inputs) input.setAttribute("aria-invalid", String(error !== ""));
     }
 
     private componentInput(name: Velocity, axis: string): HTMLInputElement {
