@@ -307,7 +307,7 @@ function holdMoves() {
     };
 }
 
-test("slider: playing stops at a drag, a key that moves the focus, another client, or when the page is hidden", async () => {
+test("slider: playing stops at a drag, a key that moves the focus, another client, an export, or when the page is hidden", async () => {
     const { page, script, close } = await openSlider({ isStopped: true, before: holdMoves });
     const stopped = () => page.waitForSelector("#focus-play[aria-pressed=false]");
     const ways = {
@@ -325,6 +325,20 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
             await script.request({ type: "set", slices: { w: -2 } });
             await stopped();
             await page.evaluate(() => window.release());
+        },
+        async export() {
+            await page.evaluate(() => {
+                window.isHeld = true;
+                return window.passTime(100); // so that the move on its way leads to another w
+            });
+            await page.waitForFunction(() => window.holdsMove());
+            await page.click("#export-button");
+            await page.evaluate(() => window.release());
+            const { section, slices } = await stateAfter(page, script);
+            const decimals = Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1);
+            const w = section.w.toFixed(decimals).replace("-", "\u2212");
+            await page.waitForSelector(`#export-focus:text-is("w = ${w}")`);
+            await page.keyboard.press("Escape");
         },
         hidden: () =>
             page.evaluate(() => {

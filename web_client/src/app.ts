@@ -322,6 +322,7 @@ export class App {
         this.tools.update(state);
         this.colorControls.update(state);
         this.fieldPanel.update(state);
+        this.exportDialog.updateSlices(state);
         this.connection.stateShown(state.revision);
     }
 
@@ -451,6 +452,7 @@ export class App {
     /** Opens the export dialog. If an element is given, only this element is exported. */
     private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
+        this.slider.stop(); // otherwise the file would contain another slice than the dialog says
         if (!this.state) return;
         if (highlight) this.exportDialog.open({ ...this.state, highlight }, "highlight");
         else this.exportDialog.open(this.state);

@@ -88,8 +88,7 @@ export class ExportDialog {
     private prepare(state: State): void {
         this.state = state;
         byId("export-of").textContent = state.polytope.name;
-        byId("export-focus").textContent = `w = ${focusW(state)}`;
-        byId("export-oval").textContent = `${state.slices.count} slices`;
+        this.showSliceValues();
         byId("export-highlight").textContent = nameOf(state.highlight);
         byId("export-coordinates").textContent = state.field ? "Histogram" : "Parallel coordinates";
         const { limits = {} } = this.client.welcome ?? {};
@@ -104,6 +103,21 @@ export class ExportDialog {
         this.selectPreset();
         this.showFormats();
         this.showOptions();
+    }
+
+    /**
+     * Follows the slices while the dialog is open: the server exports those of its newest state, and a move of the
+     * focus may have been on its way when the dialog opened.
+     */
+    updateSlices({ section, slices }: State): void {
+        if (!this.dialog.isOpen || !this.state) return;
+        this.state = { ...this.state, section, slices };
+        this.showSliceValues();
+    }
+
+    private showSliceValues(): void {
+        byId("export-focus").textContent = `w = ${focusW(this.state!)}`;
+        byId("export-oval").textContent = `${this.state!.slices.count} slices`;
     }
 
     /**
