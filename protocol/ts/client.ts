@@ -77,6 +77,8 @@ interface PendingRequest {
      * the request follows it.
      */
     wants: "frame" | "file" | "slices" | "message";
+    /** Whether the server may need long for the answer, and answers no later request before. */
+    mayTakeLong: boolean;
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
 }
@@ -90,7 +92,7 @@ const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // seconds: the same while a file is requested, because a test is answered after the file
+const kLongTestTimeout = 300; // seconds: the same after a request that may take long, because a test is answered later
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -172,7 +174,7 @@ export class Client {
             }
             const what = message.type === "get" ? message.what : "message";
             const wants = what === "frame" || what === "file" || what === "slices" ? what : "message";
-            this.pending.set(id, { wants, resolve, reject });
+            this.pending.set(id, { wants, mayTakeLong: mayTakeLong(message), resolve, reject });
             this.send({ ...message, id });
         });
         this.options.onRequest?.(answer);
@@ -282,13 +284,14 @@ export class Client {
 
     /** Waits for the answer to a test. While queued data are still being sent, the wait begins again. */
     private awaitAnswer(unsentBytes: number): void {
+        const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
         clearTimeout(this.timer);
         this.timer = setTimeout(
             () => {
                 if (this.unsentBytes < unsentBytes) this.awaitAnswer(this.unsentBytes);
                 else this.closed(1006, "the server does not answer");
             },
-            (this.isAwaiting("file") ? kFileTestTimeout : kTestTimeout) * 1000,
+            (isLong ? kLongTestTimeout : kTestTimeout) * 1000,
         );
     }
 
@@ -347,5 +350,22 @@ export class Client {
     private report(status: Status): void {
         this.status = status;
         this.options.onStatus?.(status);
+    }
+}
+
+/** Whether the server may read, build, search or draw before it answers, and answers no later request before. */
+function mayTakeLong(message: Request): boolean {
+    switch (message.type) {
+        case "load":
+        case "command":
+            return true;
+        case "set":
+            return message.polytope !== undefined || message.field !== undefined;
+        case "key":
+            return message.key === ")" || message.key === "("; // they search for the critical w of a field
+        case "get":
+            return ["frame", "slices", "at", "file"].includes(message.what);
+        default:
+            return false;
     }
 }

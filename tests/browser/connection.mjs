@@ -87,6 +87,27 @@ test("connection: the page says that the server does not answer, or that the net
     await proxy.stop();
 });
 
+test("connection: a file that takes long to load is no lost connection", async () => {
+    const { url } = await common();
+    const proxy = await startProxy(url, "/long");
+    const { page, script, errors, close } = await openWithScript({ url: proxy.url, isStopped: true });
+    proxy.freeze();
+    const data = Buffer.from("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n");
+    await page.setInputFiles("#file", { name: "slow.txt", mimeType: "text/plain", buffer: data });
+    await page.waitForSelector("#connection:not([data-unanswered='0'])");
+    await page.evaluate(() => window.dispatchEvent(new Event("offline"))); // the page tests the connection
+    await passTime(page, 2 * kLost);
+    await page.waitForSelector("#connection[data-kind=late]");
+    proxy.thaw();
+    await named(page, "slow.txt");
+    await idle(page);
+    assert.equal(await connection(page), "Connected");
+    assert.deepEqual(errors, []);
+    script.leave();
+    await close();
+    await proxy.stop();
+});
+
 test("connection: the page says that a proxy passes no WebSockets on", async () => {
     const { url } = await common();
     for (const refuse of ["dropUpgrades", "holdUpgrades"]) {
