@@ -49,6 +49,11 @@ export interface Options {
     onRequest?(answer: Promise<unknown>): void;
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
+    /**
+     * Called if the server refuses the first hello of a connection. If a viewport is returned, the client asks once
+     * more, with this size; otherwise it reports the refusal as the reason, and connects again later.
+     */
+    onRefused?(error: RequestError): Viewport | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
     onLost?(reason: string): void;
 }
@@ -89,6 +94,7 @@ const kReconnectDelay = 0.1; // seconds after an open connection ended; short, b
 const kFirstRetryDelay = 0.5; // seconds from the first failed attempt to the next, doubled after each further failure
 const kMaxRetryDelay = 15; // seconds: the longest delay between two attempts
 const kOpeningTimeout = 5; // seconds within which a WebSocket must open
+const kWelcomeTimeout = 30; // seconds within which the server, which may have to read a session, answers the first hello
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
@@ -134,15 +140,33 @@ export class Client {
         url.search = url.hash = "";
         const socket = new (this.options.webSocket ?? WebSocket)(url.href, kSubprotocol);
         socket.binaryType = "arraybuffer";
-        socket.onopen = () => {
-            clearTimeout(this.timer);
-            this.hello({}).catch(() => {}); // after a refusal, the socket closes and onclose handles this
-        };
+        socket.onopen = () => void this.begin();
         socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(event.code, event.reason);
         socket.onerror = () => {}; // the event `close` follows each `error`
         this.socket = socket;
         this.timer = setTimeout(() => this.closed(1006, ""), kOpeningTimeout * 1000);
+    }
+
+    /** Says hello on a new connection. If the server refuses that, says hello again with a size that it may allow. */
+    private async begin(): Promise<void> {
+        let refusal = await this.firstHello({});
+        if (refusal?.code === "not_connected") return; // the connection has ended
+        const viewport = refusal && this.options.onRefused?.(refusal);
+        if (viewport) refusal = await this.firstHello({ viewport });
+        // The server closes the connection itself if it does not open the session. After other refusals, it waits.
+        if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
+        this.closed(1006, refusal.message);
+    }
+
+    /** Resolves to the error if the server refuses. If it does not answer, the connection counts as lost. */
+    private firstHello(change: { viewport?: Viewport }): Promise<RequestError | undefined> {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => this.closed(1006, "the server does not answer"), kWelcomeTimeout * 1000);
+        return this.hello(change).then(
+            () => undefined,
+            (error: RequestError) => error,
+        );
     }
 
     /** Closes the connection and does not reconnect. */

@@ -3,11 +3,13 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, idle, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
-import { passTime } from "./support/page_time.mjs";
+import { passTime, stopTime } from "./support/page_time.mjs";
 import { startProxy, startReplaceableServer } from "./support/proxy.mjs";
+import { startServer } from "./support/server.mjs";
 
 const kLate = 1000; // milliseconds without an answer after which the page says that it waits
 const kOpening = 5000; // milliseconds within which a WebSocket must open
+const kWelcome = 30000; // the same, within which the server must answer
 const kLost = 8000; // the same, after which it gives up the connection
 
 const connection = (page) => page.locator("#connection").textContent();
@@ -83,6 +85,43 @@ test("connection: the page says that the server does not answer, or that the net
     await passTime(page, kLost);
     await page.waitForSelector("#connection[data-kind=waiting]");
     assert.match(await connection(page), /does not answer|No answer/);
+    await close();
+    await proxy.stop();
+});
+
+test("connection: pictures are within the limits of a server that allows only small ones", async () => {
+    const server = await startServer({ options: ["--max-pixels", "100000"] });
+    const { page, errors, close } = await openPage({ url: server.url });
+    await ready(page);
+    const drawing = page.locator("#drawing");
+    const sizeOf = (one) => [one.clientWidth, one.clientHeight, one.querySelector("canvas.solids").width];
+    const [width, height, pixels] = await drawing.evaluate(sizeOf);
+    assert.ok(width * height > 100000, "the window is larger");
+    assert.ok(pixels > 256 && pixels * pixels * (height / width) <= 100000, `${pixels} pixels wide`);
+    assert.equal(await connection(page), "Connected");
+    assert.deepEqual(errors, []);
+    await close();
+    await server.stop();
+});
+
+test("connection: the page shows why the server refuses its session", async () => {
+    const server = await startServer({ options: ["--max-sessions", "1"] });
+    const first = await openPage({ url: server.url });
+    const { page, errors, close } = await openPage({ url: server.url, picture: false });
+    await page.waitForFunction(() => /sessions.*trying again/.test(document.getElementById("connection").textContent));
+    assert.deepEqual(errors, []);
+    await close();
+    await first.close();
+    await server.stop();
+});
+
+test("connection: a server that accepts a WebSocket but does not answer is reported", async () => {
+    const proxy = await startProxy((await common()).url, "/mute");
+    proxy.swallow();
+    const { page, close } = await openPage({ url: proxy.url, before: stopTime, picture: false });
+    await page.waitForSelector("#connection[data-unanswered='1']");
+    await passTime(page, kWelcome);
+    await page.waitForFunction(() => /does not answer/.test(document.getElementById("connection").textContent));
     await close();
     await proxy.stop();
 });

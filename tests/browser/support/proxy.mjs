@@ -1,4 +1,5 @@
 // A reverse proxy that mounts the service under a path, as an operator's web server does.
+import { createHash } from "node:crypto";
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
 
@@ -82,6 +83,19 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
         /** Answers requests for WebSockets as other requests, like a proxy that does not pass the header Upgrade on. */
         dropUpgrades() {
             server.removeAllListeners("upgrade");
+        },
+        /** Opens WebSockets, and answers nothing there. */
+        swallow() {
+            server.removeAllListeners("upgrade");
+            server.on("upgrade", (incoming, socket) => {
+                sockets.add(socket);
+                const key = `${incoming.headers["sec-websocket-key"]}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`; // RFC 6455
+                const accepts = createHash("sha1").update(key).digest("base64");
+                const protocol = incoming.headers["sec-websocket-protocol"];
+                const headers = ["Upgrade: websocket", "Connection: Upgrade", `Sec-WebSocket-Accept: ${accepts}`];
+                const lines = ["HTTP/1.1 101 Switching Protocols", ...headers, `Sec-WebSocket-Protocol: ${protocol}`];
+                socket.write(`${lines.join("\r\n")}\r\n\r\n`);
+            });
         },
         /** Does not answer requests for WebSockets. */
         holdUpgrades() {
