@@ -14,29 +14,6 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
-/// null. `readsSurfaces` is Format::readsSurfaces.
-struct Writer {
-    std::string_view name;
-    std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
-    std::string (*ofScene)(const SceneInput&) = nullptr;
-    std::string (*ofDrawing)(const Drawing&) = nullptr;
-    bool readsSurfaces = false;
-};
-constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
-                                                 {.name = "csv", .ofScene = measurementsCsv},
-                                                 {.name = "glb", .ofBodies = glb},
-                                                 {.name = "obj", .ofBodies = obj},
-                                                 {.name = "off", .ofScene = off},
-                                                 {.name = "pdf", .ofDrawing = pdf},
-                                                 {.name = "ply", .ofBodies = ply},
-                                                 {.name = "scad", .ofBodies = scad},
-                                                 {.name = "stl", .ofBodies = stl},
-                                                 {.name = "svg", .ofDrawing = svg},
-                                                 {.name = "vti", .ofScene = vti},
-                                                 {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
-                                                 {.name = "x3d", .ofBodies = x3d}});
-
 constexpr auto kArrangements = std::to_array<text::Choice<Format::Arrangement>>(
     {{"", Format::Arrangement::none}, {"plate", Format::Arrangement::plate}, {"oval", Format::Arrangement::oval}});
 

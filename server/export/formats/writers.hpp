@@ -1,8 +1,9 @@
 #pragma once
-// The writers of the file formats. The source file of each writer is named after its format; formats.cpp lists all
-// writers.
+// The writers of the file formats, and the table of them. The source file of each writer is named after its format.
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "export/drawing/drawing.hpp"
 #include "export/formats/format.hpp"
@@ -86,5 +87,32 @@ std::string pdf(const Drawing& drawing);
 
 /// Returns the drawing as an SVG 1.1 image.
 std::string svg(const Drawing& drawing);
+
+// --- All of them.
+
+/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
+/// null. `readsSurfaces` is Format::readsSurfaces.
+struct Writer {
+    std::string_view name;
+    std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
+    std::string (*ofScene)(const SceneInput&) = nullptr;
+    std::string (*ofDrawing)(const Drawing&) = nullptr;
+    bool readsSurfaces = false;
+};
+
+/// All writers. Each has a row of protocol/export_formats.json with the same name.
+inline constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
+                                                        {.name = "csv", .ofScene = measurementsCsv},
+                                                        {.name = "glb", .ofBodies = glb},
+                                                        {.name = "obj", .ofBodies = obj},
+                                                        {.name = "off", .ofScene = off},
+                                                        {.name = "pdf", .ofDrawing = pdf},
+                                                        {.name = "ply", .ofBodies = ply},
+                                                        {.name = "scad", .ofBodies = scad},
+                                                        {.name = "stl", .ofBodies = stl},
+                                                        {.name = "svg", .ofDrawing = svg},
+                                                        {.name = "vti", .ofScene = vti},
+                                                        {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
+                                                        {.name = "x3d", .ofBodies = x3d}});
 
 }  // namespace oval4d::exports
