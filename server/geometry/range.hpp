@@ -1,6 +1,8 @@
 #pragma once
 // Ranges of numbers.
 
+#include <limits>
+
 namespace oval4d::geometry {
 
 /// The numbers from `least` to `most`, both included.
@@ -9,6 +11,13 @@ struct Range {
 
     /// Returns whether a number is in the range. NaN is in no range.
     constexpr bool contains(double value) const { return value >= least && value <= most; }
+
+    /// Returns the numbers whose absolute value is at most `most`.
+    static constexpr Range upTo(double most) { return {-most, most}; }
+    /// Returns the positive numbers that are at most `most`.
+    static constexpr Range positiveUpTo(double most) { return {std::numeric_limits<double>::min(), most}; }
+    /// Returns the finite numbers.
+    static constexpr Range finite() { return upTo(std::numeric_limits<double>::max()); }
 };
 
 }  // namespace oval4d::geometry

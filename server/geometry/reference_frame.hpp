@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/range.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::geometry {
 
@@ -40,6 +41,12 @@ struct ReferenceFrame {
     glm::dmat4 inverse() const;
     bool operator==(const ReferenceFrame&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<ReferenceFrame> auto& frame, auto& visit) {
+    auto& [pace, follow, boost] = frame;
+    visit.member(0, pace, ReferenceFrame::kPaceRange);
+    visit.member(1, follow, ReferenceFrame::kFollowRange);
+    visit.member(2, boost, Range::upTo(ReferenceFrame::kMaxBoost));
+}
 
 /// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.
 double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points);

@@ -13,6 +13,7 @@
 #include "geometry/range.hpp"
 #include "scene/background.hpp"
 #include "scene/parts.hpp"
+#include "serialization/stored_members.hpp"
 #include "slicing/element.hpp"
 #include "slicing/field_settings.hpp"
 #include "text/choice.hpp"
@@ -119,6 +120,12 @@ struct CameraOrbit {
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const CameraOrbit&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, auto& visit) {
+    auto& [azimuth, elevation, zoom] = orbit;
+    visit.member(0, azimuth, CameraOrbit::kAngleRange);
+    visit.member(1, elevation, CameraOrbit::kAngleRange);
+    visit.member(2, zoom, CameraOrbit::kZoomRange);
+}
 
 /// All choices of the user about the display of an object.
 struct Look {
@@ -140,5 +147,25 @@ struct Look {
     double thickness = 1;  ///< multiplies the radii of all balls and bars; within kThicknessRange
     bool operator==(const Look&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<Look> auto& look, auto& visit) {
+    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background,
+           thickness] = look;
+    auto& [hidden, faded] = cellTypes;
+    auto& [kind, eye] = projection;
+    visit.member(0, view);
+    visit.member(1, parts);
+    visit.member(2, orbit);
+    visit.member(3, coloring);
+    visit.member(4, hidden);
+    visit.member(5, faded);
+    visit.addedMember(6, kind);
+    visit.addedMember(7, eye, ProjectionSettings::kEyeRange);
+    visit.addedMember(8, highlight);
+    visit.addedMember(9, focusPoint, geometry::Range::finite());
+    visit.addedMember(10, field);
+    visit.addedMember(11, caps);
+    visit.addedMember(12, background);
+    visit.addedMember(13, thickness, Look::kThicknessRange);
+}
 
 }  // namespace oval4d::scene

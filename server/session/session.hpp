@@ -17,6 +17,7 @@
 #include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
+#include "serialization/stored_members.hpp"
 #include "session/command.hpp"
 #include "slicing/object.hpp"
 
@@ -38,6 +39,13 @@ struct SliceSettings {
     double offset = 0;   ///< w of the hyperplane n = 0, in the object's units
     bool operator==(const SliceSettings&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<SliceSettings> auto& slices, auto& visit) {
+    auto& [count, spacing, focus, offset] = slices;
+    visit.member(0, count);
+    visit.member(1, spacing, geometry::Range::finite());
+    visit.member(2, focus);
+    visit.addedMember(3, offset, geometry::Range::finite());
+}
 
 /// A motion in progress that the command TurnToward has started: the object turns to the orientation `goal` along the
 /// shortest way, at constant speed.
@@ -48,6 +56,11 @@ struct OngoingTurnToward {
     double seconds = 0;  ///< the time that is left; greater than 0, at most kMaxSeconds
     bool operator==(const OngoingTurnToward&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<OngoingTurnToward> auto& turn, auto& visit) {
+    auto& [goal, seconds] = turn;
+    visit.rotation(0, goal);
+    visit.member(2, seconds, geometry::Range::positiveUpTo(OngoingTurnToward::kMaxSeconds));
+}
 
 /// Everything that determines a picture, except the viewport, the quality and the viewer's color scheme. Undo restores
 /// all members except the camera's orbit.
@@ -83,6 +96,23 @@ struct State {
     bool isMoving() const { return turning || ongoingTurnToward; }
     bool operator==(const State&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& visit) {
+    // `object` is not stored, because it is `source` in `frame`.
+    auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
+    visit.object(0, source);
+    visit.rotation(1, orientation);
+    visit.array(3, [&state](auto& angles) {
+        angles.member(0, state.alpha, State::kAngleRange);
+        angles.member(1, state.beta, State::kAngleRange);
+        angles.member(2, state.step, geometry::Range::positiveUpTo(State::kStepRange.most));
+    });
+    visit.member(4, slices);
+    visit.member(5, look);
+    visit.member(6, turning);
+    visit.member(7, lastTurn);
+    visit.addedMember(8, ongoing);
+    visit.addedMember(9, frame);
+}
 
 /// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
 State initialState();

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/rotation.hpp"
+#include "serialization/stored_members.hpp"
 #include "slicing/object.hpp"
 #include "text/choice.hpp"
 
@@ -31,6 +32,11 @@ struct Element {
     std::size_t index = 0;
     bool operator==(const Element&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<Element> auto& element, auto& visit) {
+    auto& [kind, index] = element;
+    visit.member(0, kind);
+    visit.member(1, index);
+}
 
 /// Returns the number of elements of this kind.
 std::size_t elementCount(const Object& object, ElementKind kind);

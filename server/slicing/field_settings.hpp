@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "fields/inside.hpp"
+#include "geometry/range.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::slicing {
 
@@ -23,6 +25,12 @@ struct FogPoint {
     std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color from blue (first point) to amber (last)
     bool operator==(const FogPoint&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<FogPoint> auto& point, auto& visit) {
+    auto& [value, opacity, color] = point;
+    visit.member(0, value, geometry::Range::upTo(kMaxLevel));
+    visit.member(1, opacity, geometry::Range{0, 1});
+    visit.member(2, color);
+}
 
 /// The least and the greatest number of control points of a transfer function.
 inline constexpr std::size_t kMinFogPoints = 2, kMaxFogControlPoints = 8;
@@ -37,5 +45,11 @@ struct FieldSettings {
     std::vector<FogPoint> fog = {};
     bool operator==(const FieldSettings&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<FieldSettings> auto& field, auto& visit) {
+    auto& [levels, inside, fog] = field;
+    visit.member(0, levels, geometry::Range::upTo(kMaxLevel));
+    visit.member(1, inside);
+    visit.addedMember(2, fog);
+}
 
 }  // namespace oval4d::slicing

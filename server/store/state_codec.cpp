@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -30,125 +29,10 @@ using session::State;
 namespace {
 
 using geometry::Range;
-constexpr Range upTo(double most) { return {-most, most}; }
-constexpr Range kAnyNumber = upTo(std::numeric_limits<double>::max());
-constexpr double kLeastPositive = std::numeric_limits<double>::min();
-
-/// Whether T is `Struct` or `const Struct`.
-template <typename T, typename Struct>
-concept Is = std::is_same_v<std::remove_const_t<T>, Struct>;
-
-// --- The members of each struct, and their numbers
-//
-// A struct is encoded as an array. The number of a member is its index in this array. Servers of other versions read
-// and write the same records, hence these rules: a member keeps its number forever; no number is used again; a new
-// member gets the next number and is visited with addedMember(), because records of earlier versions lack it. The same
-// rules hold for the numbers of enumerators and for the rows of scene::kParts. The structured bindings name every
-// member of a struct, so that the code does not compile until a new member is added here. The ranges are those that
-// are declared together with the members.
-
-void visitMembers(Is<scene::CameraOrbit> auto& orbit, auto& visit) {
-    auto& [azimuth, elevation, zoom] = orbit;
-    visit.member(0, azimuth, scene::CameraOrbit::kAngleRange);
-    visit.member(1, elevation, scene::CameraOrbit::kAngleRange);
-    visit.member(2, zoom, scene::CameraOrbit::kZoomRange);
-}
-
-void visitMembers(Is<slicing::Element> auto& element, auto& visit) {
-    auto& [kind, index] = element;
-    visit.member(0, kind);
-    visit.member(1, index);
-}
-
-void visitMembers(Is<slicing::FogPoint> auto& point, auto& visit) {
-    auto& [value, opacity, color] = point;
-    visit.member(0, value, upTo(slicing::kMaxLevel));
-    visit.member(1, opacity, Range{0, 1});
-    visit.member(2, color);
-}
-
-void visitMembers(Is<slicing::FieldSettings> auto& field, auto& visit) {
-    auto& [levels, inside, fog] = field;
-    visit.member(0, levels, upTo(slicing::kMaxLevel));
-    visit.member(1, inside);
-    visit.addedMember(2, fog);
-}
-
-void visitMembers(Is<scene::Look> auto& look, auto& visit) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background,
-           thickness] = look;
-    auto& [hidden, faded] = cellTypes;
-    auto& [kind, eye] = projection;
-    visit.member(0, view);
-    visit.member(1, parts);
-    visit.member(2, orbit);
-    visit.member(3, coloring);
-    visit.member(4, hidden);
-    visit.member(5, faded);
-    visit.addedMember(6, kind);
-    visit.addedMember(7, eye, scene::ProjectionSettings::kEyeRange);
-    visit.addedMember(8, highlight);
-    visit.addedMember(9, focusPoint, kAnyNumber);
-    visit.addedMember(10, field);
-    visit.addedMember(11, caps);
-    visit.addedMember(12, background);
-    visit.addedMember(13, thickness, scene::Look::kThicknessRange);
-}
-
-void visitMembers(Is<session::SliceSettings> auto& slices, auto& visit) {
-    auto& [count, spacing, focus, offset] = slices;
-    visit.member(0, count);
-    visit.member(1, spacing, kAnyNumber);
-    visit.member(2, focus);
-    visit.addedMember(3, offset, kAnyNumber);
-}
-
-void visitMembers(Is<geometry::ReferenceFrame> auto& frame, auto& visit) {
-    auto& [pace, follow, boost] = frame;
-    visit.member(0, pace, geometry::ReferenceFrame::kPaceRange);
-    visit.member(1, follow, geometry::ReferenceFrame::kFollowRange);
-    visit.member(2, boost, upTo(geometry::ReferenceFrame::kMaxBoost));
-}
-
-void visitMembers(Is<session::OngoingTurnToward> auto& turn, auto& visit) {
-    auto& [goal, seconds] = turn;
-    visit.rotation(0, goal);  // two quaternions: the members 0 and 1
-    visit.member(2, seconds, Range{kLeastPositive, session::OngoingTurnToward::kMaxSeconds});
-}
-
-/// The angles of the rotation keys. They are members of a State, but form an array of their own in its record.
-template <typename Number>
-struct KeyAngles {
-    Number &alpha, &beta, &step;
-};
-template <typename Number>
-KeyAngles(Number&, Number&, Number&) -> KeyAngles<Number>;
-
-template <typename Number>
-void visitMembers(const KeyAngles<Number>& angles, auto& visit) {
-    visit.member(0, angles.alpha, State::kAngleRange);
-    visit.member(1, angles.beta, State::kAngleRange);
-    visit.member(2, angles.step, Range{kLeastPositive, State::kStepRange.most});
-}
-
-/// The number of the member State::source, which is written as an index into the list of objects.
-constexpr std::size_t kSourceNumber = 0;
-
-void visitMembers(Is<State> auto& state, auto& visit) {
-    auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
-    visit.rotation(1, orientation);  // two quaternions: the members 1 and 2
-    visit.members(3, KeyAngles{alpha, beta, step});
-    visit.member(4, slices);
-    visit.member(5, look);
-    visit.member(6, turning);
-    visit.member(7, lastTurn);
-    visit.addedMember(8, ongoing);
-    visit.addedMember(9, frame);
-}
 
 // --- Encoding
 
-/// Visits the members of a struct, and writes them into an array.
+/// Writes the members of a struct into an array (see serialization/stored_members.hpp).
 class MemberWriter {
   public:
     template <typename T, typename... Ranges>
@@ -159,30 +43,32 @@ class MemberWriter {
     void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
         put(number, encoded(value));
     }
-    /// Writes several members of a struct together, as one array.
-    template <typename Members>
-    void members(std::size_t number, const Members& some) {
-        put(number, encoded(some));
+    void array(std::size_t number, const auto& visitThem) {
+        MemberWriter writer;
+        visitThem(writer);
+        put(number, std::move(writer.array_));
     }
-    /// Writes the two quaternions of a rotation as the members `number` and `number` + 1.
     void rotation(std::size_t number, const geometry::Rotation& rotation) {
         put(number, encoded(rotation.left()));
         put(number + 1, encoded(rotation.right()));
     }
 
-    template <typename Struct>
-    static json encoded(const Struct& value) {
-        MemberWriter writer;
-        visitMembers(value, writer);
-        return std::move(writer.array_);
-    }
+    /// Moves the array out of the writer.
+    json takeArray() { return std::move(array_); }
 
-  private:
+  protected:
     void put(std::size_t number, json value) {
         while (array_.size() <= number) array_.push_back(nullptr);
         array_[number] = std::move(value);
     }
 
+  private:
+    template <typename Struct>
+    static json encoded(const Struct& value) {
+        MemberWriter writer;
+        visitStoredMembers(value, writer);
+        return std::move(writer.array_);
+    }
     template <typename Number>
         requires std::is_arithmetic_v<Number>
     static json encoded(const Number& value) {
@@ -226,6 +112,17 @@ class MemberWriter {
     json array_ = json::array();
 };
 
+/// Writes the members of a state, which has an object: an index into the list of objects.
+class StateWriter : public MemberWriter {
+  public:
+    explicit StateWriter(ObjectListEncoder& objects) : objects_(objects) {}
+
+    void object(std::size_t number, const slicing::Object& value) { put(number, objects_.indexOf(value)); }
+
+  private:
+    ObjectListEncoder& objects_;
+};
+
 // --- Decoding
 
 geometry::Plane planeIn(const json& value) {
@@ -238,7 +135,7 @@ glm::dquat quaternionIn(const json& value) {
     return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(), value.at(3).get<double>()};
 }
 
-/// Visits the members of a struct, and reads them from an array.
+/// Reads the members of a struct from an array.
 class MemberReader {
   public:
     explicit MemberReader(const json& array) : array_(array) {}
@@ -247,15 +144,13 @@ class MemberReader {
     void member(std::size_t number, T& value, Ranges... range) const {
         read(array_.at(number), value, range...);
     }
-    /// Leaves the value as it is if the array lacks the member.
     template <typename T, typename... Ranges>
     void addedMember(std::size_t number, T& value, Ranges... range) const {
         if (number < array_.size()) member(number, value, range...);
     }
-    template <typename Members>
-    void members(std::size_t number, const Members& some) const {
+    void array(std::size_t number, const auto& visitThem) const {
         const MemberReader reader(array_.at(number));
-        visitMembers(some, reader);
+        visitThem(reader);
     }
     void rotation(std::size_t number, geometry::Rotation& rotation) const {
         const auto decoded =
@@ -264,11 +159,14 @@ class MemberReader {
         rotation = *decoded;
     }
 
+  protected:
+    const json& at(std::size_t number) const { return array_.at(number); }
+
   private:
     template <typename Struct>
     static void read(const json& value, Struct& into) {
         const MemberReader reader(value);
-        visitMembers(into, reader);
+        visitStoredMembers(into, reader);
     }
     static void read(const json& value, bool& into) { into = value.get<bool>(); }
     template <std::integral Integer>
@@ -320,6 +218,17 @@ class MemberReader {
     }
 
     const json& array_;
+};
+
+/// Reads the members of a state, which has an object.
+class StateReader : public MemberReader {
+  public:
+    StateReader(const json& array, const ObjectListDecoder& objects) : MemberReader(array), objects_(objects) {}
+
+    void object(std::size_t number, slicing::Object& value) const { value = objects_.at(at(number)); }
+
+  private:
+    const ObjectListDecoder& objects_;
 };
 
 // --- Checks of members together with other members or the object
@@ -379,19 +288,18 @@ void check(const State& state) {
 }  // namespace
 
 json encodeState(const State& state, ObjectListEncoder& objects) {
-    json array = MemberWriter::encoded(state);
-    array[kSourceNumber] = objects.indexOf(state.source);
-    return array;
+    StateWriter writer(objects);
+    visitStoredMembers(state, writer);
+    return writer.takeArray();
 }
 
 State decodeState(const json& array, ObjectListDecoder& objects) {
-    const slicing::Object& source = objects.at(array.at(kSourceNumber));
-    State state{source, {}, source, {}, 0, 0, 0, {}, {}, false, {}, {}};
-    const MemberReader reader(array);
-    visitMembers(state, reader);
+    State state{};
+    const StateReader reader(array, objects);
+    visitStoredMembers(state, reader);
     if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
         throwUnreadable("a boost is too fast");
-    state.object = objects.transformedTo(source, state.referenceFrame);
+    state.object = objects.transformedTo(state.source, state.referenceFrame);
     check(state);
     return state;
 }

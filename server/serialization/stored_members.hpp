@@ -1,0 +1,33 @@
+#pragma once
+// Which members of a struct are stored, and under which numbers.
+//
+// Each struct of a stored session has a function beside it, which names all members by a structured binding, so that it
+// does not compile without a new member, and visits those that are stored:
+//
+//     void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, auto& visit) {
+//         auto& [azimuth, elevation, zoom] = orbit;
+//         visit.member(0, azimuth, CameraOrbit::kAngleRange);
+//         …
+//     }
+//
+// `visit` reads or writes one record (see store/state_codec.cpp). A struct is stored as an array, and the number of a
+// member is its index in this array. Servers of other versions read and write the same records, hence these rules: a
+// member keeps its number forever; no number is used again; a new member gets the next number and is visited with
+// addedMember(), because records of earlier versions lack it. The same rules hold for the numbers of enumerators.
+//
+// - member(number, value) or member(number, value, range): a member, and the range of a floating-point number or of all
+//   such numbers in a vector or list; a record with another number is refused
+// - addedMember(…): the same, for a member that records of earlier versions lack; it then keeps its value
+// - rotation(number, value): a rotation, as two quaternions with the numbers `number` and `number` + 1
+// - array(number, visitThem): an array of its own, whose members visitThem(visit) visits
+// - object(number, value): a 4-D object; only State has one
+
+#include <type_traits>
+
+namespace oval4d::serialization {
+
+/// `Struct` if it is read, `const Struct` if it is written.
+template <typename T, typename Struct>
+concept ReadOrWritten = std::is_same_v<std::remove_const_t<T>, Struct>;
+
+}  // namespace oval4d::serialization
