@@ -18,6 +18,7 @@
 #include "session/command.hpp"
 #include "slicing/element.hpp"
 #include "text/choice.hpp"
+#include "wire/encoding.hpp"
 
 namespace oval4d::wire {
 
@@ -29,11 +30,6 @@ enum class Stream : std::uint8_t {
 };
 inline constexpr auto kStreams = std::to_array<text::Choice<Stream>>(
     {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
-
-/// The encoding of `slices` messages.
-enum class Encoding : std::uint8_t { json, cbor };
-inline constexpr auto kEncodings =
-    std::to_array<text::Choice<Encoding>>({{"json", Encoding::json}, {"cbor", Encoding::cbor}});
 
 /// Begins a connection, or changes its settings.
 struct Hello {

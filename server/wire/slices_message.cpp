@@ -1,13 +1,13 @@
 #include "wire/slices_message.hpp"
 
 #include <type_traits>
+#include <utility>
 
 #include "scene/density_plot.hpp"
 #include "slicing/coordinate_histograms.hpp"
 #include "text/choice.hpp"
-#include "wire/cbor_writer.hpp"
+#include "wire/encoding.hpp"
 #include "wire/fog_writer.hpp"
-#include "wire/json_writer.hpp"
 
 namespace oval4d::wire {
 
@@ -286,12 +286,9 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
 void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                                 std::string& out, slicing::Quality quality) {
     Texts& texts = texts_.at(static_cast<std::size_t>(encoding));
-    switch (encoding) {
-        case Encoding::json:
-            return writeMessage(JsonWriter(out), texts, scene, revision, id, quality);
-        case Encoding::cbor:
-            return writeMessage(CborWriter(out), texts, scene, revision, id, quality);
-    }
+    writeEncoded(encoding, out, [&]<typename W>(W&& writer) {
+        writeMessage(std::forward<W>(writer), texts, scene, revision, id, quality);
+    });
 }
 
 }  // namespace oval4d::wire

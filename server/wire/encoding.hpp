@@ -1,0 +1,30 @@
+#pragma once
+// The encodings of `slices` messages, and their writers.
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "text/choice.hpp"
+#include "wire/cbor_writer.hpp"
+#include "wire/json_writer.hpp"
+
+namespace oval4d::wire {
+
+/// The encoding of `slices` messages.
+enum class Encoding : std::uint8_t { json, cbor };
+inline constexpr auto kEncodings =
+    std::to_array<text::Choice<Encoding>>({{"json", Encoding::json}, {"cbor", Encoding::cbor}});
+
+/// Calls `write` with the writer of the encoding, which overwrites `out`.
+template <typename Write>
+void writeEncoded(Encoding encoding, std::string& out, const Write& write) {
+    switch (encoding) {
+        case Encoding::json:
+            return write(JsonWriter(out));
+        case Encoding::cbor:
+            return write(CborWriter(out));
+    }
+}
+
+}  // namespace oval4d::wire
