@@ -285,7 +285,7 @@ export interface LoadRequest {
     append?: boolean;
 }
 /**
- * Asks for a measured, which has the center and the length, area or volume of an element. Changes nothing.
+ * Asks for a `measured`, which has the center and the length, area or volume of an element. It changes nothing. Errors: `out_of_range`, also if the object has no such element.
  */
 export interface MeasureRequest {
     type: "measure";
@@ -303,7 +303,7 @@ export interface MeasureRequest {
     number: number;
 }
 /**
- * Asks for a pong, which tells how busy the server is. Changes nothing.
+ * Asks for a `pong`, which tells how busy the server is. It changes nothing.
  */
 export interface PingRequest {
     type: "ping";
@@ -953,7 +953,7 @@ export interface KeyBinding {
     client?: boolean;
 }
 /**
- * Answers a measure. Sizes and coordinates are those of the object's file, before the rotation and outside any frame of reference; of a field, those of the box.
+ * Answers a `measure`. Sizes and coordinates are those of the file, for a field those of the box: neither the orientation nor the frame of reference changes them. A region that a star encloses n times counts n times, as in the CSV file.
  */
 export interface Measured {
     type: "measured";
@@ -970,11 +970,11 @@ export interface Measured {
      */
     length?: number;
     /**
-     * Of a 2-face. A region that a star encloses n times counts n times.
+     * Of a 2-face.
      */
     area?: number;
     /**
-     * Of a cell. A region that a star encloses n times counts n times.
+     * Of a cell.
      */
     volume?: number;
     /**
@@ -983,7 +983,7 @@ export interface Measured {
     center: [number, number, number, number];
 }
 /**
- * Answers a ping. Between two pongs, the workers were busy for the fraction Δbusy / (workers · Δtime) of the time.
+ * Answers a `ping`. Between two pongs, the threads were busy for the fraction Δ`busy` / (`workers` · Δ`time`) of the time.
  */
 export interface Pong {
     type: "pong";
