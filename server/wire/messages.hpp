@@ -12,7 +12,7 @@
 #include "scene/pick.hpp"
 #include "session/session.hpp"
 #include "slicing/critical/critical_sections.hpp"
-#include "wire/answer.hpp"
+#include "wire/request.hpp"
 
 namespace oval4d::wire {
 

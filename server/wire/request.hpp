@@ -1,6 +1,7 @@
 #pragma once
-// Parsed messages from clients. The constant kMessageType of a struct is the type of the messages that it represents.
-// If the members of the struct are described with Boost.Describe, the messages have members of the same names.
+// Parsed messages from clients, and those answers to them whose members are described with Boost.Describe. The constant
+// kMessageType of a struct is the type of the messages that it represents. If the members of the struct are described,
+// the messages have members of the same names.
 
 #include <array>
 #include <boost/describe/class.hpp>
@@ -10,8 +11,10 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "export/export_request.hpp"
 #include "scene/scene.hpp"
@@ -69,6 +72,14 @@ struct Measure {
     std::size_t number = 0;                                       ///< slicing::Element::index
 };
 BOOST_DESCRIBE_STRUCT(Measure, (), (element, number))
+/// Answers a Measure: the slicing::ElementMeasurements of the element.
+struct Measured {
+    static constexpr std::string_view kMessageType = "measured";
+    std::uint64_t revision = 0;
+    std::optional<double> length, area, volume;
+    glm::dvec4 center{0};
+};
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center))
 
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {
@@ -82,11 +93,32 @@ struct Ping {
     static constexpr std::string_view kMessageType = "ping";
 };
 BOOST_DESCRIBE_STRUCT(Ping, (), ())
+/// Answers a Ping: how busy the threads are that slice and draw pictures.
+struct Pong {
+    static constexpr std::string_view kMessageType = "pong";
+    std::uint64_t workers = 0;  ///< the number of these threads
+    std::uint64_t waiting = 0;  ///< the number of jobs, mostly pictures, that wait for one of them
+    double busy = 0;            ///< the total running time of all jobs that have ended, in seconds
+    double time = 0;            ///< the time of a steady clock, in seconds
+};
+BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
+
+/// Answers a request that took effect, unless another message answers it.
+struct Done {
+    static constexpr std::string_view kMessageType = "done";
+    std::uint64_t revision = 0;
+    std::vector<std::string> warnings = {};  ///< from reading a file, or what an exported file lacks
+};
+BOOST_DESCRIBE_STRUCT(Done, (), (revision, warnings))
 
 /// One message to the server.
 struct Request {
     std::optional<double> id;  ///< repeated in the answer
     std::variant<Hello, session::Command, Get, Measure, Ping, PictureShown> body;
 };
+
+/// An answer whose members are described. GetTarget::address is answered with an OpenAddress whose query describes the
+/// session's view.
+using Answer = std::variant<Done, Measured, Pong, session::OpenAddress>;
 
 }  // namespace oval4d::wire

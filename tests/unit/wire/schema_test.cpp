@@ -20,7 +20,7 @@
 #include "text/message_text.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
-#include "wire/answer.hpp"
+#include "wire/request.hpp"
 #include "wire/state_message.hpp"
 
 namespace oval4d::wire {
