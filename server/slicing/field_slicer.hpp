@@ -7,8 +7,8 @@
 #include "geometry/hyperplanes.hpp"
 #include "geometry/rotation.hpp"
 #include "parallel/fork_join.hpp"
+#include "slicing/cell_complex_slicer.hpp"
 #include "slicing/field_settings.hpp"
-#include "slicing/polytope_slicer.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/surface_detail.hpp"
 #include "slicing/surfaces/surface_extractor.hpp"
@@ -45,7 +45,7 @@ class FieldSlicer {
     static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);
 
     parallel::ForkJoin* forkJoin_;
-    PolytopeSlicer domains_;
+    CellComplexSlicer domains_;
     std::array<SurfaceExtractor, 2> extractors_;  // one for each of two threads, like sections_
     std::array<FieldSection, 2> sections_;
 };

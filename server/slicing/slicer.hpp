@@ -4,11 +4,11 @@
 #include "geometry/rotation.hpp"
 #include "parallel/fork_join.hpp"
 #include "parallel/ownership.hpp"
+#include "slicing/cell_complex_slicer.hpp"
 #include "slicing/cloud_slicer.hpp"
 #include "slicing/field_settings.hpp"
 #include "slicing/field_slicer.hpp"
 #include "slicing/object.hpp"
-#include "slicing/polytope_slicer.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/surface_detail.hpp"
 
@@ -33,7 +33,7 @@ class Slicer {
                               const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
-    PolytopeSlicer complexes_;
+    CellComplexSlicer complexes_;
     CloudSlicer clouds_;
     FieldSlicer fields_;
     parallel::ExclusiveUseAssertion inUse_;

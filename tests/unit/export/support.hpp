@@ -100,7 +100,7 @@ inline std::variant<ExportedFile, ExportRefusal> exported(
     const polytopes::Polytope& polytope, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
     const ExportRequest& request, const ExportLimits& limits = kUnhurried, std::stop_token stop = {}) {
     slicing::SliceSet slices;
-    slicing::PolytopeSlicer().slice(polytope, orientation, planes, slices);
+    slicing::CellComplexSlicer().slice(polytope, orientation, planes, slices);
     return exports::exportScene(composed(polytope, orientation, slices), objectOf(polytope), orientation, request,
                                 limits, std::move(stop));
 }

@@ -51,7 +51,7 @@ struct Subject {
         : polytope(support::shared(name)) {
         const int half = count / 2;
         const geometry::Hyperplanes planes{-half, count, polytope->circumradius / std::max(half, 1)};
-        slicing::PolytopeSlicer().slice(*polytope, orientation, planes, slices);
+        slicing::CellComplexSlicer().slice(*polytope, orientation, planes, slices);
         scene::Composer().compose(polytope, orientation, slices, 0, look, viewport, scene);
     }
     Subject(const Subject&) = delete;

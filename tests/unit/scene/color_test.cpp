@@ -170,7 +170,7 @@ TEST(Visibilities, FollowTheLook) {
     scene::Look look;
     slicing::SliceSet slices;
     const auto compose = [&](const polytopes::Polytope& p) {
-        slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 1}, slices);
+        slicing::CellComplexSlicer().slice(p, {}, {-1, 3, 1}, slices);
         composer.compose(objectOf(p), {}, slices, 0, look, {}, s);
     };
     compose(polytope);

@@ -28,7 +28,7 @@ inline Scene composed(std::string_view name, int count = 21, Viewport viewport =
     const auto& p = support::named(name);
     slicing::SliceSet slices;
     if (spacing == 0) spacing = 2 * p.circumradius / (count == 1 ? 2 : count - 1);
-    slicing::PolytopeSlicer().slice(p, {}, {focus - (count - 1) / 2, count, spacing}, slices);
+    slicing::CellComplexSlicer().slice(p, {}, {focus - (count - 1) / 2, count, spacing}, slices);
     Scene s;
     Composer().compose(support::objectOf(p), {}, slices, focus, look, viewport, s);
     s.slices = &slicing::kNoSlices;

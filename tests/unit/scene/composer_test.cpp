@@ -19,7 +19,7 @@ using support::named;
 TEST(Highlight, ColorsTheCellThatIsHighlightedAndNoOther) {
     const auto& p = named("24-cell");
     slicing::SliceSet slices;
-    slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
+    slicing::CellComplexSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
     for (const auto coloring : {scene::Coloring::cell, scene::Coloring::cell_type, scene::Coloring::plain,
                                 scene::Coloring::w, scene::Coloring::light}) {
         scene::Composer composer;

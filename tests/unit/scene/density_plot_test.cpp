@@ -130,7 +130,7 @@ TEST(DensityPlot, IsShownForManyVerticesOnly) {
     slicing::SliceSet slices;
     const auto composed = [&](const char* name, const scene::Look& look) {
         const auto polytope = support::shared(name);
-        slicing::PolytopeSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
+        slicing::CellComplexSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
         scene::Scene scene;
         scene::Composer().compose(polytope, turn, slices, 0, look, {}, scene);
         return scene;
@@ -153,7 +153,7 @@ TEST(DensityPlot, FollowsPolytopeAndTurn) {
     const auto show = [&](const char* name, double angle) {
         const auto polytope = support::shared(name);
         const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle, {}});
-        slicing::PolytopeSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
+        slicing::CellComplexSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
         composer.compose(polytope, turn, slices, 0, {}, {}, scene);
         const DensityPlot fresh = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);
         EXPECT_TRUE(std::ranges::equal(scene.plotTones, fresh.tones())) << name << ' ' << angle;

@@ -302,7 +302,7 @@ TEST(Thickness, changesNothingInTheMatrix) {
 TEST(Thickness, ofAnEarlierPictureIsForgotten) {
     const auto& p = named("24-cell");
     slicing::SliceSet slices;
-    slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
+    slicing::CellComplexSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
     scene::Composer composer;
     Scene reused;
     for (const double thickness : {1.0, 3.0, 0.5}) {

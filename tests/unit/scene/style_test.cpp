@@ -47,7 +47,7 @@ TEST(Composer, ChangesTheColorsWithTheBackground) {
     Scene reused;
     slicing::SliceSet slices;
     const auto object = support::objectOf(support::named("24-cell"));
-    slicing::PolytopeSlicer().slice(support::named("24-cell"), {}, {-1, 3, 1}, slices);
+    slicing::CellComplexSlicer().slice(support::named("24-cell"), {}, {-1, 3, 1}, slices);
     Look look;
     look.highlight = slicing::Element{slicing::ElementKind::cell, 3};
     for (const Background background :

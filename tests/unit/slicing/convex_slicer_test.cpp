@@ -91,7 +91,7 @@ class ConvexSlices : public testing::TestWithParam<const char*> {
         return other;
     }();
     std::mt19937 random{9};
-    PolytopeSlicer slicer, generalSlicer;
+    CellComplexSlicer slicer, generalSlicer;
     SliceSet s, t;
 };
 
@@ -163,7 +163,7 @@ TEST(ConvexSlicer, handlesCellsWithSeveralFacesInAHyperplane) {
     ASSERT_TRUE(p.convex);
     const double side = 2 * std::abs(p.vertices[0].x);
     std::mt19937 random(18);
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     SliceSet s;
     for (int trial = 0; trial < 60; ++trial) {
         const geometry::Rotation orientation =
@@ -184,7 +184,7 @@ TEST(ConvexSlicer, handlesManyElements) {
     ASSERT_GT(p.edges.size(), 0x8000U);
     ASSERT_TRUE(p.convex);
     std::mt19937 random(17);
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     SliceSet s;
     slicer.slice(p, randomRotation(random), {-1, 3, 0.4}, s);
     for (int i = 0; i < 3; ++i) {
@@ -207,12 +207,12 @@ TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
     for (const geometry::Hyperplanes& planes :
          {geometry::Hyperplanes{-6, 13, step}, {3, 10, step}, {12, 9, step}, {1, 1, step}}) {
         SliceSet expected;
-        PolytopeSlicer().slice(general, orientation, planes, expected);
+        CellComplexSlicer().slice(general, orientation, planes, expected);
         std::vector<SliceSet> got(3);
         {
             std::vector<std::jthread> threads;
             for (SliceSet& mine : got)
-                threads.emplace_back([&] { PolytopeSlicer().slice(p, orientation, planes, mine); });
+                threads.emplace_back([&] { CellComplexSlicer().slice(p, orientation, planes, mine); });
         }
         for (const SliceSet& each : got) expectSame(each, expected);
         ASSERT_FALSE(HasFailure());
@@ -223,7 +223,7 @@ TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
 /// still be valid data.
 TEST(ConvexSlicer, isSafeForPolytopesThatAreNotQuiteConvex) {
     std::mt19937 random(3);
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     SliceSet s;
     for (const char* name : {"120-cell", "600-cell", "5-cell", "8-cell"}) {
         for (const double much : {0.2, 0.02, 1e-4, 1e-9}) {

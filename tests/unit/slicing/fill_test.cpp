@@ -193,7 +193,7 @@ TEST(FaceFiller, PiecesLieInTheirPlaneAndFaceOutward) {
     std::mt19937 random(7);
     for (const polytopes::Polytope& polytope : starPolychora()) {
         SliceSet slices;
-        PolytopeSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
+        CellComplexSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
         const FilledFaces fill = filled(slices, polytope.circumradius);
         for (std::size_t p = 0; p < fill.patches.size(); ++p) {
             const FilledFaces::Patch& patch = fill.patches[p];
@@ -252,7 +252,7 @@ TEST(FaceFiller, MakesOnePiecePerFaceOfConvexSlices) {
     std::mt19937 random(8);
     for (const polytopes::Polytope& polytope : {regular(k5, k3, k3), regular(k3, k4, k3)}) {
         SliceSet slices;
-        PolytopeSlicer().slice(polytope, randomRotation(random), {-10, 21, polytope.circumradius / 10}, slices);
+        CellComplexSlicer().slice(polytope, randomRotation(random), {-10, 21, polytope.circumradius / 10}, slices);
         const FilledFaces fill = filled(slices, polytope.circumradius);
         EXPECT_EQ(fill.patches.size(), slices.faceSource.size());
         EXPECT_EQ(fill.cornerBegin.size(), slices.faceSource.size() + 1) << "one piece each";

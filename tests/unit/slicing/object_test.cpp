@@ -85,7 +85,7 @@ TEST(Object, IsCutAsItsPolytopeIs) {
         const geometry::Rotation turn = support::randomRotation(random);
         const geometry::Hyperplanes planes{-3, 7, polytope->circumradius / 4};
         slicer.sliceWithoutSurfaces(polytope, turn, planes, slices);
-        PolytopeSlicer().slice(*polytope, turn, planes, expected);
+        CellComplexSlicer().slice(*polytope, turn, planes, expected);
         EXPECT_EQ(slices.vertices, expected.vertices) << name;
         EXPECT_EQ(slices.edges, expected.edges) << name;
         EXPECT_EQ(slices.corners, expected.corners) << name;

@@ -199,7 +199,7 @@ TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
 TEST(SectionNamePair, areFoundForEachSliceOfASet) {
     const polytopes::Polytope& p = named("8-cell");
     SliceSet slices;
-    PolytopeSlicer().slice(p, ontoW({1, 1, 1, 1}), {-5, 11, 0.5}, slices);
+    CellComplexSlicer().slice(p, ontoW({1, 1, 1, 1}), {-5, 11, 0.5}, slices);
     SectionNamer namer;
     Names names;
     for (int i = 0; i < slices.planes.count; ++i) names.emplace_back(namer.nameOfSlice(slices, i));

@@ -20,7 +20,7 @@ using std::numbers::pi;
 class Slices : public testing::TestWithParam<polytopes::CatalogueEntry> {
   protected:
     const polytopes::Polytope& p = named(GetParam().name);
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     SliceSet s;
 };
 
@@ -197,7 +197,7 @@ TEST(Symmetry, ofThePolytopePreservesTheSlices) {
             const geometry::Rotation orientation = randomRotation(random);
             SliceSet a;
             SliceSet b;
-            PolytopeSlicer slicer;
+            CellComplexSlicer slicer;
             const geometry::Hyperplanes planes{-5, 11, p.circumradius / 5.5};
             slicer.slice(p, orientation, planes, a);
             slicer.slice(p, orientation * symmetry, planes, b);
@@ -215,9 +215,9 @@ TEST(Symmetry, ofThePolytopePreservesTheSlices) {
     }
 }
 
-TEST(PolytopeSlicer, reusesItsMemory) {
+TEST(CellComplexSlicer, reusesItsMemory) {
     const polytopes::Polytope& p = named("600-cell");
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     SliceSet s;
     std::mt19937 random(16);
     for (int i = 0; i < 50; ++i) slicer.slice(p, randomRotation(random), {-10, 21, p.circumradius / 10}, s);

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "polytopes/construction/coxeter.hpp"
+#include "slicing/cell_complex_slicer.hpp"
 #include "slicing/object.hpp"
-#include "slicing/polytope_slicer.hpp"
 #include "unit/polytopes/support.hpp"
 
 namespace oval4d::support {
@@ -33,7 +33,7 @@ inline polytopes::Polytope rectifiedFiveCell() {
 /// Returns the one slice of `p`, rotated by `orientation`, at this w.
 inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rotation& orientation, double w) {
     slicing::SliceSet out;
-    slicing::PolytopeSlicer slicer;
+    slicing::CellComplexSlicer slicer;
     const bool zero = std::abs(w) < 1e-300;
     slicer.slice(p, orientation, {zero ? 0 : w > 0 ? 1 : -1, 1, zero ? 1 : std::abs(w)}, out);
     return out;

@@ -185,7 +185,7 @@ TEST_P(Sections, areClosedSpheres) {
     const auto polytope = shared(GetParam().name);
     std::mt19937 random(31);
     slicing::SliceSet s;
-    slicing::PolytopeSlicer slicer;
+    slicing::CellComplexSlicer slicer;
     for (int trial = 0; trial < 4; ++trial) {
         geometry::Rotation orientation = trial < 2 ? geometry::Rotation() : randomRotation(random);
         if (trial == 1) orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, std::numbers::pi / 4, {}});

@@ -55,7 +55,7 @@ TEST(NonConvex, productsHaveTheProductOfTheAreasAsHypervolume) {
 TEST(NonConvex, slicesAreClosed) {
     std::mt19937 random(22);
     SliceSet s;
-    PolytopeSlicer slicer;
+    CellComplexSlicer slicer;
     const polytopes::Branch star{5, 2};
     const polytopes::Diagram stellated = polytopes::Diagram::linear(star, {5, 1}, {3, 1}, {true, false, false, false});
     for (const polytopes::Polytope& p :

@@ -22,10 +22,10 @@ namespace oval4d::slicing {
 
 /// Slices polytopes, convex or not, and other cell complexes. Reuses its memory, so that repeated calls of similar size
 /// allocate nothing. Only one thread at a time may use a slicer.
-class PolytopeSlicer {
+class CellComplexSlicer {
   public:
     /// If `forkJoin` is not null, may slice large convex polytopes on two cores. `forkJoin` must outlive this object.
-    explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
+    explicit CellComplexSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
     /// Slices an object rotated by `orientation`. A slice of a cell complex without cells has no faces: where a 2-face
     /// lies in the hyperplane, the slice has its edges. Overwrites `out`, except ballScale, ballOpacity, surfaces and

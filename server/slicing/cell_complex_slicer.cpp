@@ -1,6 +1,6 @@
 // One class in one file, although it is long: its stages fill the same buffers, which no other code may see incomplete.
 
-#include "slicing/polytope_slicer.hpp"
+#include "slicing/cell_complex_slicer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@
 
 namespace oval4d::slicing {
 
-void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
-                           const geometry::Hyperplanes& planes, SliceSet& out) {
+void CellComplexSlicer::slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                              const geometry::Hyperplanes& planes, SliceSet& out) {
     if (!planes.listed.empty()) {
         cutEach(planes, out,
                 [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(polytope, orientation, plane, one); });
@@ -31,8 +31,8 @@ void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::
     if (!polytope.convex || !cutConvex(polytope, out)) cutGeneral(polytope, out);
 }
 
-void PolytopeSlicer::slice(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
-                           const geometry::Hyperplanes& planes, SliceSet& out) {
+void CellComplexSlicer::slice(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                              const geometry::Hyperplanes& planes, SliceSet& out) {
     if (!planes.listed.empty()) {
         cutEach(planes, out,
                 [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(complex, orientation, plane, one); });
@@ -43,13 +43,13 @@ void PolytopeSlicer::slice(const geometry::CellComplex& complex, const geometry:
     cutGeneral(complex, out);
 }
 
-void PolytopeSlicer::cutGeneral(const geometry::CellComplex& complex, SliceSet& out) {
+void CellComplexSlicer::cutGeneral(const geometry::CellComplex& complex, SliceSet& out) {
     cutEdges(complex, out);
     cutFaces(complex, out);
     cutCells(complex, out);
 }
 
-bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
+bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
     touching_.clear();
     if (anyOnPlane_ && !cutTangentPlanes(polytope, out)) return false;
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
@@ -57,7 +57,7 @@ bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& ou
 
 // Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
 // hyperplanes touch it in this way, within kOnPlaneTolerance.
-bool PolytopeSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
+bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
     allBelow_ = below_;
@@ -76,8 +76,8 @@ bool PolytopeSlicer::cutTangentPlanes(const geometry::CellComplex& complex, Slic
     return touched <= singles_.size();
 }
 
-void PolytopeSlicer::cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane,
-                                 SliceSet& single) {
+void CellComplexSlicer::cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane,
+                                    SliceSet& single) {
     for (std::size_t v = 0; v < below_.size(); ++v) {
         below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
         upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
@@ -88,8 +88,8 @@ void PolytopeSlicer::cutOnePlane(const geometry::CellComplex& complex, SliceSet&
     single.rotatedVertices.swap(all.rotatedVertices);
 }
 
-void PolytopeSlicer::locateVertices(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
-                                    SliceSet& out) {
+void CellComplexSlicer::locateVertices(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                                       SliceSet& out) {
     const auto count = static_cast<double>(out.planes.count);
     const double inverse = 1 / out.planes.spacing;
     const double tolerance = kOnPlaneTolerance * complex.circumradius * inverse;
@@ -111,7 +111,7 @@ void PolytopeSlicer::locateVertices(const geometry::CellComplex& complex, const 
 }
 
 // Finds the slice vertices: the complex's vertices in hyperplanes, and the points where edges cross hyperplanes.
-void PolytopeSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet& out) {
+void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(complex.edges.size());
     const auto vertices = static_cast<std::uint32_t>(complex.vertices.size());
     out.vertexBegin.assign(out.planes.count + 1, 0);
@@ -165,7 +165,7 @@ void PolytopeSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet& ou
 }
 
 // Finds the slice edges: the complex's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
-void PolytopeSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
+void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
     // upTo_ is equal to below_ or one greater. Therefore half of below_ + upTo_ is below_ if rounded down, and upTo_ if
     // rounded up, and one pass over the sums finds the extremes of both.
@@ -202,7 +202,7 @@ void PolytopeSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& ou
 // The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
 // nothing, if the loop ascends more than once. Rounding errors can have this effect if the 2-face nearly lies in a
 // hyperplane.
-bool PolytopeSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above) {
+bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
     std::int32_t ascents = 0;
@@ -225,8 +225,8 @@ bool PolytopeSlicer::cutConvexFace(const geometry::CellComplex& complex, std::ui
 // A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
 // hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
 // overlap, the 2-face covers the line more than once.
-void PolytopeSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above,
-                                      const SliceSet& out) {
+void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above,
+                                         const SliceSet& out) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
     for (std::int32_t k = above.from; k < above.to; ++k) {
@@ -255,8 +255,8 @@ void PolytopeSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std:
     }
 }
 
-void PolytopeSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane,
-                                     std::uint32_t up, std::uint32_t down) {
+void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane,
+                                        std::uint32_t up, std::uint32_t down) {
     std::uint32_t edge = kNewEdge;
     const std::uint32_t a = slotPoint_[up];
     const std::uint32_t b = slotPoint_[down];
@@ -279,7 +279,7 @@ void PolytopeSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::
     faceCrossings_.push_back({plane, up, down, edge});
 }
 
-void PolytopeSlicer::numberEdges(const geometry::CellComplex& complex, SliceSet& out) {
+void CellComplexSlicer::numberEdges(const geometry::CellComplex& complex, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(complex.edges.size());
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
     out.edgeBegin.assign(out.planes.count + 1, 0);
@@ -320,7 +320,7 @@ void PolytopeSlicer::numberEdges(const geometry::CellComplex& complex, SliceSet&
 }
 
 // Finds the slice faces: 2-faces in hyperplanes, and the polygons in which cells cross hyperplanes.
-void PolytopeSlicer::cutCells(const geometry::CellComplex& complex, SliceSet& out) {
+void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(complex.cells.size());
     cellSpan_.resize(cells);
     for (std::uint32_t c = 0; c < cells; ++c) {
@@ -348,8 +348,8 @@ void PolytopeSlicer::cutCells(const geometry::CellComplex& complex, SliceSet& ou
 }
 
 // Requires that numberEdges() has run.
-bool PolytopeSlicer::lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell,
-                                            const SliceSet& out) const {
+bool CellComplexSlicer::lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell,
+                                               const SliceSet& out) const {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
     for (const std::uint32_t f : complex.cells[cell]) {
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
@@ -363,7 +363,7 @@ bool PolytopeSlicer::lowestSectionCollapses(const geometry::CellComplex& complex
 
 // Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
 // cell: the end of a segment is the start of the next one. Then follows these links to find the closed loops.
-void PolytopeSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
+void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
     const Span span = cellSpan_[cell];
     starts_.clear();
     for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
@@ -399,7 +399,7 @@ void PolytopeSlicer::traceCell(const geometry::CellComplex& complex, std::uint32
 // A 2-face in the hyperplane is a face of the slice if exactly one of its two cells stands on it, above the hyperplane,
 // or if one of its cells lies in the hyperplane, on top of the complex. The slice face then has the orientation of the
 // 2-face in this cell. If the complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
-void PolytopeSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
+void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
     for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
@@ -436,7 +436,7 @@ void PolytopeSlicer::addLyingFaces(const geometry::CellComplex& complex, const S
     }
 }
 
-void PolytopeSlicer::addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward) {
+void CellComplexSlicer::addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward) {
     const auto loop = complex.faces[face];
     const std::size_t n = loop.size();
     bounded_[lyingIn_[face]] = true;
@@ -451,8 +451,8 @@ void PolytopeSlicer::addLyingFace(const geometry::CellComplex& complex, std::uin
 
 // Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w.
 // This is the case if its 2-faces, oriented as in this cell, enclose a positive volume.
-bool PolytopeSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell,
-                                     const SliceSet& out) const {
+bool CellComplexSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell,
+                                        const SliceSet& out) const {
     double volume = 0;
     for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
         const auto loop = complex.faces[complex.cells.items[at]];
@@ -466,7 +466,7 @@ bool PolytopeSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::
     return volume > 0;
 }
 
-void PolytopeSlicer::removeCoincidingEdges(SliceSet& out) {
+void CellComplexSlicer::removeCoincidingEdges(SliceSet& out) {
     std::vector<std::uint32_t> number(out.edges.size());
     std::uint32_t kept = 0;
     for (int k = 0; k < out.planes.count; ++k) {
@@ -489,7 +489,7 @@ void PolytopeSlicer::removeCoincidingEdges(SliceSet& out) {
 }
 
 // Writes the loops to `out`, sorted by hyperplane.
-void PolytopeSlicer::placeLoops(SliceSet& out) {
+void CellComplexSlicer::placeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);
     for (const Loop& loop : loops_) {
