@@ -366,7 +366,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     std::size_t notAdded = 0;  // the first patch of `shapes` that is not yet added to the rasterizer
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
-        if (scene.facesMayCross) {
+        if (scene.needsDepthBuffer) {
             impl_->addLayers(scene);
         } else {
             notAdded = impl_->addConvexSlices(scene);
@@ -377,7 +377,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     }
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colors are premultiplied by alpha, because blending is then cheaper
-    if (scene.facesMayCross && !inMemory) {
+    if (scene.needsDepthBuffer && !inMemory) {
         impl_->nonconvexCollector.collect(scene, impl_->layers);
         impl_->drawLayers(scene);
     } else if (!inMemory) {

@@ -81,8 +81,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     const bool isField = field != nullptr;
     const auto counts = slicing::elementCounts(object);
     const bool isSurface = counts[1] > 0 && counts[3] == 0;  // its slices are curves
-    out.facesMayCross = isField || !info.convex || isSurface;
-    out.faceOpacity = out.facesMayCross ? 1 : out.style().faceOpacity;
+    out.needsDepthBuffer = isField || !info.convex || isSurface;
+    out.faceOpacity = out.needsDepthBuffer ? 1 : out.style().faceOpacity;
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
@@ -99,7 +99,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    if (out.facesMayCross && !isField && look.parts.faces)
+    if (out.needsDepthBuffer && !isField && look.parts.faces)
         filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
     out.patchCells.clear();
     for (const slicing::FilledFaces::Patch& patch : out.fill.patches)
@@ -196,7 +196,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const bool isFocus = i == focusSlice;
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
-        const bool filled = isFocus && look.parts.faces && !out.facesMayCross;
+        const bool filled = isFocus && look.parts.faces && !out.needsDepthBuffer;
         const bool points = !slices.ballScale.empty();
         projection.parts.push_back({points ? 1.02 * ball : sectionBar, sectionBar, color, color, filled ? 0.5 : 0});
     }

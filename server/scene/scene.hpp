@@ -88,12 +88,12 @@ struct Scene : Layout {
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
-    /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
-    /// instead of their loops. Also true for fields and surfaces, of which no faces are drawn: the order in which their
-    /// shapes hide each other is not known in advance, so that drawing them needs a depth buffer.
-    bool facesMayCross = false;
+    /// Whether drawing the slices needs a depth buffer, because the order in which their shapes hide each other is not
+    /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. Then faces are
+    /// opaque, and `fill` is drawn instead of their loops.
+    bool needsDepthBuffer = false;
     slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
-                                            ///< `facesMayCross` is false
+                                            ///< `needsDepthBuffer` is false
     SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty if none are drawn
     FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color

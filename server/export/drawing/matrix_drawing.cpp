@@ -56,7 +56,7 @@ class SectionDrawer {
         };
         ShapeGroup group{{"xyzw"[row], "xyzw"[column]}, {}};
         drawFrame(center, group);
-        if (!scene_.facesMayCross && !from.boundary.empty()) {
+        if (!scene_.needsDepthBuffer && !from.boundary.empty()) {
             FilledPolygon polygon{{}, kFill};
             for (const std::uint32_t p : from.boundary) polygon.corners.push_back(place(from.points[p]));
             group.shapes.emplace_back(std::move(polygon));

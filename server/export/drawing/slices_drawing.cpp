@@ -77,8 +77,8 @@ class SliceDrawer {
         points_.clear();
         for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(seen(set_.vertices[v]));
         findSides();
-        if (scene_.look.parts.faces && !scene_.facesMayCross) addFaces();
-        if (scene_.look.parts.faces && scene_.facesMayCross) addPieces();
+        if (scene_.look.parts.faces && !scene_.needsDepthBuffer) addFaces();
+        if (scene_.look.parts.faces && scene_.needsDepthBuffer) addPieces();
         if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // balls of a point cloud are always drawn
         if (scene_.look.parts.bars) addBars();
         std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
@@ -124,7 +124,7 @@ class SliceDrawer {
     void findSides() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
-        if (scene_.facesMayCross) return;
+        if (scene_.needsDepthBuffer) return;
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
             const auto corners = cornersOf(f);
             if (corners.empty() || glm::dot(doubleAreaVectorOf(corners), corners[0]) >= 0) continue;
@@ -191,7 +191,7 @@ class SliceDrawer {
 
     /// Returns the layer of a bar or ball. `toward`: whether it belongs to a face that is turned toward the eye.
     Layer frameLayer(bool toward) const {
-        if (scene_.facesMayCross) return away_faces;
+        if (scene_.needsDepthBuffer) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 

@@ -85,7 +85,7 @@ class SectionPainter {
     void paintFill(const PlanarSection& from) {
         polygon_.clear();
         for (const std::uint32_t p : from.boundary) polygon_.push_back(points_[p]);
-        if (!scene_.facesMayCross) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
+        if (!scene_.needsDepthBuffer) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
     }
 
     void paintEdges(std::size_t section) const {

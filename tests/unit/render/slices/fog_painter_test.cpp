@@ -29,7 +29,7 @@ struct FogPicture : HandMade {
             for (p.y = 0; p.y < fog.size.y; ++p.y)
                 for (p.x = 0; p.x < fog.size.x; ++p.x)
                     fog.values.push_back(static_cast<std::uint8_t>(valueAt(fog.min + step * glm::dvec3(p))));
-        scene.facesMayCross = true;
+        scene.needsDepthBuffer = true;
         slices.vertices.clear();
     }
 

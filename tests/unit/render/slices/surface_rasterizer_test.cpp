@@ -155,7 +155,7 @@ class Triangles : public testing::Test {
 
     void SetUp() override {
         if (!ShapeRasterizer::isSupported()) GTEST_SKIP() << "this processor lacks AVX2 or FMA";
-        picture.scene.facesMayCross = true;
+        picture.scene.needsDepthBuffer = true;
         picture.slices.vertices.clear();
         surface = &picture.slices.surfaces.emplace_back();
     }
