@@ -140,7 +140,7 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
 ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
                                      double top) {
     constexpr double kGap = 0.94;
-    const InitialCameraSpace space(arrangement);
+    const InitialViewSpace space(arrangement);
     const auto radiusAt = [&](double depthOfOval) {
         const glm::dvec3 p{0, 0, -depthOfOval};
         const double y = space.up(p) / space.depth(p);

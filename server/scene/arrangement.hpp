@@ -74,9 +74,9 @@ inline double parameterOf(std::size_t i, std::size_t count) {
 
 /// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch
 /// about the x axis.
-struct InitialCameraSpace {
+struct InitialViewSpace {
     double cos, sin, distance;
-    explicit InitialCameraSpace(const Arrangement& arrangement)
+    explicit InitialViewSpace(const Arrangement& arrangement)
         : cos(std::cos(arrangement.pitch)), sin(std::sin(arrangement.pitch)), distance(arrangement.distance) {}
     /// Returns the depth of a point: its distance from the eye along the view axis.
     double depth(const glm::dvec3& p) const { return distance - p.y * sin - p.z * cos; }

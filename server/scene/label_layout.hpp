@@ -95,7 +95,7 @@ class LabelLayout {
     std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
 
     const Arrangement& arrangement_;
-    InitialCameraSpace space_;
+    InitialViewSpace space_;
     double width_ = 0;      // of the longest number, as a multiple of the font size
     double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;

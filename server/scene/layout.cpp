@@ -31,14 +31,14 @@ struct Circle {
 
 // Returns a circle that approximates the outline of a sphere. The approximation is good for spheres that are small and
 // near the optical axis.
-Circle circleOf(const glm::dvec3& position, double radius, const InitialCameraSpace& space) {
+Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
     const double depth = space.depth(position);
     return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};
 }
 
 // Returns the circles within which the slices are assumed to lie.
 std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const Arrangement& arrangement) {
-    const InitialCameraSpace space(arrangement);
+    const InitialViewSpace space(arrangement);
     std::vector<Circle> circles;
     for (std::size_t i = 0; i < placements.size(); ++i) {
         const double radius = arrangement.reach * arrangement.reachAt(parameterOf(i, placements.size()));
@@ -96,7 +96,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
                  const Arrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
-    const InitialCameraSpace space(arrangement);
+    const InitialViewSpace space(arrangement);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
         const double u = (planes.first + i - focus) / half;
@@ -242,7 +242,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
         projection = projectionBeside(look.view, arrangement, planes.count, aspectOf(beside));
     }
     if (projection.shown)
-        circles.push_back(circleOf(projection.position, projection.radius, InitialCameraSpace(arrangement)));
+        circles.push_back(circleOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
     const Rect bounds = boundsOf(circles);
     const Rect inside = arrangement.isClearOfAxes ? clearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
                                                   : roomInside(room, bounds, labels);
