@@ -113,7 +113,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& op
 /// The server: owns all services and runs them until a signal stops it.
 class Server {
   public:
-    Server(Options options, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap);
+    Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
     void run();
 
   private:
@@ -151,7 +151,7 @@ class Server {
     Routes routes_;
 };
 
-Server::Server(Options options, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap)
+Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
       sampleFiles_(options_.fieldCacheFolder, options_.fieldCache),
@@ -300,7 +300,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 }  // namespace
 
-void runServer(Options options, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap) {
+void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap) {
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk

@@ -4,7 +4,7 @@
 
 namespace oval4d::pipeline {
 
-PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap)
+PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : pipelines_(options.threads),
       workers_({.threads = options.threads,
                 .limits = options.limits,

@@ -29,7 +29,7 @@ class PipelinePool {
 
     /// The pipelines use `forkJoin`. Idle workers free their memory, and return it to the system with `heap`.
     /// `forkJoin` and `heap` must outlive the pool.
-    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap);
+    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
     /// Queues a job; returns false, and drops the job, if the queue is full. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);

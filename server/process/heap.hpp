@@ -2,13 +2,13 @@
 
 namespace oval4d::process {
 
-/// Configures glibc's memory allocator for this process, and returns free memory to the operating system. Construct one
-/// object in main(), before the program allocates much memory.
-class HeapTrimmer {
+/// The memory that glibc's allocator has for this process. Construct one object, which configures the allocator, in
+/// main(), before the program allocates much memory.
+class Heap {
   public:
-    HeapTrimmer();
-    HeapTrimmer(const HeapTrimmer&) = delete;
-    HeapTrimmer& operator=(const HeapTrimmer&) = delete;
+    Heap();
+    Heap(const Heap&) = delete;
+    Heap& operator=(const Heap&) = delete;
 
     /// Returns free memory to the operating system, which takes milliseconds. Thread-safe.
     void returnFreeMemory();

@@ -66,7 +66,7 @@ class RecentObjects {
 
 class Service {
   public:
-    Service(int socket, parallel::ForkJoin& forkJoin, process::HeapTrimmer& heap)
+    Service(int socket, parallel::ForkJoin& forkJoin, process::Heap& heap)
         : channel_(socket), rasterizer_(&forkJoin), heap_(heap) {}
 
     void run(const process::Confinement& confinement) {
@@ -144,7 +144,7 @@ class Service {
 
     Channel channel_;
     LocalRasterizer rasterizer_;
-    process::HeapTrimmer& heap_;
+    process::Heap& heap_;
     RecentObjects recent_;
     DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
@@ -156,7 +156,7 @@ class Service {
 }  // namespace
 
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
-                     process::HeapTrimmer& heap) {
+                     process::Heap& heap) {
     process::initializeChild();
     Service(socket, forkJoin, heap).run(confinement);
 }
