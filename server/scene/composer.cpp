@@ -101,9 +101,9 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.fill.clear();
     if (out.needsDepthBuffer && !isField && look.parts.faces)
         filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
-    out.patchCells.clear();
-    for (const slicing::FilledFaces::Patch& patch : out.fill.patches)
-        out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
+    out.fillCells.clear();
+    for (const slicing::FilledFaces::Face& face : out.fill.faces)
+        out.fillCells.push_back(slicing::coloringCell(object, out.visibilities, face.source));
     if (out.showsDensity()) measureDensity(orientation, out);
     if (out.showsHistogram()) measureValues(object, orientation, out);
 }

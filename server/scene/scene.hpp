@@ -92,11 +92,11 @@ struct Scene : Layout {
     /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. Then faces are
     /// opaque, and `fill` is drawn instead of their loops.
     bool needsDepthBuffer = false;
-    slicing::FilledFaces fill;              ///< the filled faces; empty for a field, if faces are hidden, and if
-                                            ///< `needsDepthBuffer` is false
-    SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty if none are drawn
-    FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn
-    std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
+    slicing::FilledFaces fill;             ///< the filled faces; empty for a field, if faces are hidden, and if
+                                           ///< `needsDepthBuffer` is false
+    SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if none are drawn
+    FogTable fog;                          ///< how SliceSet::fogs are drawn; empty if no fog is drawn
+    std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
     /// If showsDensity(), the tones of the density plot (DensityPlot::tones()); if showsHistogram(), those of the
     /// histograms of a field (slicing::CoordinateHistograms::tones()); otherwise without meaning.
     std::vector<std::uint8_t> plotTones;

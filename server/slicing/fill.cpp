@@ -8,9 +8,9 @@
 namespace oval4d::slicing {
 
 void FilledFaces::clear() {
-    patches.clear();
+    faces.clear();
     corners.clear();
-    patchBegin.assign(1, 0);
+    faceBegin.assign(1, 0);
     pieceBegin.assign(1, 0);
     cornerBegin.assign(1, 0);
 }
@@ -31,14 +31,14 @@ void FaceFiller::fill(const SliceSet& slices, double circumradius, FilledFaces& 
             while (end < last && slices.faceSource[end] == slices.faceSource[begin]) ++end;
             fillFace(slices, slice, begin, end, out);
         }
-        out.patchBegin.push_back(static_cast<std::uint32_t>(out.patches.size()));
+        out.faceBegin.push_back(static_cast<std::uint32_t>(out.faces.size()));
     }
 }
 
 void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                           FilledFaces& out) {
-    FilledFaces::Patch patch{{}, 0, slices.faceSource[begin], begin, end, 0};
-    if (!findPlane(slices, slice, begin, end, patch)) return;
+    FilledFaces::Face face{{}, 0, slices.faceSource[begin], begin, end, 0};
+    if (!findPlane(slices, slice, begin, end, face)) return;
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
     };
@@ -60,12 +60,12 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
     const bool known = spendSteps(sides_.size() * sides_.size());
     if (known) findLevels();
     if (known && spendSteps(sides_.size() * levels_.size())) {
-        patch.winding = sweep(out);
+        face.winding = sweep(out);
     } else {
         fillRoughly(slices, begin, end, out);
     }
     if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
-    out.patches.push_back(patch);
+    out.faces.push_back(face);
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
 }
 
@@ -94,7 +94,7 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
 // Sets points_ to the corners of the loops. Finds the plane of the loops from three corners that are far apart, and
 // sets plane_ and the normal and offset of `out`. Returns false if all corners are collinear.
 bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                           FilledFaces::Patch& out) {
+                           FilledFaces::Face& out) {
     points_.clear();
     glm::dvec3 area(0);  // twice the sum of the area vectors of the loops
     const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];

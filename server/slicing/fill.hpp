@@ -17,24 +17,24 @@ namespace oval4d::slicing {
 /// filled by the nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of
 /// the loops around it is not 0.
 ///
-/// A patch is a filled face. Slice i has the patches patchBegin[i] … patchBegin[i + 1] − 1. A patch consists of pieces:
-/// convex polygons that do not overlap, unless the patch is filled roughly (see FaceFiller::fill()). Patch p has the
-/// pieces pieceBegin[p] … pieceBegin[p + 1] − 1. Piece k is the loop corners[cornerBegin[k]] …
-/// corners[cornerBegin[k + 1] − 1]. Seen from outside, a piece is counterclockwise if the winding number inside it is
-/// positive, and clockwise if the winding number is negative.
+/// Slice i has the faces faceBegin[i] … faceBegin[i + 1] − 1. A face consists of pieces: convex polygons that do not
+/// overlap, unless the face is filled roughly (see FaceFiller::fill()). Face f has the pieces pieceBegin[f] …
+/// pieceBegin[f + 1] − 1. Piece k is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] − 1]. Seen from
+/// outside, a piece is counterclockwise if the winding number inside it is positive, and clockwise if the winding
+/// number is negative.
 struct FilledFaces {
-    struct Patch {
+    struct Face {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
         std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, endLoop;  ///< its loops: the faces firstLoop … endLoop − 1 of the SliceSet
-        int winding;                       ///< the maximum of |winding number|; 0 if the patch is filled roughly
+        std::uint32_t firstLoop, endLoop;  ///< its loops: firstLoop … endLoop − 1 of the faces of the SliceSet
+        int winding;                       ///< the maximum of |winding number|; 0 if the face is filled roughly
     };
-    std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
-    std::vector<Patch> patches;
+    std::vector<std::uint32_t> faceBegin, pieceBegin, cornerBegin;
+    std::vector<Face> faces;
     std::vector<glm::dvec3> corners;
 
-    bool empty() const { return patches.empty(); }
+    bool empty() const { return faces.empty(); }
     void clear();
 };
 
@@ -81,7 +81,7 @@ class FaceFiller {
 
     void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, FilledFaces& out);
     bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                   FilledFaces::Patch& out);
+                   FilledFaces::Face& out);
     bool spendSteps(std::size_t steps);
     void findLevels();
     int sweep(FilledFaces& out);

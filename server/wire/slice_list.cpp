@@ -100,11 +100,11 @@ struct FillTriangles {
 void addFill(const Scene& scene, std::size_t slice, FillTriangles& fill) {
     const slicing::FilledFaces& from = scene.fill;
     const std::size_t begin = fill.points.size();
-    for (std::uint32_t p = from.patchBegin[slice]; p < from.patchBegin[slice + 1]; ++p) {
-        const slicing::Visibility visibility = scene.visibilities.face(from.patches[p].source);
+    for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
+        const slicing::Visibility visibility = scene.visibilities.face(from.faces[f].source);
         if (visibility == slicing::Visibility::hidden) continue;
-        const std::uint32_t colorCell = scene.patchCells[p];
-        for (std::uint32_t k = from.pieceBegin[p]; k < from.pieceBegin[p + 1]; ++k) {
+        const std::uint32_t colorCell = scene.fillCells[f];
+        for (std::uint32_t k = from.pieceBegin[f]; k < from.pieceBegin[f + 1]; ++k) {
             const auto first = static_cast<std::uint32_t>(fill.points.size() - begin);
             const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
             fill.points.insert(fill.points.end(), corners.begin(), corners.end());
@@ -169,7 +169,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.beginObject();
     w.appendMembersOf(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
-    if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
+    if (!scene.fill.empty() && scene.fill.faceBegin[i] != scene.fill.faceBegin[i + 1]) {
         FillTriangles fill;
         addFill(scene, i, fill);
         w.key("fill");

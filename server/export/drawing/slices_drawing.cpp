@@ -176,11 +176,11 @@ class SliceDrawer {
     void addPieces() {
         const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
-        for (std::uint32_t p = fill.patchBegin[slice_]; p < fill.patchBegin[slice_ + 1]; ++p) {
-            const slicing::FilledFaces::Patch& patch = fill.patches[p];
-            const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(patch.source));
-            const scene::Color color = lit(scene_.cellColors[scene_.patchCells[p]], glm::dmat3(view_) * patch.normal);
-            for (std::uint32_t k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
+        for (std::uint32_t f = fill.faceBegin[slice_]; f < fill.faceBegin[slice_ + 1]; ++f) {
+            const slicing::FilledFaces::Face& face = fill.faces[f];
+            const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(face.source));
+            const scene::Color color = lit(scene_.cellColors[scene_.fillCells[f]], glm::dmat3(view_) * face.normal);
+            for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
                 std::vector<glm::dvec3> corners;
                 for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
                     corners.push_back(seen(fill.corners[c]));

@@ -70,20 +70,20 @@ void NonconvexShapeCollector::collectShapesOf(const SliceView& slice, DepthRange
     }
     const slicing::FilledFaces& fill = scene.fill;
     if (fill.empty()) return;
-    for (std::uint32_t p = fill.patchBegin[number]; p < fill.patchBegin[number + 1]; ++p) {
-        const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[p]]]);
-        add({-corner.z, Kind::patch, number, p}, scene.visibilities.face(fill.patches[p].source));
+    for (std::uint32_t f = fill.faceBegin[number]; f < fill.faceBegin[number + 1]; ++f) {
+        const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[f]]]);
+        add({-corner.z, Kind::face, number, f}, scene.visibilities.face(fill.faces[f].source));
     }
 }
 
 void NonconvexShapeCollector::add(const Item& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
-    if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
+    if (visibility == Visibility::full) (item.kind == Kind::face ? faces_ : skeleton_).push_back(item);
 }
 
 void NonconvexShapeCollector::addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
                                        ShapeBatch& out) {
-    if (item.kind == Kind::patch) return addPatch(slice, item.number, out);
+    if (item.kind == Kind::face) return addFace(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
         out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number),
@@ -96,13 +96,13 @@ void NonconvexShapeCollector::addShape(const SliceView& slice, const Item& item,
                     slice.edgeOpacity(item.number), out);
 }
 
-void NonconvexShapeCollector::addPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+void NonconvexShapeCollector::addFace(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::FilledFaces& fill = slice.scene.fill;
-    const slicing::FilledFaces::Patch& patch = fill.patches[number];
-    const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);
+    const slicing::FilledFaces::Face& face = fill.faces[number];
+    const glm::vec3 normal(glm::dmat3(slice.toView) * face.normal);
     const auto opacity =
-        static_cast<float>(slice.scene.faceOpacity) * slice.opacity(slice.scene.visibilities.face(patch.source));
-    const scene::Color color = slice.scene.cellColors[slice.scene.patchCells[number]];
+        static_cast<float>(slice.scene.faceOpacity) * slice.opacity(slice.scene.visibilities.face(face.source));
+    const scene::Color color = slice.scene.cellColors[slice.scene.fillCells[number]];
     for (std::uint32_t k = fill.pieceBegin[number]; k < fill.pieceBegin[number + 1]; ++k) {
         corners_.clear();
         for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)

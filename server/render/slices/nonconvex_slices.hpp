@@ -23,22 +23,22 @@ class NonconvexShapeCollector {
         DepthRange depths;  ///< contains the depths of all shapes
     };
 
-    /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are the
-    /// patches of Scene::fill.
+    /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are
+    /// those of Scene::fill.
     void collect(const scene::Scene& scene, Layers& out);
 
   private:
-    enum class Kind : std::uint8_t { ball, bar, patch };
+    enum class Kind : std::uint8_t { ball, bar, face };
     struct Item {
         float depth;  // the distance from the eye along the view axis
         Kind kind;
-        std::uint32_t slice, number;  // number: index of a patch in Scene::fill, or of a vertex or edge of the slice
+        std::uint32_t slice, number;  // number: index of a face in Scene::fill, or of a vertex or edge of the slice
     };
 
     void collectShapesOf(const SliceView& slice, DepthRange& depths);
     void add(const Item& item, slicing::Visibility visibility);
     void addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
-    void addPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
+    void addFace(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
 
     std::vector<SliceTransform> transforms_;   // one per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates

@@ -112,8 +112,8 @@ TEST(FaceFiller, IncludesTheCoreOfAPentagram) {
     // of π / 5 at the center.
     const double inner = 1 / (std::numbers::phi * std::numbers::phi);
     EXPECT_NEAR(areaOf(fill), 5 * inner * std::sin(std::numbers::pi / 5), 1e-9);
-    ASSERT_EQ(fill.patches.size(), 1U);
-    EXPECT_EQ(fill.patches[0].winding, 2);
+    ASSERT_EQ(fill.faces.size(), 1U);
+    EXPECT_EQ(fill.faces[0].winding, 2);
 }
 
 TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
@@ -121,15 +121,15 @@ TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
     for (const std::size_t steps : {0, 48, 49, 100}) {
         FilledFaces fill;
         FaceFiller().fill(slices, 1, fill, steps);
-        ASSERT_EQ(fill.patches.size(), 1U);
-        EXPECT_EQ(fill.patches[0].winding, 0);
+        ASSERT_EQ(fill.faces.size(), 1U);
+        EXPECT_EQ(fill.faces[0].winding, 0);
         EXPECT_EQ(fill.cornerBegin.size() - 1, 7U);
         // A star polygon is star-shaped about its center, so the triangles overlap only in the core.
         EXPECT_NEAR(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7), 1e-9);
     }
     FilledFaces fill;
     FaceFiller().fill(slices, 1, fill, 10'000);
-    EXPECT_EQ(fill.patches[0].winding, 3);
+    EXPECT_EQ(fill.faces[0].winding, 3);
     EXPECT_LT(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7));
 }
 
@@ -195,17 +195,17 @@ TEST(FaceFiller, PiecesLieInTheirPlaneAndFaceOutward) {
         SliceSet slices;
         CellComplexSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
         const FilledFaces fill = filled(slices, polytope.circumradius);
-        for (std::size_t p = 0; p < fill.patches.size(); ++p) {
-            const FilledFaces::Patch& patch = fill.patches[p];
+        for (std::size_t p = 0; p < fill.faces.size(); ++p) {
+            const FilledFaces::Face& face = fill.faces[p];
             for (auto k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
                 const auto begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
                 glm::dvec3 area(0);
                 for (auto c = begin; c < end; ++c) {
-                    ASSERT_NEAR(glm::dot(patch.normal, fill.corners[c]), patch.offset, 1e-9 * polytope.circumradius);
+                    ASSERT_NEAR(glm::dot(face.normal, fill.corners[c]), face.offset, 1e-9 * polytope.circumradius);
                     area += glm::cross(fill.corners[c] - fill.corners[begin],
                                        fill.corners[c + 1 < end ? c + 1 : begin] - fill.corners[begin]);
                 }
-                ASSERT_GT(glm::dot(area, patch.normal), 0) << "winding numbers of star polychora have one sign";
+                ASSERT_GT(glm::dot(area, face.normal), 0) << "winding numbers of star polychora have one sign";
             }
         }
     }
@@ -224,14 +224,14 @@ TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
         for (int trial = 0; trial < 5; ++trial) {
             const auto ray = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
             int winding = 0;
-            for (const FilledFaces::Patch& patch : fill.patches) {
-                const double along = glm::dot(patch.normal, ray);
-                if (patch.offset / along < 0) continue;
-                const glm::dvec3 hit = ray * (patch.offset / along);
-                const glm::dvec3 u = glm::normalize(glm::cross(patch.normal, glm::dvec3(0.1, 0.7, -0.3)));
-                const glm::dvec3 v = glm::cross(patch.normal, u);
+            for (const FilledFaces::Face& face : fill.faces) {
+                const double along = glm::dot(face.normal, ray);
+                if (face.offset / along < 0) continue;
+                const glm::dvec3 hit = ray * (face.offset / along);
+                const glm::dvec3 u = glm::normalize(glm::cross(face.normal, glm::dvec3(0.1, 0.7, -0.3)));
+                const glm::dvec3 v = glm::cross(face.normal, u);
                 std::vector<std::vector<glm::dvec2>> loops;
-                for (auto f = patch.firstLoop; f < patch.endLoop; ++f) {
+                for (auto f = face.firstLoop; f < face.endLoop; ++f) {
                     loops.emplace_back();
                     for (auto i = slices.cornerBegin[f]; i < slices.cornerBegin[f + 1]; ++i) {
                         const glm::dvec3 x = corner(slices, 0, i);
@@ -239,7 +239,7 @@ TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
                     }
                 }
                 const int around = windingNumber(loops, {glm::dot(hit, u), glm::dot(hit, v)});
-                EXPECT_LE(std::abs(around), patch.winding);
+                EXPECT_LE(std::abs(around), face.winding);
                 winding += along > 0 ? around : -around;
             }
             EXPECT_EQ(winding, densities.at(number)) << "number " << number;
@@ -254,7 +254,7 @@ TEST(FaceFiller, MakesOnePiecePerFaceOfConvexSlices) {
         SliceSet slices;
         CellComplexSlicer().slice(polytope, randomRotation(random), {-10, 21, polytope.circumradius / 10}, slices);
         const FilledFaces fill = filled(slices, polytope.circumradius);
-        EXPECT_EQ(fill.patches.size(), slices.faceSource.size());
+        EXPECT_EQ(fill.faces.size(), slices.faceSource.size());
         EXPECT_EQ(fill.cornerBegin.size(), slices.faceSource.size() + 1) << "one piece each";
     }
 }
