@@ -55,6 +55,10 @@ class ActiveList {
         Entry entry;
         std::int32_t from;
     };
+
+    // Removes the active elements that end at the hyperplane with the index `step` or below it.
+    void removeEnded(int step);
+
     std::vector<UnsortedEntry> unsorted_;
     std::vector<Entry> sorted_, active_;
     // Per hyperplane: before sort(), the number of elements whose first hyperplane it is; afterward, the end of the
@@ -74,18 +78,23 @@ inline void ActiveList::sort(std::span<const int> steps) {
         sorted_[end[unsorted.from]++] = unsorted.entry;
 }
 
-inline std::span<const ActiveList::Entry> ActiveList::advance(int step) {
-    Entry* active = active_.data();
-    Entry* kept = active;
-    for (const Entry *at = active, *end = active + activeCount_; at != end; ++at) {
-        const std::int32_t to = at->to;
-        *kept = *at;
+inline void ActiveList::removeEnded(int step) {
+    Entry* kept = active_.data();
+    for (const Entry& entry : active()) {
+        const std::int32_t to = entry.to;
+        *kept = entry;
         kept += to > step ? 1 : 0;
     }
+    activeCount_ = static_cast<std::uint32_t>(kept - active_.data());
+}
+
+inline std::span<const ActiveList::Entry> ActiveList::advance(int step) {
+    removeEnded(step);
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];
-    for (const Entry& entry : begun) *kept++ = entry;
-    activeCount_ = static_cast<std::uint32_t>(kept - active);
+    Entry* added = active_.data() + activeCount_;
+    for (const Entry& entry : begun) *added++ = entry;
+    activeCount_ += static_cast<std::uint32_t>(begun.size());
     return begun;
 }
 
