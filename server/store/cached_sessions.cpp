@@ -64,6 +64,7 @@ std::vector<std::pair<std::string, CachedSession>> CachedSessions::evictClosed(s
         evicted.emplace_back(entry->first, std::move(entry->second));
         sessions_.erase(entry);
     }
+    std::erase_if(queue_, [this](const std::string& id) { return !sessions_.contains(id); });
     return evicted;
 }
 
@@ -77,7 +78,8 @@ std::optional<std::string> CachedSessions::takeQueued() {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
         CachedSession* const cached = find(id);
-        if (cached == nullptr) continue;  // the session was removed after it had been queued
+        // The session was removed after it had been queued, and may have been added again since, without changes.
+        if (cached == nullptr || !cached->queued) continue;
         cached->queued = false;
         cached->inFlight = true;
         return id;
