@@ -25,7 +25,7 @@ class MemoryStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> pollLostSessions() override { return {}; }
+    std::vector<LostSession> pollLostSessions() override { return {}; }
     std::size_t size() const override { return entries_.size(); }
 
   private:

@@ -74,6 +74,18 @@ local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
+// The script that empties the list of the sessions that other servers have claimed from this one. KEYS: the list.
+// Returns {number of keys in Redis, id, fence in the record of this id, id, fence, …}; the fence is 0 if there is no
+// record.
+constexpr const char* kPoll = R"(#!lua flags=allow-oom
+local reply = {redis.call('DBSIZE')}
+for _, id in ipairs(redis.call('LRANGE', KEYS[1], 0, -1)) do
+  reply[#reply + 1] = id
+  reply[#reply + 1] = redis.call('HGET', 'oval4d:{' .. id .. '}', 'fence') or '0'
+end
+redis.call('DEL', KEYS[1])
+return reply)";
+
 // kOlderSave is the SHA-1 of the save script of version 0.1.0: if Redis knows that script, servers of version 0.1.0 use
 // this Redis. kHashedSince is a key in Redis. Its value is the time, in milliseconds of Redis's clock, at which a
 // server of a later version first noticed servers of version 0.1.0. kNoteSince is the script that sets this value if it
@@ -156,6 +168,7 @@ void RedisStore::connect() {
     saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
     hashScript_ = textOf(*ask({"SCRIPT", "LOAD", kHash}));
     removeScript_ = textOf(*ask({"SCRIPT", "LOAD", kRemove}));
+    pollScript_ = textOf(*ask({"SCRIPT", "LOAD", kPoll}));
     updatePlainTokenDeadline();
 }
 
@@ -292,21 +305,15 @@ void RedisStore::restartExpiry(std::span<const std::string> ids) {
     for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();
 }
 
-std::vector<std::string> RedisStore::pollLostSessions() {
-    const std::string list = "oval4d:taken:" + self_;
-    send({"MULTI"});
-    send({"LRANGE", list, "0", "-1"});
-    send({"DEL", list});
-    send({"DBSIZE"});
-    send({"EXEC"});
-    for (int i = 0; i < 4; ++i) receive();
-    const Reply reply = receive();
-    std::vector<std::string> taken;
-    if (reply->type != REDIS_REPLY_ARRAY || reply->elements != 3) return taken;
-    for (std::size_t i = 0; i < reply->element[0]->elements; ++i)
-        taken.push_back(textOf(*reply->element[0]->element[i]));
-    size_ = static_cast<std::size_t>(reply->element[2]->integer);
-    return taken;
+std::vector<LostSession> RedisStore::pollLostSessions() {
+    if (!context_) connect();
+    const Reply reply = ask({"EVALSHA", pollScript_, "1", "oval4d:taken:" + self_});
+    std::vector<LostSession> lost;
+    if (reply->type != REDIS_REPLY_ARRAY || reply->elements == 0) return lost;
+    size_ = static_cast<std::size_t>(reply->element[0]->integer);
+    for (std::size_t i = 1; i + 1 < reply->elements; i += 2)
+        lost.push_back({textOf(*reply->element[i]), std::stoull(textOf(*reply->element[i + 1]))});
+    return lost;
 }
 
 }  // namespace oval4d::store

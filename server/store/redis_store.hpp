@@ -12,7 +12,8 @@ namespace oval4d::store {
 
 /// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
 /// atomic are Lua scripts, such as a claim, which increments the fence, and a save, which compares the fence. Each
-/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server.
+/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server. An id
+/// may be out of date when it is read, if its session has been claimed back; the fence in the record tells.
 /// Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
@@ -31,7 +32,7 @@ class RedisStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
-    std::vector<std::string> pollLostSessions() override;
+    std::vector<LostSession> pollLostSessions() override;
     std::size_t size() const override { return size_; }
 
   private:
@@ -56,7 +57,8 @@ class RedisStore final : public Store {
     const Milliseconds expiry_, timeout_;
     const std::string self_;  // random name of this server in Redis
     std::unique_ptr<redisContext, Closer> context_;
-    std::string claimScript_, saveScript_, hashScript_, removeScript_;  // SHA-1 digests of the loaded scripts
+    // SHA-1 digests of the loaded scripts.
+    std::string claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
     // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.
     std::chrono::steady_clock::time_point plainUntil_;
     std::size_t size_ = 0;

@@ -428,7 +428,7 @@ std::size_t SqliteStore::expire(Milliseconds age) {
     });
 }
 
-std::vector<std::string> SqliteStore::pollLostSessions() {
+std::vector<LostSession> SqliteStore::pollLostSessions() {
     afterPendingRepair([&] {
         releasePages(kMaxReleasedPages);
         size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));

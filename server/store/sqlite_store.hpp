@@ -37,7 +37,7 @@ class SqliteStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> pollLostSessions() override;
+    std::vector<LostSession> pollLostSessions() override;
     std::size_t size() const override { return size_; }
 
   private:

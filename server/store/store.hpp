@@ -61,6 +61,14 @@ enum class SaveResult : std::uint8_t {
     missing,  ///< not saved: the store does not have the session, and the update has no `whole`
 };
 
+/// A session that another server has claimed.
+struct LostSession {
+    std::string id;
+    Fence fence = 0;  ///< the fence in the session's record; 0 if it has no record anymore
+
+    bool operator==(const LostSession&) const = default;
+};
+
 /// Thrown if a store operation fails because the store does not answer, cannot be used, or is full.
 class StoreError : public std::runtime_error {
   public:
@@ -130,9 +138,9 @@ class Store {
     /// returns 0 if the store expires records itself.
     virtual std::size_t expire(Milliseconds age) = 0;
 
-    /// Updates size(), and returns the ids of the sessions that other servers have claimed from this one since the last
-    /// call.
-    virtual std::vector<std::string> pollLostSessions() = 0;
+    /// Updates size(), and returns the sessions that other servers have claimed from this one since the last call. If
+    /// this server has claimed one of them back in the meantime, its fence is that of this server's own claim.
+    virtual std::vector<LostSession> pollLostSessions() = 0;
 
     /// Returns the approximate number of stored sessions, as of the last pollLostSessions().
     virtual std::size_t size() const = 0;

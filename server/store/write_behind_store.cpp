@@ -351,7 +351,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
         listener_.missing(job.id);
         return;
     } else {
-        dropClaimed(job.id);
+        dropClaimed(job.id, update.fence + 1);
     }
     for (const Written& written : job.changes.waiting) written(result == SaveResult::saved);
 }
@@ -374,12 +374,14 @@ void WriteBehindStore::requeue(Job& job) {
     for (const Written& written : released) written(true);
 }
 
-/// Drops a session that another server has claimed.
-void WriteBehindStore::dropClaimed(const std::string& id) {
+/// Drops a session that another server has claimed with the fence `fence` or a later one, unless this server has
+/// claimed it since.
+void WriteBehindStore::dropClaimed(const std::string& id, Fence fence) {
     std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
-        dropped = cached_.remove(id);
+        const CachedSession* const cached = cached_.find(id);
+        if (cached != nullptr && cached->fence < fence) dropped = cached_.remove(id);
     }
     if (!dropped) return;
     objects_.forget(id);
@@ -396,7 +398,8 @@ void WriteBehindStore::poll() {
     }
     try {
         if (now_() >= refreshAt_) refreshExpiry();
-        for (const std::string& id : timed("pulse", [&] { return store_->pollLostSessions(); })) dropClaimed(id);
+        for (const auto& [id, fence] : timed("pulse", [&] { return store_->pollLostSessions(); }))
+            dropClaimed(id, fence);
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;

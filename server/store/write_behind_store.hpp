@@ -131,7 +131,7 @@ class WriteBehindStore {
     void dropKeys(const std::string& id);
     void applyResult(Job& job, const RecordUpdate& update, SaveResult result);
     void requeue(Job& job);
-    void dropClaimed(const std::string& id);
+    void dropClaimed(const std::string& id, Fence fence);
     void poll();
     void refreshExpiry();
     void fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);

@@ -42,13 +42,29 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
     EXPECT_TRUE(one->pollLostSessions().empty());
     EXPECT_EQ(two->claim("id")->fence, 2U);
-    EXPECT_EQ(one->pollLostSessions(), std::vector<std::string>{"id"});
+    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 2}}));
     EXPECT_TRUE(one->pollLostSessions().empty()) << "returned only once";
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
     const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
     EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(one->claim("id")->fence, 3U);
     EXPECT_TRUE(two->pollLostSessions().empty()) << "the server had closed the session itself";
+}
+
+TEST(RedisStore, PollTellsTheFenceOfSessionsThatTheServerHasClaimedBack) {
+    const Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
+    ASSERT_TRUE(one && two);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
+    EXPECT_EQ(two->claim("id")->fence, 2U);
+    EXPECT_EQ(one->claim("id")->fence, 3U);
+    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 3}}));
+    EXPECT_EQ(two->pollLostSessions(), (std::vector<LostSession>{{"id", 3}}));
+    EXPECT_EQ(two->claim("id")->fence, 4U);
+    const std::vector<std::string> ids{"id"};
+    two->remove(ids);
+    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 0}}));
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {

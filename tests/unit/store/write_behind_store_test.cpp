@@ -1,5 +1,6 @@
 #include <future>
 #include <type_traits>
+#include <utility>
 
 #include "hang_limit.hpp"
 #include "store/memory_store.hpp"
@@ -20,6 +21,7 @@ struct StoreControl {
     std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
     std::mutex mutex;
     MemoryStore kept{kDefaultQuota, clock.now<MemoryStore::Clock>()};  // guarded by mutex
+    std::vector<LostSession> lost;                                     // for the next poll; guarded by mutex
 };
 
 /// A shared store that a test can make fail.
@@ -55,8 +57,8 @@ class FaultyStore final : public Store {
             return kept.expire(age);
         });
     }
-    std::vector<std::string> pollLostSessions() override {
-        return attempt([](MemoryStore& kept) { return kept.pollLostSessions(); });
+    std::vector<LostSession> pollLostSessions() override {
+        return attempt([&](MemoryStore& /*kept*/) { return std::exchange(control_->lost, {}); });
     }
     std::size_t size() const override {
         const std::lock_guard lock(control_->mutex);
@@ -181,6 +183,33 @@ TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
     EXPECT_EQ(taken, 1);
     EXPECT_FALSE(save(credentials.id, at(3))) << "nor later";
     EXPECT_EQ(kept(credentials.id), 1U);
+}
+
+/// Another server has taken the session over, and this one has claimed it back before it polled.
+TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
+    const SessionCredentials credentials = writeBehind.create();
+    writeBehind.close(credentials.id, at(1));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    const auto fetched = fetch(credentials);
+    ASSERT_TRUE(fetched);
+    const Fence own = fetched->record.fence;
+    const auto poll = [&](Fence fence) {
+        {
+            const std::lock_guard lock(control->mutex);
+            control->lost.push_back({credentials.id, fence});
+        }
+        eventually([&] {
+            const std::lock_guard lock(control->mutex);
+            return control->lost.empty();
+        });
+    };
+    poll(own - 1);
+    poll(own);
+    EXPECT_TRUE(save(credentials.id, at(2)));
+    EXPECT_EQ(taken, 0);
+    poll(own + 1);
+    eventually([&] { return taken == 1; });
+    EXPECT_FALSE(save(credentials.id, at(3)));
 }
 
 TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
