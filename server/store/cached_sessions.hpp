@@ -38,7 +38,7 @@ struct CachedSession {
     using Clock = std::chrono::steady_clock;
 
     SessionCredentials credentials;
-    Fence fence = 1;
+    Fence fence = kFirstFence;
     PendingChanges pending;
     bool everSaved = false;      ///< whether the session has ever been in the store
     bool queued = false;         ///< whether the session is in the queue

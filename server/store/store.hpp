@@ -31,6 +31,9 @@ struct SessionCredentials {
 /// the record.
 using Fence = std::uint64_t;
 
+/// The fence of a session that no server has claimed since it was created.
+inline constexpr Fence kFirstFence = 1;
+
 /// A session as claim() returns it from the store.
 struct Record {
     /// `whole`: the whole session, encoded by encodeWhole() (session_codec.hpp). `head`: the state and the revision

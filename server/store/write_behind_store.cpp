@@ -80,11 +80,11 @@ void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     tasks_.emplace_back([this, id, keys = std::move(keys)] { objects_.setStored(id, keys); });
 }
 
-void WriteBehindStore::save(const std::string& id, Session value, SaveScope scope, Written written) {
+void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, Written written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        if (CachedSession* const cached = cached_.find(id)) {
+        if (CachedSession* const cached = cached_.find(id); cached != nullptr && cached->fence == fence) {
             ours = true;
             auto& [head, whole, waiting] = cached->pending;
             (scope == SaveScope::head ? head : whole) = std::make_shared<const Session>(std::move(value));
@@ -452,7 +452,9 @@ WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredent
             if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
             if (!cached->pending.whole) return kNoAnswer;  // another client is opening it, or it is being written
             cached->closed = false;
-            return Fetched{*cached->pending.whole, {}};
+            Fetched found{*cached->pending.whole, {}};
+            found.record.fence = cached->fence;
+            return found;
         }
         if (removals_.contains(credentials.id)) return kNotFound;
         if (now_() < readAt_) return kNoAnswer;

@@ -55,7 +55,8 @@ class WriteBehindStore {
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
     /// A fetched session. If the session was still in memory, `session` holds it. Otherwise `session` is empty, and
-    /// `record` is the stored record, which the caller must decode with session_codec.hpp.
+    /// `record` is the stored record, which the caller must decode with session_codec.hpp. In either case,
+    /// `record.fence` is the fence to pass to save().
     struct Fetched {
         std::optional<session::Session> session;
         Record record;
@@ -74,8 +75,8 @@ class WriteBehindStore {
     Store::WritePolicy writePolicy() const { return writePolicy_; }
     const std::string& name() const { return name_; }
 
-    /// Creates a session that is open on this server, and returns its credentials. The session is not in the store
-    /// until it is saved.
+    /// Creates a session that is open on this server, with the fence kFirstFence, and returns its credentials. The
+    /// session is not in the store until it is saved.
     SessionCredentials create();
 
     /// Makes the cache's thread claim a session for this server and then call `done` with the session or with an error:
@@ -86,11 +87,12 @@ class WriteBehindStore {
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
-    /// Queues the whole session for writing, or only its current state (SaveScope::head). Calls `written(true)` when
-    /// the session is stored, or at once if the store is unavailable, so that clients need not wait. Calls
-    /// `written(false)` if the session will not be stored, because another server has taken it over or because it was
+    /// Queues the whole session for writing, or only its current state (SaveScope::head). `fence`: the fence with which
+    /// the caller has created or fetched the session. Calls `written(true)` when the session is stored, or at once if
+    /// the store is unavailable, so that clients need not wait. Calls `written(false)` if the session will not be
+    /// stored, because another server has taken it over, even if this one has fetched it again since, or because it was
     /// removed or evicted.
-    void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
+    void save(const std::string& id, Fence fence, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
     /// written.

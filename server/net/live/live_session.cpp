@@ -50,10 +50,11 @@ struct KeepAlive {
 }  // namespace
 
 LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                         AddressAccountPtr client, session::Session value)
+                         store::Fence fence, AddressAccountPtr client, session::Session value)
     : services_(services),
       writeBehind_(writeBehind),
       credentials_(std::move(credentials)),
+      fence_(fence),
       strand_(asio::make_strand(services.io)),
       metered_(std::make_shared<MeteredSession>(std::move(client), std::move(value))),
       session_(metered_->value),
@@ -61,10 +62,10 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       saveTimer_(strand_) {}
 
 std::shared_ptr<LiveSession> LiveSession::create(Services services, store::WriteBehindStore& writeBehind,
-                                                 store::SessionCredentials credentials, AddressAccountPtr client,
-                                                 session::Session value) {
-    auto session = std::make_shared<LiveSession>(services, writeBehind, std::move(credentials), std::move(client),
-                                                 std::move(value));
+                                                 store::SessionCredentials credentials, store::Fence fence,
+                                                 AddressAccountPtr client, session::Session value) {
+    auto session = std::make_shared<LiveSession>(services, writeBehind, std::move(credentials), fence,
+                                                 std::move(client), std::move(value));
     session->streams_->whenMoved([weak = std::weak_ptr(session)] {
         if (const auto self = weak.lock()) self->scheduleSave();
     });
@@ -112,7 +113,8 @@ void LiveSession::disconnectAll() {
 void LiveSession::saveNow(store::Written written) {
     assertOnStrand();
     if (!detached_)
-        writeBehind_.save(credentials_.id, session_, store::WriteBehindStore::SaveScope::whole, std::move(written));
+        writeBehind_.save(credentials_.id, fence_, session_, store::WriteBehindStore::SaveScope::whole,
+                          std::move(written));
 }
 
 /// Schedules a save. Must be called after each change.
@@ -123,7 +125,8 @@ void LiveSession::scheduleSave() {
 }
 
 /// Returns a function that writes the session, or only its head (the state and the revision), to the store. The
-/// returned function calls its argument when the write is done: see WriteBehindStore::save().
+/// returned function must be called on the strand. It calls its argument when the write is done: see
+/// WriteBehindStore::save(); with `false` if `detached_` is true.
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -133,7 +136,8 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
         value.revision = revision();
     }
     return [self = shared_from_this(), scope, value](const std::function<void(bool)>& written) {
-        self->writeBehind_.save(self->credentials_.id, value, scope, written);
+        if (self->detached_) return written(false);
+        self->writeBehind_.save(self->credentials_.id, self->fence_, value, scope, written);
     };
 }
 

@@ -36,13 +36,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
     /// Returns a session in use. `client`: the client that opened the session; the session's memory counts against this
-    /// client's byte account. `value`: the session, new or read from the store.
+    /// client's byte account. `value`: the session, new or read from the store. `fence`: with which it was created or
+    /// fetched.
     static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
-                                               store::SessionCredentials credentials, AddressAccountPtr client,
-                                               session::Session value);
+                                               store::SessionCredentials credentials, store::Fence fence,
+                                               AddressAccountPtr client, session::Session value);
     /// Only for create().
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                AddressAccountPtr client, session::Session value);
+                store::Fence fence, AddressAccountPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
@@ -67,7 +68,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
     /// the session's strand. `left` must return whether the session has no clients left. If `left` returns true, this
-    /// object never writes the session to the store again.
+    /// object never writes the session to the store again. Must be called after the requests of the client have been
+    /// executed, so that `left` receives their results.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
     /// Ends the searches for critical values of w that a client of the session has requested. They fail with
@@ -124,6 +126,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     const Services services_;  // declared first: other members are initialized from it
     store::WriteBehindStore& writeBehind_;
     const store::SessionCredentials credentials_;
+    const store::Fence fence_;
     Strand strand_;  // runs all code that uses the members of the next group
 
     // Used only on the strand.

@@ -116,12 +116,12 @@ void SessionManager::create(const AddressAccountPtr& client, const JoinHandler& 
         return;
     }
     const store::SessionCredentials credentials = writeBehind_.create();
-    const auto session = activate(credentials, client, session::Session{});
+    const auto session = activate(credentials, store::kFirstFence, client, session::Session{});
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
         // The session must be in the shared store before its client learns its id, so that every server can open it.
-        writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::SaveScope::whole,
+        writeBehind_.save(credentials.id, store::kFirstFence, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
         if (writeBehind_.writePolicy() == store::Store::WritePolicy::soon) session->save();
@@ -157,7 +157,7 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
     if (!fetch) {
         finishOpening(pending, fetch.error());
     } else if (fetch->session) {
-        finishOpening(pending, std::move(*fetch->session));
+        finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
     } else {
         const Seconds cost = decodingCost(fetch->record);
         // Opening a file of the data folder may take long.
@@ -186,7 +186,7 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
         auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
         writeBehind_.setStoredKeys(id, objects.keys());
-        finishOpening(pending, std::move(value));
+        finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
         if (fileIsMissing) {
             spdlog::warn("session waits for its field session={} reason=\"{}\"", id, fault.what());
@@ -204,8 +204,8 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
 }
 
 /// Passes the session, or the error, to the client that asked first. Then calls join() again for the other waiting
-/// clients.
-void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
+/// clients. `fence`: with which the session was fetched, if there is no error.
+void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
     std::shared_ptr<LiveSession> session;
@@ -213,17 +213,18 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         const std::lock_guard lock(mutex_);
         others = std::move(opening_[id]);
         opening_.erase(id);
-        if (value) session = activate(pending.credentials, pending.client, std::move(*value));
+        if (value) session = activate(pending.credentials, fence, pending.client, std::move(*value));
     }
     if (session) spdlog::info("session opened session={}", id);
     pending.done(session ? JoinResult(session) : value.error());
     for (const auto& [credentials, client, done] : others) join(credentials, client, done);
 }
 
-std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials,
+std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials, store::Fence fence,
                                                       const AddressAccountPtr& client, session::Session value) {
     const std::string id = credentials.id;
-    auto session = LiveSession::create(services_, writeBehind_, std::move(credentials), client, std::move(value));
+    auto session =
+        LiveSession::create(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
     byClient_.open(id, client->name());
     return session;

@@ -64,9 +64,9 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void evict(const std::string& id);
     void onFetched(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
     void decode(const PendingJoin& pending, const store::Record& record);
-    void finishOpening(const PendingJoin& pending, Result<session::Session> value);
-    std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const AddressAccountPtr& client,
-                                          session::Session value);
+    void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence = 0);
+    std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, store::Fence fence,
+                                          const AddressAccountPtr& client, session::Session value);
     void dropTakenSession(const std::string& id);
 
     const Services services_;

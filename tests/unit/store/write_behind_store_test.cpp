@@ -88,9 +88,9 @@ class WriteBehindStoreTest : public testing::Test {
         return promise.get_future().get();
     }
     bool save(const std::string& id, const Session& session,
-              WriteBehindStore::SaveScope scope = WriteBehindStore::SaveScope::whole) {
+              WriteBehindStore::SaveScope scope = WriteBehindStore::SaveScope::whole, Fence fence = kFirstFence) {
         std::promise<bool> promise;
-        writeBehind.save(id, session, scope, [&](bool ours) { promise.set_value(ours); });
+        writeBehind.save(id, fence, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
     }
     /// Waits while the time stands still.
@@ -105,7 +105,7 @@ class WriteBehindStoreTest : public testing::Test {
         }));
     }
     /// Makes the cache's thread look at the clock: to save an unknown session does nothing else.
-    void wake() { writeBehind.save("nobody", {}, WriteBehindStore::SaveScope::head); }
+    void wake() { writeBehind.save("nobody", kFirstFence, {}, WriteBehindStore::SaveScope::head); }
     Session at(std::uint64_t revision) const {
         Session session;
         session.revision = revision;
@@ -163,6 +163,7 @@ TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
     const auto again = fetch(closed);
     ASSERT_TRUE(again && again->session) << "it is still in memory";
     EXPECT_EQ(again->session->revision, 9U);
+    EXPECT_EQ(again->record.fence, kFirstFence);
     EXPECT_EQ(writeBehind.unsaved(), 2U);
     control->fails = false;
     eventually([&] { return writeBehind.unsaved() == 0; });
@@ -205,16 +206,35 @@ TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
     };
     poll(own - 1);
     poll(own);
-    EXPECT_TRUE(save(credentials.id, at(2)));
+    EXPECT_TRUE(save(credentials.id, at(2), WriteBehindStore::SaveScope::whole, own));
     EXPECT_EQ(taken, 0);
     poll(own + 1);
     eventually([&] { return taken == 1; });
-    EXPECT_FALSE(save(credentials.id, at(3)));
+    EXPECT_FALSE(save(credentials.id, at(3), WriteBehindStore::SaveScope::whole, own));
+}
+
+/// A command that runs on after another server has taken the session over may end when this server has fetched the
+/// session again.
+TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_TRUE(save(credentials.id, at(1)));
+    {
+        const std::lock_guard lock(control->mutex);
+        control->kept.claim(credentials.id);
+    }
+    EXPECT_FALSE(save(credentials.id, at(2)));
+    const auto fetched = fetch(credentials);
+    ASSERT_TRUE(fetched);
+    const Fence own = fetched->record.fence;
+    EXPECT_TRUE(save(credentials.id, at(3), WriteBehindStore::SaveScope::head, own));
+    EXPECT_FALSE(save(credentials.id, at(9)));
+    EXPECT_TRUE(save(credentials.id, at(4), WriteBehindStore::SaveScope::head, own));
+    EXPECT_EQ(kept(credentials.id), 4U);
 }
 
 TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
     const SessionCredentials credentials = writeBehind.create();
-    writeBehind.save(credentials.id, at(1), WriteBehindStore::SaveScope::head);
+    writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::head);
     eventually([&] { return wanted == 1; });
     EXPECT_TRUE(save(credentials.id, at(2)));
     EXPECT_EQ(kept(credentials.id), 2U);
@@ -223,7 +243,8 @@ TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
 TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
     const SessionCredentials credentials = writeBehind.create();
     EXPECT_TRUE(save(credentials.id, at(1)));
-    for (std::uint64_t i = 2; i < 5000; ++i) writeBehind.save(credentials.id, at(i), WriteBehindStore::SaveScope::head);
+    for (std::uint64_t i = 2; i < 5000; ++i)
+        writeBehind.save(credentials.id, kFirstFence, at(i), WriteBehindStore::SaveScope::head);
     EXPECT_TRUE(save(credentials.id, at(5000), WriteBehindStore::SaveScope::head));
     EXPECT_EQ(kept(credentials.id), 5000U);
     EXPECT_LT(control->saves, 5000);
@@ -259,7 +280,7 @@ TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     EXPECT_TRUE(save(credentials.id, session));
     control->fails = true;
-    writeBehind.save(credentials.id, session, WriteBehindStore::SaveScope::whole);
+    writeBehind.save(credentials.id, kFirstFence, session, WriteBehindStore::SaveScope::whole);
     eventually([&] { return !writeBehind.lastError().empty(); });
     {
         const std::lock_guard lock(control->mutex);
@@ -285,7 +306,7 @@ TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     control->fails = true;
     eventually([&] { return !writeBehind.lastError().empty(); });
     const SessionCredentials open = writeBehind.create();
-    writeBehind.save(open.id, at(1), WriteBehindStore::SaveScope::whole);
+    writeBehind.save(open.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole);
     std::vector<SessionCredentials> credentialsList;
     for (int i = 0; i < 2000; ++i) {
         credentialsList.push_back(writeBehind.create());
@@ -307,7 +328,7 @@ TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
 TEST_F(WriteBehindStoreTest, RetriesAfterLongerAndLongerPauses) {
     control->fails = true;
     const SessionCredentials credentials = writeBehind.create();
-    writeBehind.save(credentials.id, at(1), WriteBehindStore::SaveScope::whole);
+    writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole);
     atOnce([&] { return !writeBehind.lastError().empty(); });
     for (const Milliseconds longest : {100ms, 200ms, 400ms, 800ms, 1600ms, 3200ms, 5000ms, 5000ms}) {
         const int attempts = control->attempts;
@@ -348,8 +369,8 @@ TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
         const std::lock_guard lock(control->mutex);
         return control->kept.claim(credentials.id)->objects;
     };
-    writeBehind.save(credentials.id, Session{}, WriteBehindStore::SaveScope::whole);
-    writeBehind.save(credentials.id, session, WriteBehindStore::SaveScope::head);
+    writeBehind.save(credentials.id, kFirstFence, Session{}, WriteBehindStore::SaveScope::whole);
+    writeBehind.save(credentials.id, kFirstFence, session, WriteBehindStore::SaveScope::head);
     EXPECT_TRUE(save(credentials.id, session));
     const auto first = writeBehind.unsaved() == 0 ? polytopes() : decltype(polytopes()){};
     ASSERT_EQ(first.size(), 1U);
