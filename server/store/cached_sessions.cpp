@@ -27,6 +27,11 @@ CachedSession* CachedSessions::find(const std::string& id) {
     return found == sessions_.end() ? nullptr : &found->second;
 }
 
+const CachedSession* CachedSessions::find(const std::string& id) const {
+    const auto found = sessions_.find(id);
+    return found == sessions_.end() ? nullptr : &found->second;
+}
+
 std::optional<CachedSession> CachedSessions::remove(const std::string& id) {
     auto node = sessions_.extract(id);
     if (node.empty()) return {};

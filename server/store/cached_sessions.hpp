@@ -59,6 +59,7 @@ class CachedSessions {
     bool contains(const std::string& id) const { return sessions_.contains(id); }
     /// Returns the session with this id; a null pointer if it is not in memory.
     CachedSession* find(const std::string& id);
+    const CachedSession* find(const std::string& id) const;
     /// Removes a session and returns it; an empty optional if it is not in memory. The caller can then destroy the
     /// session without holding a lock.
     std::optional<CachedSession> remove(const std::string& id);

@@ -75,9 +75,18 @@ void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(
     wake_.notify_one();
 }
 
+bool WriteBehindStore::owns(const std::string& id, Fence fence) const {
+    const std::lock_guard lock(mutex_);
+    const CachedSession* const cached = cached_.find(id);
+    return cached != nullptr && cached->fence == fence;
+}
+
 void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     const std::lock_guard lock(mutex_);
-    tasks_.emplace_back([this, id, keys = std::move(keys)] { objects_.setStored(id, keys); });
+    tasks_.emplace_back([this, id, keys = std::move(keys)] {
+        const std::lock_guard inner(mutex_);
+        if (cached_.contains(id)) objects_.setStored(id, keys);  // else another server has claimed it since
+    });
 }
 
 void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, Written written) {

@@ -84,6 +84,10 @@ class WriteBehindStore {
     /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
+    /// Returns whether this server still owns the session that it has created or fetched with this fence, as far as it
+    /// knows. If another server claims it later, Listener::claimed is called after this function has returned.
+    bool owns(const std::string& id, Fence fence) const;
+
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 

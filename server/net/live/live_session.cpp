@@ -37,6 +37,8 @@ using namespace std::chrono_literals;
 // machine.
 constexpr std::chrono::milliseconds kSaveDelay{250};
 
+constexpr const char* kTakenOverReason = "another server has taken over this session";
+
 Message textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
     return textMessage(wire::answerMessage(answer, id));
 }
@@ -106,7 +108,7 @@ void LiveSession::save(std::shared_ptr<void> completion) {
 void LiveSession::disconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
         self->detached_ = true;
-        self->streams_->closeAll(close_code::kStopping, "another server has taken over this session");
+        self->streams_->closeAll(close_code::kStopping, kTakenOverReason);
     });
 }
 
@@ -144,6 +146,10 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
+    if (detached_) {  // disconnectAll() was called after this client had joined the session
+        peer->close(close_code::kStopping, kTakenOverReason);
+        co_return;
+    }
     streams_->add(peer, {hello.stream, hello.encoding, hello.viewport, hello.scheme});
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));

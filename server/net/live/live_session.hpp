@@ -48,7 +48,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     const store::SessionCredentials& credentials() const { return credentials_; }
 
     /// Adds a client, or changes its stream if it was added before. Sends the client the message `welcome`; the state
-    /// and a picture follow.
+    /// and a picture follow. If another server has taken over the session, closes the client's connection instead.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered; if it

@@ -14,6 +14,8 @@ using store::WriteBehindStore;
 
 namespace {
 
+const Error kTakenOver{ErrorCode::internal, "another server has taken over this session; try again"};
+
 store::WriteBehindStore::Settings settingsFrom(const Options& options) {
     return {std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry), options.keptUndo,
             options.storeQuota};
@@ -203,7 +205,8 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     }
 }
 
-/// Passes the session, or the error, to the client that asked first. Then calls join() again for the other waiting
+/// Passes the session, or the error, to the client that asked first; an error, too, if another server has taken over
+/// the session in the meantime, because it may have changed it. Then calls join() again for the other waiting
 /// clients. `fence`: with which the session was fetched, if there is no error.
 void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence) {
     const std::string& id = pending.credentials.id;
@@ -213,6 +216,9 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         const std::lock_guard lock(mutex_);
         others = std::move(opening_[id]);
         opening_.erase(id);
+        // Another server may have claimed the session while its record was decoded. If one claims it from now on,
+        // dropTakenSession(), which locks mutex_, finds it in live_.
+        if (value && !writeBehind_.owns(id, fence)) value = kTakenOver;
         if (value) session = activate(pending.credentials, fence, pending.client, std::move(*value));
     }
     if (session) spdlog::info("session opened session={}", id);

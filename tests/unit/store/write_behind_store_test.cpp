@@ -213,6 +213,27 @@ TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
     EXPECT_FALSE(save(credentials.id, at(3), WriteBehindStore::SaveScope::whole, own));
 }
 
+/// So a session that another server claims while its record is decoded is not served.
+TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_TRUE(writeBehind.owns(credentials.id, kFirstFence));
+    writeBehind.close(credentials.id, at(1));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    EXPECT_FALSE(writeBehind.owns(credentials.id, kFirstFence));
+    const auto fetched = fetch(credentials);
+    ASSERT_TRUE(fetched);
+    const Fence own = fetched->record.fence;
+    EXPECT_TRUE(writeBehind.owns(credentials.id, own));
+    EXPECT_FALSE(writeBehind.owns(credentials.id, kFirstFence));
+    {
+        const std::lock_guard lock(control->mutex);
+        control->lost.push_back({credentials.id, own + 1});
+    }
+    eventually([&] { return !writeBehind.owns(credentials.id, own); });
+    writeBehind.setStoredKeys(credentials.id, {});
+    EXPECT_FALSE(writeBehind.owns(credentials.id, own));
+}
+
 /// A command that runs on after another server has taken the session over may end when this server has fetched the
 /// session again.
 TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
