@@ -271,9 +271,14 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
         sendError(fits.error(), id);
         co_return;
     }
+    SessionManager::JoinResult joined = kInternalError;
     joining_ = true;
-    const auto joined = co_await joinSession(hello);
-    joining_ = false;
+    try {
+        joined = co_await joinSession(hello);
+    } catch (const std::exception& fault) {
+        spdlog::error("session cannot be joined fault=\"{}\"", fault.what());
+    }
+    joining_ = false;  // also after an exception: otherwise the deadline of the hello would never apply again
     if (!joined) {
         sendError(joined.error(), id);
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
