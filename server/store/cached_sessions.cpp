@@ -100,7 +100,7 @@ std::size_t CachedSessions::neverSaved() const {
 std::size_t CachedSessions::unsaved() const {
     return static_cast<std::size_t>(std::ranges::count_if(sessions_, [](const auto& entry) {
         const CachedSession& cached = entry.second;
-        return cached.pending.head || cached.pending.whole || cached.inFlight;
+        return cached.changed || cached.pending.head || cached.pending.whole || cached.inFlight;
     }));
 }
 

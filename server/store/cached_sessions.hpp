@@ -40,6 +40,7 @@ struct CachedSession {
     SessionCredentials credentials;
     Fence fence = kFirstFence;
     PendingChanges pending;
+    bool changed = false;        ///< whether the session has changes that will soon be pending
     bool everSaved = false;      ///< whether the session has ever been in the store
     bool queued = false;         ///< whether the session is in the queue
     bool inFlight = false;       ///< whether the session is being written

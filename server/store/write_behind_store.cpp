@@ -89,12 +89,19 @@ void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     });
 }
 
+void WriteBehindStore::noteChange(const std::string& id, Fence fence) {
+    const std::lock_guard lock(mutex_);
+    if (CachedSession* const cached = cached_.find(id); cached != nullptr && cached->fence == fence)
+        cached->changed = true;
+}
+
 void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, Written written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(id); cached != nullptr && cached->fence == fence) {
             ours = true;
+            cached->changed = false;
             auto& [head, whole, waiting] = cached->pending;
             (scope == SaveScope::head ? head : whole) = std::make_shared<const Session>(std::move(value));
             cached_.enqueue(id, *cached);
@@ -113,6 +120,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         CachedSession* const cached = cached_.find(id);
         if (cached == nullptr) return;
         cached->pending.whole = std::make_shared<const Session>(std::move(value));
+        cached->changed = false;
         cached->closed = true;
         cached->closedAt = now_();
         cached->bytes = bytes;

@@ -91,6 +91,10 @@ class WriteBehindStore {
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
+    /// Makes unsaved() count a session until it is passed to save() or close(): it has changes that will soon be saved.
+    /// Does nothing if this server does not own the session with this fence.
+    void noteChange(const std::string& id, Fence fence);
+
     /// Queues the whole session for writing, or only its current state (SaveScope::head). `fence`: the fence with which
     /// the caller has created or fetched the session. Calls `written(true)` when the session is stored, or at once if
     /// the store is unavailable, so that clients need not wait. Calls `written(false)` if the session will not be
@@ -112,7 +116,8 @@ class WriteBehindStore {
     /// Returns the approximate number of sessions in the store and in memory. If several servers share the store,
     /// returns only the number of sessions in this server's memory.
     std::size_t sessionCount() const;
-    /// Returns the number of sessions with changes that are not known to be in the store.
+    /// Returns the number of sessions with changes that are not known to be in the store. If sessions are written only
+    /// when they are closed (WritePolicy::at_close), those that are open do not count.
     std::size_t unsaved() const;
     /// Returns the text of the last error of the store; an empty string while the store is available.
     std::string lastError() const;

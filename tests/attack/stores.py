@@ -13,8 +13,7 @@ def server_with_store(store_path, quota="1G", **variables):
 
 
 def wait_until_saved(server, open_sessions=0):
-    """Waits until no more than so many sessions are open and everything is written to the store. An open session that
-    has changed counts as unsaved only when it is passed to the store, a quarter of a second later."""
+    """Waits until no more than so many sessions are open and everything is written to the store."""
     server.wait_for(lambda: server.metric("oval4d_open_sessions") <= open_sessions)
     server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
 

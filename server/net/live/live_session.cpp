@@ -123,6 +123,7 @@ void LiveSession::saveNow(store::Written written) {
 void LiveSession::scheduleSave() {
     assertOnStrand();
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    writeBehind_.noteChange(credentials_.id, fence_);
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 

@@ -213,6 +213,22 @@ TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
     EXPECT_FALSE(save(credentials.id, at(3), WriteBehindStore::SaveScope::whole, own));
 }
 
+TEST_F(WriteBehindStoreTest, CountsChangesThatWillSoonBeSaved) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_TRUE(save(credentials.id, at(1)));
+    EXPECT_EQ(writeBehind.unsaved(), 0U);
+    writeBehind.noteChange(credentials.id, kFirstFence + 1);
+    writeBehind.noteChange("nobody", kFirstFence);
+    EXPECT_EQ(writeBehind.unsaved(), 0U);
+    writeBehind.noteChange(credentials.id, kFirstFence);
+    EXPECT_EQ(writeBehind.unsaved(), 1U);
+    EXPECT_TRUE(save(credentials.id, at(2), WriteBehindStore::SaveScope::head));
+    EXPECT_EQ(writeBehind.unsaved(), 0U);
+    writeBehind.noteChange(credentials.id, kFirstFence);
+    writeBehind.close(credentials.id, at(3));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+}
+
 /// So a session that another server claims while its record is decoded is not served.
 TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
     const SessionCredentials credentials = writeBehind.create();
