@@ -62,6 +62,14 @@ def test_the_metrics_for_scaling_exist_in_the_server():
         assert f'"{name}"' in source
 
 
+def test_health_checks_send_what_the_server_answers():
+    """HAProxy's health checks send OPTIONS unless they name another method; the server answers only GET and HEAD."""
+    services = [find_object("Service", name) for name in ("oval4d", "oval4d-sessions")]
+    checks = [service["metadata"]["annotations"]["haproxy.org/check-http"] for service in services]
+    checks += re.findall("option httpchk (.*)", (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8"))
+    assert checks == 3 * ["GET /readyz"]
+
+
 def test_kustomize_accepts_the_manifests():
     done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
     assert len(list(yaml.safe_load_all(done.stdout))) == len(kubernetes_objects())
