@@ -70,6 +70,18 @@ def test_health_checks_send_what_the_server_answers():
     assert checks == 3 * ["GET /readyz"]
 
 
+def test_sessions_have_the_same_rules_as_in_the_composition():
+    proxy = (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
+    rules = re.findall("^ +(.+)", re.search("backend sessions\n(.*?)\n\n", proxy, re.DOTALL)[1], re.MULTILINE)
+    annotations = find_object("Service", "oval4d-sessions")["metadata"]["annotations"]
+    own_rules = [*annotations["haproxy.org/backend-config-snippet"].splitlines(),
+                 "balance " + annotations["haproxy.org/load-balance"]]
+    assert {rule for rule in rules if not rule.startswith("server-template")} <= set(own_rules)
+    (paths,) = re.findall("use_backend sessions if { path_beg (.*) }", proxy)
+    routed = find_object("Ingress")["spec"]["rules"][0]["http"]["paths"]
+    assert paths.split() == [path["path"] for path in routed if path["backend"]["service"]["name"] == "oval4d-sessions"]
+
+
 def test_kustomize_accepts_the_manifests():
     done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
     assert len(list(yaml.safe_load_all(done.stdout))) == len(kubernetes_objects())
