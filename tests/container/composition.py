@@ -172,11 +172,13 @@ class Composition:
         variables = self.image_variables | LONG_TIME_VARIABLES | service["environment"]
         settings = " ".join(f"{name}='{value}'" for name, value in variables.items())
         files = self.files
+        mount_tmpfs = "\n".join(f"            mount -t tmpfs -o mode=1777 none {files}{folder}" for folder in service["tmpfs"])
         return f"""
             mount --bind {files} {files}
             mount --bind {self.resolv_file} {files}/etc/resolv.conf
             mount -o remount,bind,ro {files}
             mount -t tmpfs -o mode=700,uid=999,gid=999 none {files}/var/lib/oval4d
+{mount_tmpfs}
             mount --bind /dev {files}/dev
             mount -t proc none {files}/proc
             exec env -i {settings} chroot {files} setpriv --reuid 999 --regid 999 --clear-groups --no-new-privs \

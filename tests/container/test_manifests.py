@@ -53,6 +53,19 @@ def test_references_between_manifests_resolve():
     assert find_object("Service", store.removeprefix("redis://"))
 
 
+def test_folders_for_temporary_files_are_writable():
+    """The server spools unread files in /tmp, and fields that it converts in /var/tmp."""
+    pod = find_object("Deployment")["spec"]["template"]["spec"]
+    (container,) = pod["containers"]
+    service = yaml.safe_load((ROOT / "docker/compose.yaml").read_text(encoding="utf-8"))["services"]["oval4d"]
+    folders = {"/tmp", "/var/tmp"}
+    assert container["securityContext"]["readOnlyRootFilesystem"] and service["read_only"]
+    assert {mount["mountPath"] for mount in container["volumeMounts"]} == set(service["tmpfs"]) == folders
+    assert {mount["name"] for mount in container["volumeMounts"]} == {volume["name"] for volume in pod["volumes"]}
+    documented = (ROOT / "docker/README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"--tmpfs (\S+?)[` ]", documented)) == folders
+
+
 def test_the_metrics_for_scaling_exist_in_the_server():
     """The Prometheus adapter computes the autoscaler's metric from these metrics."""
     source = (ROOT / "server/net/metrics.cpp").read_text(encoding="utf-8")
