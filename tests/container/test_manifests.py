@@ -66,6 +66,32 @@ def test_folders_for_temporary_files_are_writable():
     assert set(re.findall(r"--tmpfs (\S+?)[` ]", documented)) == folders
 
 
+def bytes_of(size):
+    """Returns a number, or a size such as 256M, 6Gi or 6g, in bytes."""
+    number, unit = re.fullmatch(r"(\d+)([KMG]?)i?", size.upper().replace("I", "i")).groups()
+    return int(number) << 10 * " KMG".index(unit or " ")
+
+
+def test_memory_limits_cover_what_the_servers_may_use():
+    """The sum is explained in server.yaml."""
+    (container,) = find_object("Deployment")["spec"]["template"]["spec"]["containers"]
+    limits = container["resources"]["limits"]
+    in_pod = {variable["name"]: variable["value"] for variable in container["env"]} | {"OVAL4D_WORKERS": limits["cpu"]}
+    service = yaml.safe_load((ROOT / "docker/compose.yaml").read_text(encoding="utf-8"))["services"]["oval4d"]
+    for limit, variables in ((limits["memory"], in_pod), (service["mem_limit"], service["environment"])):
+        workers, load_workers, load_memory, held, quota, edges, pixels, connections = (
+            bytes_of(variables[f"OVAL4D_{name}"])
+            for name in ("WORKERS", "LOAD_WORKERS", "LOAD_MEMORY", "MAX_BYTES", "STORE_QUOTA", "MAX_SLICE_EDGES", "MAX_PIXELS",
+                         "MAX_CONNECTIONS"))
+        drawing = workers + 1
+        needed = (230 << 20) + held + quota + load_workers * load_memory + 512 * edges * (workers + 1 + drawing) \
+            + 64 * pixels * drawing + (64 << 10) * connections
+        assert 0.9 * bytes_of(limit) < needed < bytes_of(limit)
+    help_text = (ROOT / "server/net/options.cpp").read_text(encoding="utf-8")
+    for name in {*in_pod, *service["environment"]}:
+        assert f'"--{name.removeprefix("OVAL4D_").lower().replace("_", "-")}"' in help_text
+
+
 def test_the_metrics_for_scaling_exist_in_the_server():
     """The Prometheus adapter computes the autoscaler's metric from these metrics."""
     source = (ROOT / "server/net/metrics.cpp").read_text(encoding="utf-8")
