@@ -85,7 +85,7 @@ void addAccess(CLI::App& app, Options& options) {
     add(app, "--token", options.token,
         "Secret that clients must send: once as ?token=… in the page's address, or as a bearer token. "
         "If one is required and none is given, a random one is printed at startup");
-    app.add_flag("--open", options.open, "Require no token, even on addresses other than loopback")
+    app.add_flag("--open", options.open, "Require no token, even on addresses other than loopback; not with --token")
         ->envname("OVAL4D_OPEN");
 }
 

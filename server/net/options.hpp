@@ -39,7 +39,7 @@ struct Options {
     /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see Network).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
     std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
-    bool open = false;  ///< require no token, even on addresses other than loopback
+    bool open = false;  ///< require no token, even on addresses other than loopback; `token` must be empty then
 
     std::size_t maxLoadMessageBytes = 8U << 20U;    ///< maximum size of a `load` message or of an uploaded state
     std::size_t maxRequestBytes = 64U << 10U;       ///< maximum size of any other message

@@ -15,6 +15,7 @@
 #include <boost/asio/strand.hpp>
 #include <csignal>
 #include <cstdlib>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -203,8 +204,8 @@ bool Server::onLoopback() const {
 /// Returns the token that clients must send: the configured one, or a random one if the server listens on an address
 /// other than loopback; empty if none is required.
 std::string Server::requiredToken() const {
-    if (options_.open || !options_.token.empty()) return options_.open ? std::string() : options_.token;
-    return onLoopback() ? std::string() : store::randomName(kTokenBytes);
+    if (!options_.token.empty()) return options_.token;
+    return options_.open || onLoopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
 void Server::onRasterizerLost(const process::ProcessLoss& loss) {
@@ -301,6 +302,10 @@ asio::awaitable<void> Server::stopOnSignal() {
 }  // namespace
 
 void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap) {
+    if (options.open && !options.token.empty())
+        throw std::invalid_argument(
+            "--open (OVAL4D_OPEN) lets everyone in without a token, so --token (OVAL4D_TOKEN) would protect nothing; "
+            "set only one of them");
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk

@@ -55,6 +55,12 @@ def test_a_port_in_use_is_reported():
         assert done.returncode == 1 and str(server.port) in done.stderr.decode()
 
 
+def test_a_token_that_would_protect_nothing_is_refused():
+    done = run_oval4d("--port", 0, "--open", "--token", "sesame")
+    assert done.returncode == 1
+    assert "--open" in done.stderr.decode() and "--token" in done.stderr.decode() and "sesame" not in done.stderr.decode()
+
+
 def test_the_serve_subcommand_starts_a_server():
     process = subprocess.Popen([str(PROGRAM), "serve", "--port", "0"], stderr=subprocess.PIPE)
     try:
