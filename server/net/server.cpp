@@ -30,6 +30,7 @@
 #include "raster/worker_rasterizer.hpp"
 #include "store/open_store.hpp"
 #include "store/secret.hpp"
+#include "text/percent_encoding.hpp"
 
 namespace oval4d::net {
 
@@ -219,7 +220,7 @@ void Server::onReaderLost(const process::ProcessLoss& loss) {
 }
 
 void Server::run() {
-    const std::string query = token_.empty() ? "" : "?token=" + token_;
+    const std::string query = token_.empty() ? "" : "?token=" + text::percentEncoded(token_);
     for (tcp::acceptor& acceptor : acceptors_) {
         spdlog::info("listening url={}{}", urlFor(acceptor.local_endpoint()), query);
         asio::co_spawn(acceptor.get_executor(), listen(acceptor), asio::detached);

@@ -12,11 +12,13 @@ from harness import DEADLINE
 SIZE = {"width": 480, "height": 270}
 
 
-def upload(server, session, token, name, body, method="PUT", moments=False, server_token=None, **query):
-    """Uploads a file; returns the http.client response, with the decoded message as `.message`."""
+def upload(server, session, token, name, body, method="PUT", moments=False, server_token=None, quote_via=quote,
+           **query):
+    """Uploads a file; returns the http.client response, with the decoded message as `.message`. `quote_via` encodes the
+    values of the query."""
     connection = http.client.HTTPConnection(server.host, server.port, timeout=DEADLINE)
     path = f"/api/v1/sessions/{session}/fields/{quote(name, safe='')}" + ("/moments" if moments else "")
-    query = urlencode(query | ({"token": server_token} if server_token else {}), quote_via=quote)
+    query = urlencode(query | ({"token": server_token} if server_token else {}), quote_via=quote_via)
     with contextlib.closing(connection):
         connection.request(method, path + ("?" + query if query else ""), body,
                            {} if token is None else {"Session-Token": token})

@@ -247,6 +247,11 @@ def test_a_token_is_generated_unless_it_is_given_or_disabled():
         assert not server.token and server.get("/api/v1/catalogue", Host="any.example").status == 200
 
 
+def test_the_printed_address_has_the_token_escaped():
+    with Server("--host", "0.0.0.0", "--token", "a+/&b=") as server:
+        assert server.get(server.url.partition(str(server.port))[2].replace("/?", "/api/v1/catalogue?")).status == 200
+
+
 def send_raw_bytes(server, data):
     import socket
 

@@ -6,11 +6,12 @@ import contextlib
 import re
 import socket
 import time
+from urllib.parse import quote, quote_plus
 
 import numpy
 import pytest
 from array_clients import SIZE, load, put, state_of, unnumbered, upload
-from array_files import WRITERS, npy, quadratic
+from array_files import WRITERS, netcdf, npy, quadratic
 from harness import DEADLINE, Server
 from surfaces import surface_volume
 from wire import Client, Refused
@@ -235,6 +236,15 @@ async def test_many_uploads_at_once(server):
                                                      npy(quadratic() + n)), range(16)))
         assert [answer.status for answer in answers] == [200] * 16
         assert sorted(answer.message["revision"] for answer in answers) == list(range(1, 17))
+
+
+@pytest.mark.parametrize("encoding", [quote, quote_plus])
+async def test_a_variable_with_a_plus_and_a_blank_is_found(server, encoding):
+    async with Client(server) as client:
+        file = netcdf(quadratic(), "u+v mean")
+        answer = await put(client, "u+v mean", file, quote_via=encoding, variable="u+v mean", axes="tzyx")
+        assert answer.status == 200, answer.body
+        assert (await state_of(client))["polytope"]["name"] == "u+v mean"
 
 
 async def test_an_upload_needs_the_token_of_the_server_too():

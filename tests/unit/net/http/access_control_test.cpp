@@ -93,6 +93,10 @@ TEST(RequestTarget, ReadsPlusAsBlankUnlessItAdds) {
     EXPECT_EQ(value("rotate=xw:30+%C2%B0"), "xw:30 °");  // a unit is no operand
     EXPECT_EQ(value("rotate=xw,yz:30+deg,0.5+rad"), "xw,yz:30 deg,0.5 rad");
     EXPECT_EQ(value("alpha=0.5+deg(30)+degree"), "0.5+deg(30)+degree");
+    for (const std::string name : {"variable", "values_variable"}) {  // names in files, not arithmetic
+        EXPECT_EQ(value(name + "=air+temperature"), "air temperature");
+        EXPECT_EQ(value(name + "=u%2Bv+%2B+w"), "u+v + w");
+    }
 }
 
 TEST(RequestTarget, LeavesOutWhatOtherSitesAppend) {
