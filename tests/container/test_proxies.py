@@ -2,12 +2,14 @@
 
 import asyncio
 import http.client
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 import websockets
+import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/service"))
@@ -66,7 +68,9 @@ def test_a_proxy_serves_the_page_and_its_session(proxy):
     server, port = proxy
     origin = f"http://127.0.0.1:{port}"
     answer, _ = get(port, "/oval")
-    assert answer.status in (301, 302, 308) and answer.getheader("Location").endswith("/oval/")
+    assert answer.status in (301, 302, 308) and answer.getheader("Location").removesuffix("?").endswith("/oval/")
+    answer, _ = get(port, "/oval?polytope=24-cell&token=a%2Bb")
+    assert answer.getheader("Location").endswith("/oval/?polytope=24-cell&token=a%2Bb")
     for file, begin in (("", b"<!doctype html>"), ("app.js", b"")):
         answer, body = get(port, f"/oval/{file}", Origin=origin)
         assert answer.status == 200 and body.lower().startswith(begin)
@@ -74,3 +78,13 @@ def test_a_proxy_serves_the_page_and_its_session(proxy):
     assert answer.status == 200 and body.startswith(b"\x89PNG")
     asyncio.run(conversation(port, origin))
     assert "X-Forwarded-For has no address" not in server.log()
+
+
+def test_the_redirect_of_traefik_keeps_the_query():
+    middlewares = yaml.safe_load((EXAMPLES / "traefik.yaml").read_text(encoding="utf-8"))["http"]["middlewares"]
+    redirect = middlewares["slash"]["redirectRegex"]
+    replacement = re.sub(r"\$\{(\d)\}", r"\\\1", redirect["replacement"])
+    for address, expected in (("https://host/oval", "https://host/oval/"), ("https://host/oval/", "https://host/oval/"),
+                              ("http://host:80/oval?a=b/c", "http://host:80/oval/?a=b/c"),
+                              ("https://host/oval/?a=b", "https://host/oval/?a=b")):
+        assert re.sub(redirect["regex"], replacement, address) == expected
