@@ -121,6 +121,13 @@ def test_sessions_have_the_same_rules_as_in_the_composition():
     assert paths.split() == [path["path"] for path in routed if path["backend"]["service"]["name"] == "oval4d-sessions"]
 
 
+def test_forged_addresses_of_clients_are_removed():
+    for name in ("oval4d", "oval4d-sessions"):
+        rules = find_object("Service", name)["metadata"]["annotations"]["haproxy.org/backend-config-snippet"].splitlines()
+        assert "http-request del-header X-Forwarded-For" in rules
+    assert "http-request set-header X-Forwarded-For %[src]" in (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
+
+
 def test_kustomize_accepts_the_manifests():
     done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
     assert len(list(yaml.safe_load_all(done.stdout))) == len(kubernetes_objects())

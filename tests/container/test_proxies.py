@@ -76,6 +76,9 @@ def test_a_proxy_serves_the_page_and_its_session(proxy):
         assert answer.status == 200 and body.lower().startswith(begin)
     answer, body = get(port, "/oval/api/v1/frame.png?polytope=24-cell&width=64&height=64", Origin=origin)
     assert answer.status == 200 and body.startswith(b"\x89PNG")
+    clients = server.metric("oval4d_clients")
+    get(port, "/oval/", **{"X-Forwarded-For": "198.51.100.7"})
+    assert server.metric("oval4d_clients") == clients  # the proxy replaces what the client has sent
     asyncio.run(conversation(port, origin))
     assert "X-Forwarded-For has no address" not in server.log()
 
