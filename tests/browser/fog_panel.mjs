@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { accurateBrowser, presented, spoken } from "./support/browser.mjs";
+import { drawBy } from "./support/drawing.mjs";
 import { openPanel, write } from "./support/field.mjs";
 
 test("field panel: fog can be shown, edited by dragging and typing, and taken back", async () => {
@@ -86,6 +87,31 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     await page.waitForFunction(() => document.querySelector("[data-fog='color 1']")?.value === "#00ff80");
     assert.deepEqual(await fogOf(), colored.fog);
     await write(page, script, "x^2+y^2+z^2+w^2*2");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: behind the curve of fog is the distribution of the values of this field", async () => {
+    const { page, script, errors, close } = await openPanel();
+    const outline = () => page.locator("#fog-curve .values").getAttribute("d");
+    await write(page, script, "max(-1, min(1, x))");
+    await page.click("#fog-show");
+    await script.until(({ fog }) => fog.length > 0, "fog");
+    const first = await outline();
+    assert.match(first, /^M.*Z$/);
+    const { fog } = await write(page, script, "max(-1, min(1, x^3/4))"); // its values have the same range
+    assert.ok(fog.length > 0, "the fog stays");
+    const second = await outline();
+    assert.match(second, /^M.*Z$/);
+    assert.notEqual(second, first);
+
+    // With the server's pictures, the page knows no distribution of the next field.
+    await drawBy(page, "frames");
+    await write(page, script, "max(-1, min(1, x^3/2))");
+    assert.equal(await outline(), "");
+    await drawBy(page, "geometry");
+    await page.waitForFunction(() => document.querySelector("#fog-curve .values").getAttribute("d") !== "");
+    assert.ok(![first, second].includes(await outline()));
     assert.deepEqual(errors, []);
     await close();
 });

@@ -24,11 +24,20 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     const rows = density.length / columns;
     // The numbers in `density` are cube roots of how often a value occurs. The greatest value is in row 0.
     const counts = Array.from({ length: rows }, (_, row) => {
-        const tones = density.subarray((rows - 1 - row) * columns, (rows - row) * columns);
-        return tones.reduce((sum, tone) => sum + tone ** 3, 0);
+        let sum = 0; // a loop, because this is done for each picture
+        for (const tone of density.subarray((rows - 1 - row) * columns, (rows - row) * columns)) sum += tone ** 3;
+        return sum;
     });
     const most = Math.max(...counts, 1);
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
+}
+
+const kVisible = 0.02; // the least difference of tones that is shown; by less, a turn changes them, as they are rounded
+
+/** Whether two distributions look the same. */
+export function looksLike(one: ValueDistribution, other: ValueDistribution): boolean {
+    if (String(one.range) !== String(other.range)) return false;
+    return one.tones.every((tone, i) => Math.abs(tone - (other.tones[i] ?? NaN)) < kVisible);
 }
 
 /** Fog for a body inside a level: dense where the values are farthest inside, thinner at the level, clear outside. */

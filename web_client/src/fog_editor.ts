@@ -5,7 +5,7 @@ import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
 
 import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
-import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction } from "./fog";
+import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction, looksLike } from "./fog";
 import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
@@ -38,7 +38,9 @@ export class FogEditor {
     private rows: Row[] = [];
     private points: FogPoint[] = []; // what the editor shows
     private state: State | undefined;
-    private distribution: ValueDistribution | undefined; // of the newest picture with a histogram
+    private field = ""; // textOf() of the state
+    // Of the field of the state; undefined until a picture of the field has a histogram.
+    private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
     private dragged: number | undefined; // the index of the point that is dragged
     private drag = 0; // number of the newest drag on the curve or in a dialog for colors: its changes are one undo step
@@ -64,17 +66,24 @@ export class FogEditor {
     update(state: State): void {
         this.state = state;
         this.showButton.disabled = state.fog === undefined;
+        const field = textOf(state);
+        if (field !== this.field) {
+            this.field = field;
+            this.distribution = undefined;
+            this.draw();
+        }
         const isOld = this.lastChange.recordAndCheckIfOld(state);
         if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // what the editor shows is newer
         this.points = state.fog ?? [];
         this.draw();
     }
 
-    /** Takes over the distribution of the values from a picture's histogram, unless its range is the present one. */
+    /** Takes over the distribution of the values from the histogram of a picture, if that shows the newest state. */
     updatePicture(picture: Slices): void {
-        const { histogram } = picture;
-        if (!histogram || String(histogram.range) === String(this.distribution?.range)) return;
-        this.distribution = distributionOf(picture);
+        if (picture.revision !== this.state?.revision) return;
+        const distribution = distributionOf(picture);
+        if (!distribution || (this.distribution && looksLike(distribution, this.distribution))) return;
+        this.distribution = distribution;
         if (this.dragged === undefined) this.draw();
     }
 
@@ -259,6 +268,11 @@ export class FogEditor {
         const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);
         return { root, value, opacity, color, remove };
     }
+}
+
+/** A text that differs for different fields. Arrays of the same name, shape and range are not told apart. */
+function textOf({ polytope, field }: State): string {
+    return field ? JSON.stringify([polytope.name, field.formula, field.shape, field.range, field.box]) : "";
 }
 
 function shape(name: string, attributes: Record<string, string>): SVGElement {
