@@ -1,5 +1,8 @@
 // Loading files from the user's disk, chosen or dropped on the page.
 import assert from "node:assert/strict";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { test } from "./support/suite.mjs";
 
 import { common, named, openWithScript, presented, restart, scriptFor } from "./support/browser.mjs";
@@ -258,6 +261,29 @@ test("loading: after a restart of the server, the file is loaded again", async (
     second.leave();
     await close();
     await server.stop();
+});
+
+test("loading: after a restart of the server, a field of its data folder is opened again", async () => {
+    const folder = await mkdtemp(join(tmpdir(), "oval4d-data-"));
+    const path = `${"a long name of a ".repeat(4)}ball.npy`; // longer than names of objects may be
+    await writeFile(join(folder, path), ballFile(path).buffer);
+    const server = await startReplaceableServer({ options: ["--data", folder] });
+    const { page, script, close } = await openWithScript({ url: server.url });
+    await page.click("#polytope");
+    await page.click(`#picker-list [data-name="${path}"]`);
+    const { name } = (await script.until(({ field }) => field?.shape, "the field")).polytope;
+    assert.ok(path.endsWith(name), name);
+    await named(page, name);
+    await page.waitForSelector("#picker", { state: "hidden" });
+    script.leave();
+    await restart(server, page);
+    const second = await scriptFor(page, server.url);
+    const { field } = await second.until((one) => one.polytope.name === name, "the field in the new session");
+    assert.deepEqual(field.shape, [8, 8, 8, 8]);
+    second.leave();
+    await close();
+    await server.stop();
+    await rm(folder, { recursive: true });
 });
 
 test("loading: if a polytope cannot be loaded again, the rest of the view is restored", async () => {

@@ -17,6 +17,7 @@ import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
 import { fieldOfLine, loadOf, type FormulaWithBox } from "./fields";
 import { FileLoading } from "./file_loading";
+import { nameOf } from "./files";
 import { WelcomeLine } from "./first_visit";
 import { FocusPointControl } from "./focus_point_control";
 import { FocusPointDrag } from "./focus_point_drag";
@@ -162,7 +163,7 @@ export class App {
     });
     private readonly headerValues = new HeaderValues((line) => this.request({ type: "command", line }));
     private readonly picker = new Picker(
-        (name, isData) => this.request(isData ? { type: "load", name, path: name } : { type: "set", polytope: name }),
+        (name, isData) => (isData ? this.loadData(name) : this.request({ type: "set", polytope: name })),
         (error) => this.notice.show(error.message),
     );
     private readonly fileLoading = new FileLoading(this.client, (state) =>
@@ -428,6 +429,13 @@ export class App {
         const [loaded, changed] = await Promise.allSettled(answers);
         if (loaded!.status === "rejected") throw loaded!.reason;
         return (changed?.status === "fulfilled" ? changed : loaded!).value.revision;
+    }
+
+    /** Loads a field of the server's data folder. */
+    private async loadData(path: string): Promise<void> {
+        const data = { name: nameOf({ name: path }), path };
+        await this.request({ type: "load", ...data });
+        this.fileLoading.keep(data);
     }
 
     private openPicker(): void {

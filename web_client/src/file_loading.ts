@@ -14,6 +14,9 @@ const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states n
 const kMaxKept = 8; // files, as many as a session holds objects
 const kMaxExcerptWidth = 120; // characters that are shown of a line of the file
 
+/** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
+type Kept = LoadContent | File | { name: string; path: string };
+
 export class FileLoading {
     private readonly root = byId("loading");
     private readonly title = byId("loading-title");
@@ -21,7 +24,7 @@ export class FileLoading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly dropTarget = byId("drop");
-    private readonly kept = new Map<string, LoadContent | File>(); // what this page loaded, by name; arrays as files
+    private readonly kept = new Map<string, Kept>(); // what this page loaded, by name
     private queue: Promise<void> = Promise.resolve();
 
     constructor(
@@ -42,7 +45,15 @@ export class FileLoading {
         this.chooser.click();
     }
 
-    /** Loads the file of this name again, into a new session; does nothing if this page has not loaded it before. */
+    /** Keeps an object that was loaded from this page, for reload(). */
+    keep(object: Kept): void {
+        const name = object instanceof File ? nameOf(object) : object.name;
+        this.kept.delete(name);
+        this.kept.set(name, object);
+        if (this.kept.size > kMaxKept) this.kept.delete([...this.kept.keys()][0]!);
+    }
+
+    /** Loads the object of this name again, into a new session; does nothing if this page has not loaded it before. */
     async reload(name: string): Promise<void> {
         const object = this.kept.get(name);
         if (object instanceof File) await this.upload(object);
@@ -137,14 +148,6 @@ export class FileLoading {
             this.showSent(unsentBytes > 0 ? Math.min(1 - unsentBytes / all, 0.999) : 1);
         }, kProgressInterval);
         return await answer.finally(() => clearInterval(timer));
-    }
-
-    /** Keeps an object that was loaded from this page, for reload(). */
-    private keep(object: LoadContent | File): void {
-        const name = object instanceof File ? nameOf(object) : object.name;
-        this.kept.delete(name);
-        this.kept.set(name, object);
-        if (this.kept.size > kMaxKept) this.kept.delete([...this.kept.keys()][0]!);
     }
 
     private showProgress(name: string): void {

@@ -76,7 +76,7 @@ function formatOf(name: string, data: string): LoadContent["format"] {
 }
 
 /** The name under which a file is loaded: at most the last kMaxNameLength characters of the file's name; never "". */
-export function nameOf({ name }: File): string {
+export function nameOf({ name }: { name: string }): string {
     const text = [...name.replace(/\p{C}/gu, "")].slice(-kMaxNameLength).join("").trim();
     return text === "" ? "file" : text;
 }

@@ -7,15 +7,15 @@ import { startServer } from "./server.mjs";
 import { atEnd } from "./suite.mjs";
 
 /** A server at an address that stays the same when another server takes its place. */
-export async function startReplaceableServer() {
-    let server = await startServer();
+export async function startReplaceableServer(how) {
+    let server = await startServer(how);
     const proxy = await startProxy(server.url, "");
     return {
         url: proxy.url,
         /** Stops the server as an operator does; then nothing answers at the address. */
         stop: () => server.stop(),
         async startAnother() {
-            server = await startServer();
+            server = await startServer(how);
             proxy.target = server.url;
         },
     };
