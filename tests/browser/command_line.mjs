@@ -238,6 +238,8 @@ test("command line: :export explains what it cannot save, and without a format o
     await page.keyboard.press("Escape");
     await type(page, "export");
     await page.waitForSelector("#export[open]");
+    const chosen = page.locator("#export [name=format]:checked");
+    assert.equal(await chosen.inputValue(), "3mf", "the commands have not chosen another format for the dialog");
     await page.keyboard.press("Escape");
     await page.waitForSelector("#drawing:focus");
     assert.deepEqual(errors, []);

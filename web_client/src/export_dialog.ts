@@ -75,14 +75,35 @@ export class ExportDialog {
             const names = [...kAllFormats.map((one) => one.name), "latency"].join(", ");
             throw new Error(`no format is called “${name}”; the formats are ${names}`);
         }
-        this.field("format").value = format.name;
-        this.prepare(state);
-        if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
-        const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
-        if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
-        if (format.name === "png" && words.length > 0) throw new Error("the size of a PNG is chosen in the export dialog");
-        const options = withChanges(this.options, given);
-        this.finish(await this.requestFile(format, options), format, options);
+        const { options, file } = this.withoutChoosing(() => {
+            this.field("format").value = format.name;
+            this.prepare(state);
+            if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
+            const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
+            if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
+            if (format.name === "png" && words.length > 0) {
+                throw new Error("the size of a PNG is chosen in the export dialog");
+            }
+            const changed = withChanges(this.options, given);
+            return { options: changed, file: this.requestFile(format, changed) };
+        });
+        this.finish(await file, format, options, state);
+    }
+
+    /** Calls a function that changes the form, then restores what is chosen in the form. */
+    private withoutChoosing<T>(use: () => T): T {
+        const { bodyToRestore } = this;
+        const inputs = [...this.form.querySelectorAll("input")].map((input) => {
+            const { value, checked } = input;
+            return { input, chosen: { value, checked } };
+        });
+        try {
+            return use();
+        } finally {
+            for (const { input, chosen } of inputs) Object.assign(input, chosen);
+            this.bodyToRestore = bodyToRestore;
+            if (this.dialog.isOpen) this.showOptions();
+        }
     }
 
     private prepare(state: State): void {
@@ -251,7 +272,7 @@ export class ExportDialog {
         try {
             const file = await this.requestFile(format, options);
             if (number !== this.requestNumber) return;
-            this.finish(file, format, options);
+            this.finish(file, format, options, this.state!);
             this.dialog.close();
         } catch (error) {
             if (number !== this.requestNumber) return;
@@ -282,26 +303,13 @@ export class ExportDialog {
         return { bytes: await this.client.request({ type: "get", what: "frame", ...request }), warnings: [] };
     }
 
-    private finish({ bytes, warnings }: ExportedFile, format: Format, options: Options): void {
-        download(bytes, this.fileNameFor(format, options), format.type);
+    private finish({ bytes, warnings }: ExportedFile, format: Format, options: Options, state: State): void {
+        download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }
 
     private formValues(): Record<string, string> {
         return Object.fromEntries(new FormData(this.form)) as Record<string, string>;
-    }
-
-    private fileNameFor({ name, choices }: Format, { of, fit, at, body }: Options): string {
-        const state = this.state!;
-        const parts = [state.polytope.name];
-        if (fit !== undefined) parts.push(`${fit} slices`);
-        else if (at !== undefined) parts.push("slices");
-        else if (of === "highlight") parts.push(nameOf(state.highlight));
-        else if (of === "focus") parts.push(`w ${focusW(state).replace("\u2212", "-")}`);
-        else if (of === "coordinates" && state.field) parts.push("histogram");
-        else if (of !== undefined && choices.includes("of")) parts.push(String(of));
-        if (body === "skeleton") parts.push("skeleton");
-        return fileName(parts, name);
     }
 
     /** Abandons a request in progress, and clears the error. */
@@ -311,6 +319,18 @@ export class ExportDialog {
         this.submit.disabled = false;
         this.submit.textContent = `Download ${this.format.label}`;
     }
+}
+
+function fileNameFor(state: State, { name, choices }: Format, { of, fit, at, body }: Options): string {
+    const parts = [state.polytope.name];
+    if (fit !== undefined) parts.push(`${fit} slices`);
+    else if (at !== undefined) parts.push("slices");
+    else if (of === "highlight") parts.push(nameOf(state.highlight));
+    else if (of === "focus") parts.push(`w ${focusW(state).replace("\u2212", "-")}`);
+    else if (of === "coordinates" && state.field) parts.push("histogram");
+    else if (of !== undefined && choices.includes("of")) parts.push(String(of));
+    if (body === "skeleton") parts.push("skeleton");
+    return fileName(parts, name);
 }
 
 /** The name of an element, such as "cell 17". */
