@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { idle, openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { type } from "./support/command_line.mjs";
 import { passTime } from "./support/page_time.mjs";
 
 const kSlider = "#focus-w";
@@ -307,6 +308,11 @@ function holdMoves() {
     };
 }
 
+/** The w of the focus slice, with the decimals that the page shows. */
+function shownW({ section, slices }) {
+    return section.w.toFixed(Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1));
+}
+
 test("slider: playing stops at a drag, a key that moves the focus, another client, an export, or when the page is hidden", async () => {
     const { page, script, close } = await openSlider({ isStopped: true, before: holdMoves });
     const stopped = () => page.waitForSelector("#focus-play[aria-pressed=false]");
@@ -334,11 +340,16 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
             await page.waitForFunction(() => window.holdsMove());
             await page.click("#export-button");
             await page.evaluate(() => window.release());
-            const { section, slices } = await stateAfter(page, script);
-            const decimals = Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1);
-            const w = section.w.toFixed(decimals).replace("-", "\u2212");
+            const w = shownW(await stateAfter(page, script)).replace("-", "\u2212");
             await page.waitForSelector(`#export-focus:text-is("w = ${w}")`);
             await page.keyboard.press("Escape");
+        },
+        async "export command"() {
+            const saving = page.waitForEvent("download");
+            await type(page, "export stl");
+            await stopped();
+            const w = shownW(await stateAfter(page, script));
+            assert.equal((await saving).suggestedFilename(), `600-cell-w-${w}.stl`);
         },
         hidden: () =>
             page.evaluate(() => {

@@ -401,8 +401,8 @@ export class App {
                 this.commandLine.close();
                 this.help.open(topic);
             },
-            exportFile: (description) => {
-                if (description !== "") return this.state && this.exportDialog.save(description, this.state);
+            exportFile: async (description) => {
+                if (description !== "") return this.saveFile(description);
                 this.commandLine.close();
                 return this.openExport();
             },
@@ -468,6 +468,14 @@ export class App {
         if (!this.state) return;
         if (highlight) this.exportDialog.open({ ...this.state, highlight }, "highlight");
         else this.exportDialog.open(this.state);
+    }
+
+    /** Saves the file that a format and options describe. */
+    private async saveFile(description: string): Promise<void> {
+        this.slider.stop();
+        // A move of the focus may be on its way. The file shows the slice after it, so its name must say that one, too.
+        const state = await this.client.request({ type: "get", what: "state" });
+        await this.exportDialog.save(description, state);
     }
 
     /** Requests a change, and tracks it until its picture is presented. */

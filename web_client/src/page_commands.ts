@@ -4,7 +4,7 @@ export interface PageCommands {
     /** Opens the help. If the topic is not "", shows only the lines that mention it. */
     help(topic: string): void;
     /** Saves the file that a format and options describe, such as "stl fit=5". For "", opens the export dialog. */
-    exportFile(description: string): Promise<void> | undefined | void;
+    exportFile(description: string): Promise<void>;
 }
 
 /** Executes a line; returns false if it is not a command of the page. */
