@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript, presented } from "./support/browser.mjs";
+import { named, openWithScript, presented, ready } from "./support/browser.mjs";
 import { bytesOf, pagesOf } from "./support/downloads.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
@@ -315,8 +315,13 @@ test("export: a PNG has the chosen size, and contains the state", async () => {
     assert.equal(large.name, "5-cell.png");
     assert.deepEqual([decode(large.bytes).width, decode(large.bytes).height], [1920, 1080]);
     assert.deepEqual(JSON.parse(pngText(large.bytes)).orientation, state.orientation);
-    const own = await exported(page, {}, { width: 300, height: 200 });
+    const own = await exported(page, { preset: "" }, { width: 300, height: 200 });
     assert.deepEqual([decode(own.bytes).width, decode(own.bytes).height], [300, 200]);
+    await page.reload();
+    await ready(page);
+    await openExport(page);
+    assert.equal(await page.inputValue("#export [name=width]"), "300", "the size survives a reload");
+    await page.keyboard.press("Escape");
     assert.equal((await script.state()).revision, state.revision);
     await close();
 });

@@ -194,7 +194,9 @@ export class ExportDialog {
         const choices = this.formValues();
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
         else if (this.bodyToRestore !== undefined) choices["body"] = this.bodyToRestore;
-        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...choices });
+        const stored = { ...readStored<Record<string, string>>(kChoicesKey), ...choices };
+        if ("width" in choices && !("preset" in choices)) delete stored["preset"]; // the size is that of no preset
+        writeStored(kChoicesKey, stored);
     }
 
     private closed(): void {
