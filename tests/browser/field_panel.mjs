@@ -311,6 +311,26 @@ test("field panel: the panel continues with a formula of the command line", asyn
     await close();
 });
 
+/** Runs in the page: while `window.isRefused`, the levels that it sends are not valid. */
+function spoilLevels() {
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+        const message = JSON.parse(text);
+        return send.call(this, window.isRefused && message.levels ? JSON.stringify({ ...message, levels: [1, 1] }) : text);
+    };
+}
+
+test("field panel: if only the levels of a formula are refused, the formula is shown, and the reason is told", async () => {
+    const { page, script, errors, close } = await openPanel({ before: spoilLevels });
+    await write(page, script, "x^2+y^2+z^2+w^2 < 1");
+    await page.evaluate(() => void (window.isRefused = true));
+    const { field } = await write(page, script, "x^2+y^2+z^2+w^2 < 2");
+    assert.match(field.formula, /< ?2$/);
+    await page.waitForFunction(() => /levels/.test(document.getElementById("notice").textContent));
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("field panel: after a restart of the server, the formula is loaded again", async () => {
     const server = await startReplaceableServer();
     const { page, script, close } = await openPanel({ url: server.url });

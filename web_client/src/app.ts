@@ -417,8 +417,8 @@ export class App {
 
     /**
      * Loads a formula, then changes settings; resolves to the revision after both. Rejects if the formula is refused.
-     * If only the settings are refused, resolves to the revision of the formula without them. `continues` tells whether
-     * the formula belongs to the undo step of the previous command.
+     * If only the settings are refused, shows why, and resolves to the revision of the formula without them. `continues`
+     * tells whether the formula belongs to the undo step of the previous command.
      */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both requests are sent at once, so that no picture shows the formula without the settings.
@@ -428,6 +428,7 @@ export class App {
         }
         const [loaded, changed] = await Promise.allSettled(answers);
         if (loaded!.status === "rejected") throw loaded!.reason;
+        if (changed?.status === "rejected") this.notice.show((changed.reason as Error).message);
         return (changed?.status === "fulfilled" ? changed : loaded!).value.revision;
     }
 
