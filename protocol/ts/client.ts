@@ -51,9 +51,10 @@ export interface Options {
     onError?(error: ErrorMessage): void;
     /**
      * Called if the server refuses the first hello of a connection. If a viewport is returned, the client asks once
-     * more, with this size; otherwise it reports the refusal as the reason, and connects again later.
+     * more, with this size, or for "default" with the server's default; otherwise it reports the refusal as the reason,
+     * and connects again later.
      */
-    onRefused?(error: RequestError): Viewport | undefined;
+    onRefused?(error: RequestError): Viewport | "default" | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
     onLost?(reason: string): void;
 }
@@ -152,15 +153,15 @@ export class Client {
     private async begin(): Promise<void> {
         let refusal = await this.firstHello({});
         if (refusal?.code === "not_connected") return; // the connection has ended
-        const viewport = refusal && this.options.onRefused?.(refusal);
-        if (viewport) refusal = await this.firstHello({ viewport });
+        const size = refusal && this.options.onRefused?.(refusal);
+        if (size) refusal = await this.firstHello({ viewport: size === "default" ? undefined : size });
         // The server closes the connection itself if it does not open the session. After other refusals, it waits.
         if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
         this.closed(1006, refusal.message);
     }
 
     /** Resolves to the error if the server refuses. If it does not answer, the connection counts as lost. */
-    private firstHello(change: { viewport?: Viewport }): Promise<RequestError | undefined> {
+    private firstHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.closed(1006, "the server does not answer"), kWelcomeTimeout * 1000);
         return this.hello(change).then(
@@ -176,8 +177,16 @@ export class Client {
         this.report({ kind: "closed", reason });
     }
 
-    /** Changes the stream, the encoding, the size or the scheme of pictures, for this connection and for later ones. */
-    hello(change: { stream?: Stream; encoding?: Encoding; viewport?: Viewport; scheme?: Scheme }): Promise<Welcome> {
+    /**
+     * Changes the stream, the encoding, the size or the scheme of pictures, for this connection and for later ones. If
+     * the viewport is undefined, the server chooses the size.
+     */
+    hello(change: {
+        stream?: Stream;
+        encoding?: Encoding;
+        viewport?: Viewport | undefined;
+        scheme?: Scheme;
+    }): Promise<Welcome> {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;

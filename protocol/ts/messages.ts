@@ -192,11 +192,11 @@ export interface HelloRequest {
     encoding?: Encoding;
     scheme?: Scheme;
     /**
-     * In pixels; the server's limits are in welcome. 1280 if absent.
+     * In pixels; the server's limits are in welcome. If absent, 1280, or as near to it as they allow.
      */
     width?: number;
     /**
-     * In pixels; the server's limits are in welcome. 720 if absent.
+     * In pixels; the server's limits are in welcome. If absent, 720, or as near to it as they allow.
      */
     height?: number;
     /**

@@ -1,8 +1,27 @@
 #include "pipeline/frame_limits.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace oval4d::pipeline {
+
+scene::Viewport usualViewport(const FrameLimits& limits) {
+    const scene::Viewport usual;
+    const int width = std::max(limits.minSide, std::min(usual.width, limits.maxWidth));
+    const int height = std::max(limits.minSide, std::min(usual.height, limits.maxHeight));
+    const double pixels = static_cast<double>(width) * height;
+    const double scale = std::min(1.0, std::sqrt(static_cast<double>(limits.maxPixels) / pixels));
+    // Returns the largest side up to `side` that a picture may have beside a side of this length.
+    const auto beside = [&limits](int length, int side) {
+        return std::max(limits.minSide, static_cast<int>(std::min<std::int64_t>(side, limits.maxPixels / length)));
+    };
+    scene::Viewport out;
+    out.height = std::max(limits.minSide, static_cast<int>(height * scale));
+    out.width = beside(out.height, width);
+    out.height = beside(out.width, out.height);  // shorter if the width cannot be
+    return out;
+}
 
 Result<scene::Viewport> checkViewport(scene::Viewport viewport, const FrameLimits& limits) {
     const auto [width, height] = viewport;

@@ -14,6 +14,10 @@ struct FrameLimits {
     std::int64_t maxPixels = 16'777'216;
 };
 
+/// Returns the size of a picture for which none is given: that of a default scene::Viewport, or as near to it as the
+/// limits allow. If they allow no size at all, checkViewport() refuses the result.
+scene::Viewport usualViewport(const FrameLimits& limits);
+
 /// Returns the viewport if it is within the limits, else the error `out_of_range`, whose message says what is allowed.
 Result<scene::Viewport> checkViewport(scene::Viewport viewport, const FrameLimits& limits);
 

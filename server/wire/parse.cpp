@@ -120,7 +120,7 @@ Hello bodyOf(const json& message) {
     Hello hello;
     choose(message, "stream", kStreams, hello.stream);
     choose(message, "encoding", kEncodings, hello.encoding);
-    hello.viewport = viewportOf(message).value_or(scene::Viewport{});
+    hello.viewport = viewportOf(message);
     choose(message, "scheme", scene::kSchemes, hello.scheme);
     take(message, "token", hello.token);
     return hello;

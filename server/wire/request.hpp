@@ -39,7 +39,7 @@ struct Hello {
     static constexpr std::string_view kMessageType = "hello";
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
-    scene::Viewport viewport;
+    std::optional<scene::Viewport> viewport;     ///< absent if the server chooses the size
     scene::Scheme scheme = scene::Scheme::dark;  ///< for pictures with scene::Background::automatic
     std::optional<std::string> token;            ///< the token of the session that the connection joins
 };

@@ -104,6 +104,19 @@ test("connection: pictures are within the limits of a server that allows only sm
     await server.stop();
 });
 
+test("connection: pictures are within the limits of a server that allows no small ones", async () => {
+    const server = await startServer({ options: ["--min-side", "300", "--max-width", "400", "--max-height", "400"] });
+    const { page, errors, close } = await openPage({ url: server.url });
+    await ready(page);
+    const sizeOf = (one) => [one.width, one.height];
+    const sides = await page.locator("#drawing canvas.solids").evaluate(sizeOf);
+    assert.ok(sides.every((side) => side >= 300 && side <= 400), `${sides} pixels`);
+    assert.equal(await connection(page), "Connected");
+    assert.deepEqual(errors, []);
+    await close();
+    await server.stop();
+});
+
 test("connection: the page shows why the server refuses its session", async () => {
     const server = await startServer({ options: ["--max-sessions", "1"] });
     const first = await openPage({ url: server.url });

@@ -10,6 +10,7 @@ import time
 import pytest
 import websockets
 from harness import DEADLINE, Server, run_oval4d
+from png import pixels
 from test_pacing import masked_frame, open_nonreading_socket
 from wire import Client, Refused, connect, handshake_status
 
@@ -38,6 +39,20 @@ async def test_the_welcome_message_states_the_limits():
             await client.wait_until(lambda: any(m.get("code") == "bad_json" for m in client.messages if isinstance(m, dict)))
             await client.socket.send(" " * 65537)
             assert await client.wait_for_close_code() == 1009
+
+
+@pytest.mark.parametrize("options, size", [
+    (("--max-pixels", 57_600), (320, 180)),
+    (("--max-width", 640), (640, 720)),
+    (("--min-side", 400, "--max-pixels", 200_000), (500, 400)),
+])
+async def test_pictures_without_a_size_are_within_the_limits(options, size):
+    with Server(*options) as server:
+        async with Client(server) as client:
+            frame = await client.request_frame()
+        answer = await asyncio.to_thread(server.get, "/api/v1/frame.png")
+        assert answer.status == 200
+        assert pixels(frame)[0] == pixels(answer.body)[0] == size
 
 
 async def test_the_number_of_edges_of_slices_is_limited():

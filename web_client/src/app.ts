@@ -52,8 +52,6 @@ import { Tour } from "./tour";
 
 const kResizeDelay = 120; // milliseconds after the last change of the size, before pictures of this size are requested
 
-const kAllowedSize = { width: 256, height: 256 }; // of a picture that every server allows, unless it is set up oddly
-
 export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
@@ -96,8 +94,8 @@ export class App {
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        // `welcome` tells the largest size; its answer is a hello with the page's size within this limit.
-        onRefused: ({ code }) => (code === "out_of_range" ? kAllowedSize : undefined),
+        // `welcome` tells the allowed sizes; its answer is a hello with the page's size within these limits.
+        onRefused: ({ code }) => (code === "out_of_range" ? "default" : undefined),
         onLost: (reason) => this.session.lost(reason, this.state),
     });
     private readonly session = new PageSession(this.client, this.initialView, {

@@ -55,7 +55,7 @@ double residentBytes() {
 /// Removes `width` and `height` from a query, and returns the viewport that they describe after checking it against the
 /// limits.
 Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
-    scene::Viewport viewport;
+    scene::Viewport viewport = pipeline::usualViewport(limits);
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
         if (name == "width" || name == "height") {

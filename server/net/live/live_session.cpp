@@ -151,7 +151,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello h
         peer->close(close_code::kStopping, kTakenOverReason);
         co_return;
     }
-    streams_->add(peer, {hello.stream, hello.encoding, hello.viewport, hello.scheme});
+    streams_->add(peer, {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     streams_->update();

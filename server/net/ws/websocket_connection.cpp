@@ -267,10 +267,13 @@ asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {
 }
 
 asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, RequestId id) {
-    if (const auto fits = pipeline::checkViewport(hello.viewport, services_.options.frame); !fits) {
-        sendError(fits.error(), id);
+    const pipeline::FrameLimits& limits = services_.options.frame;
+    const auto viewport = pipeline::checkViewport(hello.viewport.value_or(pipeline::usualViewport(limits)), limits);
+    if (!viewport) {
+        sendError(viewport.error(), id);
         co_return;
     }
+    hello.viewport = *viewport;
     SessionManager::JoinResult joined = kInternalError;
     joining_ = true;
     try {

@@ -30,7 +30,7 @@ TEST(Parse, Hello) {
     const auto plain = std::get<Hello>(parsed(R"({"type":"hello","stream":"geometry"})").body);
     EXPECT_EQ(plain.stream, Stream::geometry);
     EXPECT_EQ(plain.encoding, Encoding::json);
-    EXPECT_EQ(plain.viewport, (scene::Viewport{1280, 720}));
+    EXPECT_FALSE(plain.viewport);
     EXPECT_FALSE(plain.token);
     EXPECT_EQ(plain.scheme, scene::Scheme::dark);
     EXPECT_EQ(std::get<Hello>(parsed(R"({"type":"hello"})").body).stream, Stream::none);
