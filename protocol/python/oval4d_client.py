@@ -142,7 +142,8 @@ class Client:
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
         self._live = None  # a function that live() sets, called with each frame of the stream
-        self._held = None  # a frame that is the answer to a request or part of the stream; the next message tells which
+        # The revision and the bytes of a frame that is an answer or part of the stream; the next message tells which.
+        self._held = None
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
         self._waiting = {}  # for the id of each call in progress: its answer, or None until the answer arrives
@@ -466,10 +467,11 @@ class Client:
             unreadable = None
             try:
                 async for message in self._socket:
-                    picture = self._receive(message)
-                    self._follow(message, picture is not None)
-                    if picture is not None and self.show:
-                        await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
+                    pictures = self._receive(message)
+                    for _, picture in pictures:
+                        self._pass_on(picture)
+                    if pictures and self.show:
+                        await self._socket.send(json.dumps({"type": "shown", "revision": pictures[-1][0]}))
             except websockets.ConnectionClosed:
                 pass
             except (ImportError, ValueError) as fault:  # the client cannot decode the message
@@ -517,48 +519,44 @@ class Client:
         return False
 
     def _receive(self, data):
-        """Handles a message. Returns its revision if it is a picture of the stream, or a frame that answers a call;
-        else None."""
-        picture = None
+        """Handles a message. Returns the pictures that are now known to be of the stream, each with its revision. A frame
+        that arrives while a call waits for one is of the stream unless it is followed by the done of the call."""
         with self._change:
             message = decode(data)
+            held, self._held = self._held, None
+            pictures = [] if held is None else [held]
             if isinstance(message, bytes):
                 self._binary = message
-                if message[0] != PNG[0]:  # a file
-                    return None
-                self.newest_frame = message
-                picture = png_state(message)["revision"]
-                self._change.notify_all()
-                return picture
-            kind, number = message["type"], message.get("id")
-            if kind == "slices" and number is None:
-                picture = message["revision"]
-            if kind in ("welcome", "state", "slices"):
-                setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
-            if number in self._waiting:
-                framed = kind == "done" and number in self._wants_bytes
-                self._waiting[number] = (self._binary, message.get("warnings", [])) if framed else message
-            elif kind == "error":
-                self.errors.append(message)
-            self._change.notify_all()
-        return picture
-
-    def _follow(self, message, is_picture):
-        """Passes the frames of the stream to the function that live() has set. A frame that arrives while a call waits
-        for one may be its answer; then a done comes next, and the frame is not passed on."""
-        held, self._held = self._held, None
-        shown = [] if held is None or (isinstance(message, str) and '"type":"done"' in message[:100]) else [held]
-        if is_picture and isinstance(message, bytes) and message.startswith(PNG):
-            if self._wants_bytes:
-                self._held = message
+                if message[0] == PNG[0]:  # not a file
+                    self.newest_frame = message
+                    picture = (png_state(message)["revision"], message)
+                    if self._wants_bytes:
+                        self._held = picture
+                    else:
+                        pictures.append(picture)
             else:
-                shown.append(message)
-        for png in shown:
-            try:
-                if self._live:
-                    self._live(png)
-            except Exception:  # the notebook is gone; the session goes on
-                self._live = None
+                kind, number = message["type"], message.get("id")
+                if kind == "slices" and number is None:
+                    pictures.append((message["revision"], message))
+                if kind in ("welcome", "state", "slices"):
+                    setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
+                if number in self._waiting:
+                    framed = kind == "done" and number in self._wants_bytes
+                    if framed:
+                        pictures.clear()
+                    self._waiting[number] = (self._binary, message.get("warnings", [])) if framed else message
+                elif kind == "error":
+                    self.errors.append(message)
+            self._change.notify_all()
+        return pictures
+
+    def _pass_on(self, picture):
+        """Passes a picture of the stream, if it is a frame, to the function that live() has set."""
+        try:
+            if self._live and isinstance(picture, bytes):
+                self._live(picture)
+        except Exception:  # the notebook is gone; the session goes on
+            self._live = None
 
     def _wait_for(self, happened, timeout, what):
         end = time.monotonic() + (self.timeout if timeout is None else timeout)

@@ -2,6 +2,7 @@
 
 import asyncio
 import base64
+import json
 import re
 import socket
 import sys
@@ -185,6 +186,25 @@ def test_a_notebook_shows_the_picture(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         assert png_state(oval._repr_png_())["polytope"]["name"] == "5-cell"
+
+
+def test_only_pictures_of_the_stream_are_acknowledged(server, monkeypatch):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        sent = []
+        send = oval._socket.send
+
+        async def record(text):
+            sent.append(json.loads(text))
+            await send(text)
+
+        monkeypatch.setattr(oval._socket, "send", record)
+        oval.frame(32, 18)
+        oval.slices(32, 18)
+        oval.file("csv")
+        assert [message["type"] for message in sent] == ["get", "get", "get"]
+        oval.hello("frames", width=64, height=36)
+        wait_until(lambda: {"type": "shown", "revision": 0} in sent, "the picture of the stream to be acknowledged")
 
 
 def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):
