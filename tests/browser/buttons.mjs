@@ -225,6 +225,16 @@ test("buttons: what turns, cuts and shows the polytope is visible without scroll
     await close();
 });
 
+test("buttons: no button of the display stands alone in a row", async () => {
+    const { page, close } = await openWithScript({ viewport: { width: 1440, height: 900 } });
+    const tops = await page
+        .locator("#tools [data-group=look] > div > *")
+        .evaluateAll((all) => all.map((one) => Math.round(one.getBoundingClientRect().top)));
+    assert.ok(tops.length > 4);
+    for (const top of tops) assert.ok(tops.filter((other) => other === top).length > 1, `the rows begin at ${tops}`);
+    await close();
+});
+
 test("buttons: the tools can be hidden and shown, and the picture uses the space", async () => {
     const { page, close } = await openWithScript();
     const width = () => page.evaluate(() => document.getElementById("drawing").clientWidth);
