@@ -86,6 +86,7 @@ std::string pyramidName(const Polytope& p, std::uint32_t cell, const ElementTall
     return {};
 }
 
+// Returns the name of the cell if it is a cuboid or a right prism, else an empty string.
 std::string prismName(const Polytope& p, std::uint32_t cell) {
     const std::size_t n = p.cells[cell].size() - 2;
     std::size_t rectangles = 0;
@@ -97,6 +98,7 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
         else
             others.push_back(f);
     }
+    if (n == 4 && others.empty()) return "cuboid";
     if (rectangles != n || others.size() != 2) return {};
     for (const std::uint32_t f : others) {
         if (p.faces[f].size() != n) return {};

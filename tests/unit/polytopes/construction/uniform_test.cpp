@@ -163,10 +163,17 @@ TEST(CellTypes, ofIrregularCellsAreNamedByTheirNumbersOfFaces) {
     for (auto& v : moved) v *= factor(random);
     const Polytope p = makePolytope("crumpled", moved, regular.faces, regular.cells);
     EXPECT_EQ(p.cellTypes, (std::vector<CellType>{{"cell of 12 faces", 120}}));  // more shapes than types allowed
+    auto sheared = built("8-cell").vertices;
+    for (auto& v : sheared) v += glm::dvec4(0.4 * v.y, 0.3 * v.z, 0.2 * v.w, 0.1 * v.x);
+    const Polytope oblique = makePolytope("oblique", sheared, built("8-cell").faces, built("8-cell").cells);
+    EXPECT_EQ(cellsByName(oblique), (std::map<std::string, long>{{"cell of 6 faces", 8}}));
+}
+
+TEST(CellTypes, ofBoxesAreCubesAndCuboids) {
     auto stretched = built("8-cell").vertices;
     for (auto& v : stretched) v.x *= 2;
     const Polytope box = makePolytope("box", stretched, built("8-cell").faces, built("8-cell").cells);
-    EXPECT_EQ(box.cellTypes, (std::vector<CellType>{{"cube", 2}, {"cell of 6 faces", 6}}));
+    EXPECT_EQ(box.cellTypes, (std::vector<CellType>{{"cube", 2}, {"cuboid", 6}}));
 }
 
 std::string asName(const testing::TestParamInfo<CatalogueEntry>& info) {
