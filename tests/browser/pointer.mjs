@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { drawBy } from "./support/drawing.mjs";
 import { passTime } from "./support/page_time.mjs";
 import { compare, decode } from "./support/pixels.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
@@ -444,5 +445,30 @@ test("pointer: a word is said when zooming stops", async () => {
     await press("-", /as far away as it can be/);
     const { camera } = await script.state();
     assert.ok(camera.zoom < 0.5, String(camera.zoom));
+    await close();
+});
+
+/** Runs in the page: the server refuses the cameras that it sends, and what it asks for to find what is clicked. */
+function spoilRequests() {
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+        const message = JSON.parse(text);
+        if (message.camera) message.camera = { zoom: 1000 };
+        if (message.what === "slices") message.width = message.height = 1;
+        return send.call(this, JSON.stringify(message));
+    };
+}
+
+test("pointer: the page says why the server refuses the camera, or does not tell what is clicked", async () => {
+    const { page, errors, close } = await openWithScript({ before: spoilRequests });
+    const told = (text) =>
+        page.waitForFunction((part) => document.getElementById("notice").textContent.includes(part), text);
+    await page.focus("#drawing");
+    await page.keyboard.press("ArrowLeft");
+    await told("zoom");
+    await drawBy(page, "frames");
+    await page.click("#drawing", { position: { x: 300, y: 200 } });
+    await told("1×1 pixels");
+    assert.deepEqual(errors, []);
     await close();
 });

@@ -40,6 +40,7 @@ import { PageSession } from "./page_session";
 import { markFullScreen, markMode, markScheme, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
+import type { HitTester } from "./picture/hit_tester";
 import { type Mode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
@@ -142,7 +143,7 @@ export class App {
     });
     private readonly clicks: Clicks = new Clicks(this.drawing, this.stage, this.pointing, {
         state: () => this.state,
-        hitTester: async () => this.stage.hitTester ?? (await this.frameHitTesterCache.request()),
+        hitTester: () => this.requestHitTester(),
         began: () => this.slider.stop(),
         moveFocusPoint: (at) => this.focusPointDrag.moveTo(at),
         send: (command) => void this.send(command),
@@ -301,11 +302,20 @@ export class App {
      */
     private requestStream(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
-        // Without a connection, this rejects, and the client sends the same hello when it connects again.
-        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {});
+        this.hello({ stream, viewport: this.stage.size });
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
         else this.client.test(); // the connection may have broken without an event
+    }
+
+    /**
+     * Says hello with a change; shows why the server refuses it. Without a connection, the client says this hello when
+     * it connects again; until then, it finds an allowed size itself.
+     */
+    private hello(change: Parameters<Client["hello"]>[0]): void {
+        this.client.hello(change).catch((error: Error) => {
+            if (this.client.status.kind === "open") this.notice.show(error.message);
+        });
     }
 
     private update(state: State): void {
@@ -360,7 +370,7 @@ export class App {
     /** Asks for pictures in the new color scheme of the page. */
     private schemeChanged(): void {
         if (this.state) this.update(this.state);
-        this.client.hello({ scheme: this.colorScheme.current }).catch(() => {}); // sent on later connections, too
+        this.hello({ scheme: this.colorScheme.current });
     }
 
     /** Full screen hides the tools until the button Tools is pressed. At its end, they are as they were before it. */
@@ -498,6 +508,16 @@ export class App {
             return false;
         }
         return true;
+    }
+
+    /** The hit tester of the picture. If the server does not send it, shows why, and resolves to undefined. */
+    private async requestHitTester(): Promise<HitTester | undefined> {
+        try {
+            return this.stage.hitTester ?? (await this.frameHitTesterCache.request());
+        } catch (error) {
+            this.notice.show((error as Error).message);
+            return undefined;
+        }
     }
 
     private async savePicture(): Promise<void> {

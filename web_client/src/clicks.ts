@@ -13,7 +13,7 @@ const kLeastDisc = 12; // pixels: a click this near to the center of a slice hit
 
 interface ClickActions {
     state: () => State | undefined;
-    /** Resolves to the hit tester of the picture; undefined if a request to the server for it has failed. */
+    /** Resolves to the hit tester of the picture; undefined if it cannot be had, which is told to the user. */
     hitTester: () => Promise<HitTester | undefined>;
     /** Called when the user has clicked. */
     began: () => void;

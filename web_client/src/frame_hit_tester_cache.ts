@@ -31,23 +31,23 @@ export class FrameHitTesterCache {
         if (key !== this.knownFor) {
             this.knownFor = key;
             this.known = undefined;
-            void this.request().then((hitTester) => {
-                if (this.knownFor !== key) return;
-                this.known = hitTester;
-                if (hitTester) this.onKnown();
-                else this.knownFor = "";
-            });
+            void this.request().then(
+                (hitTester) => {
+                    if (this.knownFor !== key) return;
+                    this.known = hitTester;
+                    this.onKnown();
+                },
+                () => {
+                    if (this.knownFor === key) this.knownFor = ""; // the next call requests it again
+                },
+            );
         }
         return this.known;
     }
 
-    /** Requests the hit tester of the newest picture; resolves to undefined if there is no answer. */
-    async request(): Promise<HitTester | undefined> {
-        try {
-            const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
-            return new HitTester(slices, this.state!.camera);
-        } catch {
-            return undefined;
-        }
+    /** Requests the hit tester of the newest picture. */
+    async request(): Promise<HitTester> {
+        const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
+        return new HitTester(slices, this.state!.camera);
     }
 }

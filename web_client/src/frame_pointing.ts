@@ -75,7 +75,7 @@ export class FramePointing {
             const pointer = this.pointer!;
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
             const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
-            const answer = await request.catch(() => undefined);
+            const answer = await request.catch(() => undefined); // then no name is shown
             if (answer) this.answered(answer, pointer);
             await interval;
         }

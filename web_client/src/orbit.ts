@@ -1,7 +1,7 @@
 // The viewer's orbit around the slices. The page applies a change at once, and sends the newest orbit to the session
 // whenever the previous one has been answered.
 
-import type { Client, Orbit, State } from "@oval4d/protocol";
+import type { Client, Orbit, RequestError, State } from "@oval4d/protocol";
 
 import { LastChange } from "./last_change";
 import type { HitTester } from "./picture/hit_tester";
@@ -134,8 +134,13 @@ export class OrbitControl {
         while (this.unsent) {
             this.unsent = false;
             const camera = this.stage.orbit;
-            const done = await this.client.request({ type: "set", camera }).catch(() => undefined);
-            if (done) this.lastChange.answered(done.revision);
+            try {
+                const { revision } = await this.client.request({ type: "set", camera });
+                this.lastChange.answered(revision);
+            } catch (error) {
+                // Without a connection, which the page shows, the camera can be moved nevertheless.
+                if ((error as RequestError).code !== "not_connected") this.stopped((error as Error).message);
+            }
         }
         this.sending = false;
     }
