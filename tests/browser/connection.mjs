@@ -3,6 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, idle, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+import { restart } from "./support/browser.mjs";
+import { holdSent } from "./support/held.mjs";
 import { passTime, stopTime } from "./support/page_time.mjs";
 import { startProxy, startReplaceableServer } from "./support/proxy.mjs";
 import { startServer } from "./support/server.mjs";
@@ -242,6 +244,25 @@ test("connection: after a restart of the server, a new session has the same view
     const pressed = await second.until((one) => one.revision > after.revision, "a key in the new session");
     await presented(page, pressed.revision);
     second.leave();
+    await close();
+    await server.stop();
+});
+
+test("connection: the view is restored, too, if the new session ends before", async () => {
+    const server = await startReplaceableServer();
+    const { page, script, close } = await openWithScript({ url: server.url, before: holdSent });
+    await script.request({ type: "set", polytope: "24-cell" });
+    await named(page, "24-cell");
+    script.leave();
+    await page.evaluate(() => void (window.isHeld = ({ type }) => type === "set"));
+    await restart(server, page);
+    await named(page, "5-cell");
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    await page.evaluate(() => window.release());
+    await server.startAnother();
+    await isOpen(page);
+    await named(page, "24-cell");
     await close();
     await server.stop();
 });

@@ -58,7 +58,7 @@ export class PageSession {
 
     /** Notes that the session is lost. The new session gets the view of `state`, its last state, if that is known. */
     lost(reason: string, state: State | undefined): void {
-        this.lostState = state;
+        this.lostState ??= state; // if a view has not been restored yet, `state` may be that of the new session
         this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
         this.actions.tell([
             state
@@ -70,10 +70,14 @@ export class PageSession {
     /** In a new session, restores the view of a lost session, or applies the initial view; otherwise does nothing. */
     async restoreView(): Promise<void> {
         const { lines, field, faults } = this.view;
-        const lost = this.lostState;
         this.clearView();
+        try {
+            if (this.lostState) await this.restore(this.lostState);
+        } catch (error) {
+            if ((error as RequestError).code !== "not_connected") this.lostState = undefined;
+            throw error; // if the connection is lost, the next one restores the view
+        }
         this.lostState = undefined;
-        if (lost) await this.restore(lost);
         if (field) {
             try {
                 await this.actions.loadField(field);
