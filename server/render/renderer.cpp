@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <mutex>
@@ -10,8 +11,8 @@
 #include <stdexcept>
 
 #include <glm/common.hpp>
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "parallel/ownership.hpp"
 #include "render/offscreen_gl_context.hpp"
@@ -19,7 +20,6 @@
 #include "render/overlay/coordinates_plot.hpp"
 #include "render/overlay/matrix_panels.hpp"
 #include "render/overlay/overlay.hpp"
-#include "render/projection.hpp"
 #include "render/slices/convex_slices.hpp"
 #include "render/slices/fog_painter.hpp"
 #include "render/slices/nonconvex_slices.hpp"
@@ -61,18 +61,28 @@ bool mayUseThreads() {
 /// Returns whether the slices can be drawn only with OpenGL, because they have fog.
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
-/// Returns a rectangle of the picture that contains the projection of the whole object.
-PixelArea areaOfProjection(const scene::Scene& scene) {
-    const glm::ivec2 size(scene.viewport.width, scene.viewport.height);
-    const double radius = scene.projectionPlacement.radius;
-    const glm::dvec3 center(scene.camera.view() * glm::dvec4(scene.projectionPlacement.position, 1));
-    const double nearest = -center.z - radius;  // the distance of the nearest point from the eye, along the view axis
-    if (nearest <= 0) return {{0, 0}, size};
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
-    const glm::vec2 middle = projection.pixel(center);
-    const float reach = projection.focalLength() * static_cast<float>(radius / nearest) + 1;
-    return {glm::ivec2(glm::clamp(glm::floor(middle - reach), glm::vec2(0), glm::vec2(size))),
-            glm::ivec2(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), glm::vec2(size)))};
+/// Returns a rectangle of the picture that contains all pixels of these shapes. The depth buffer still has the depths
+/// of earlier pictures outside of what is cleared, so the rectangle follows from the vertices that are drawn. The
+/// outline of a sphere would not do: far from the view axis, it is an ellipse, and balls of a cloud may extend beyond
+/// it.
+PixelArea areaOf(const ProjectionShapeCollector::Layers& layers, scene::Viewport viewport) {
+    constexpr float kNearest = 1e-3F;  // a polygon with a vertex that is closer to the eye may be anywhere
+    const glm::ivec2 size(viewport.width, viewport.height);
+    const glm::vec2 most(size);
+    glm::vec2 from = most, to(0);
+    for (const ShapeBatch* shapes : {&layers.solid, &layers.translucent}) {
+        for (const ShapeVertex& vertex : shapes->vertices()) {
+            const glm::vec3& clip = vertex.clip;
+            const glm::vec2 at = (glm::vec2(clip.x, clip.y) / clip.z * 0.5F + 0.5F) * most;
+            if (!(clip.z >= kNearest) || std::isnan(at.x + at.y)) return {{0, 0}, size};
+            from = glm::min(from, at);
+            to = glm::max(to, at);
+        }
+    }
+    // One pixel more, for rounding.
+    const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
+    const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);
+    return {glm::ivec2(first), glm::ivec2(end)};
 }
 
 /// Sets the color to which OpenGL clears pictures: the background, multiplied by its opacity.
@@ -165,7 +175,7 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
         projectionCollector.collect(scene, projectionLayers);
         glEnable(GL_DEPTH_TEST);
         // To clear all of the depth buffer would take longer than to draw the projection.
-        clearDepth(areaOfProjection(scene));
+        clearDepth(areaOf(projectionLayers, scene.viewport));
         drawProjection(projectionLayers.depths);
         glDisable(GL_DEPTH_TEST);
     };
@@ -188,7 +198,7 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     }
     const auto paintProjection = [&] { projectionCollector.collect(scene, projectionLayers); };
     parallel::invoke(forkJoin, std::ref(paintSlices), std::ref(paintProjection));
-    shapeRasterizer.setDepthArea(areaOfProjection(scene));
+    shapeRasterizer.setDepthArea(areaOf(projectionLayers, scene.viewport));
     shapeRasterizer.add(shapes, 0, nearer, DepthUse::unused);
     const auto& [solid, translucent, depths] = projectionLayers;
     shapeRasterizer.add(solid, 0, solid.patches().size(), DepthUse::written);

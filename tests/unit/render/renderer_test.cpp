@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -168,6 +169,55 @@ TEST_F(Pictures, AreTheSameEveryTime) {
     EXPECT_EQ(subject.draw(renderer()).pixels, first.pixels);
     Renderer another;
     EXPECT_EQ(subject.draw(another).pixels, first.pixels);
+}
+
+TEST_F(Pictures, ShowNothingOfEarlierPictures) {
+    using scene::ProjectionKind, scene::View;
+    // A picture full of opaque faces, which are nearer than everything in the other pictures.
+    scene::Look close;
+    close.view = View::single;
+    close.orbit.zoom = 8;
+    close.parts.coordinates = false;
+    const scene::Viewport viewport{320, 180};
+    const Subject before("small stellated 120-cell", {}, 1, close, viewport);
+    ASSERT_TRUE(before.scene.needsDepthBuffer);
+
+    struct Later {
+        const char* name;
+        View view;
+        scene::CameraOrbit orbit;
+        scene::ProjectionSettings projection;
+    };
+    const std::vector<Later> examples{
+        {"no projection", View::oval, {}, {}},
+        {"inside the oval", View::oval, {}, {ProjectionKind::perspective, 1.05}},
+        // Far from the view axis, the picture of a sphere is a long ellipse.
+        {"above the view axis", View::oval, {0, 0.6, 0.2}, {ProjectionKind::orthogonal, 3}},
+        {"far above the view axis", View::oval, {0, 0.9, 0.15}, {ProjectionKind::perspective, 1000}},
+        {"beside a slice", View::single, {0.3, 0, 0.4}, {ProjectionKind::perspective, 1000}},
+        {"beside the matrix", View::matrix, {}, {ProjectionKind::perspective, 3}},
+        {"above a row", View::strip, {0.5, -0.7, 0.3}, {ProjectionKind::orthogonal, 3}},
+    };
+    const auto subjectOf = [&](const Later& example) {
+        scene::Look look;
+        look.view = example.view;
+        look.orbit = example.orbit;
+        look.projection = example.projection;
+        return Subject("24-cell", randomRotation(12), 21, look, viewport);
+    };
+    for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl}) {
+        std::vector<image::Image> wanted;  // each by a renderer that has drawn nothing else
+        for (const Later& example : examples) {
+            Renderer fresh(fontFile(), backend);
+            wanted.push_back(subjectOf(example).draw(fresh));
+        }
+        Renderer used(fontFile(), backend);
+        for (std::size_t i = 0; i < examples.size(); ++i) {
+            SCOPED_TRACE(examples[i].name);
+            before.draw(used);
+            EXPECT_TRUE(subjectOf(examples[i]).draw(used).pixels == wanted[i].pixels);
+        }
+    }
 }
 
 TEST_F(Pictures, OnTwoThreadsDoNotDisturbEachOther) {
