@@ -100,7 +100,8 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
     Arrangement made;
     switch (view) {
         case View::oval:
-            made = ovalOf(count, aspect);
+            // The ends of an oval are far away; two slices, which only files have, would be tiny there.
+            made = count == 2 ? rowOf(count, 1 + relativeBall) : ovalOf(count, aspect);
             break;
         case View::single:
             made = focusSliceAlone();

@@ -13,9 +13,9 @@
 namespace oval4d::scene {
 
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
-/// slices stand on a curve through the focus slice, which is at the origin: a parabola, a straight row, a straight
-/// column or a single place. The camera looks at the focus slice from the distance `distance`, downward by the angle
-/// `pitch` (radians).
+/// slices stand on a curve, a parabola, a straight row, a straight column or a single place, whose middle is the
+/// origin. The focus slice is there, unless the number of slices is even, as it may be in files. The camera looks at
+/// the origin from the distance `distance`, downward by the angle `pitch` (radians).
 struct Arrangement {
     double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth
     double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight
@@ -67,9 +67,11 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
 ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
                                      double top);
 
-/// Returns the parameter u of slice i: −1 … 1 from the first to the last.
+/// Returns the parameter u of slice i: −1 … 1 from the first to the last. Slices at the same distance from the middle
+/// have exactly opposite parameters.
 inline double parameterOf(std::size_t i, std::size_t count) {
-    return count == 1 ? 0 : 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1;
+    const double middle = static_cast<double>(count - 1) / 2;
+    return count == 1 ? 0 : (static_cast<double>(i) - middle) / middle;
 }
 
 /// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch

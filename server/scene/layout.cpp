@@ -95,16 +95,14 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, int decimals,
                  const Arrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
-    const double half = std::max((planes.count - 1) / 2.0, 1.0);
     const InitialViewSpace space(arrangement);
     for (int i = 0; i < planes.count; ++i) {
         SlicePlacement& placement = placements[i];
-        const double u = (planes.first + i - focus) / half;
         placement.index = planes.first + i;
         placement.w = planes.w(i);
         placement.focus = placement.index == focus;
         placement.drawn = showsAllSlices(look.view) || placement.focus;
-        placement.position = arrangement.positionAt(u);
+        placement.position = arrangement.positionAt(parameterOf(i, planes.count));
         placement.label.clear();
         if (look.parts.labels)
             placement.label = (placement.focus ? "w = " : "") + labelNumber(originW + placement.w, decimals);

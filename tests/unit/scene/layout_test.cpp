@@ -77,6 +77,25 @@ TEST(Oval, closes) {
     EXPECT_NEAR(project(s, s.placements[13].position).x - 640, 640 - project(s, s.placements[7].position).x, 1e-6);
 }
 
+TEST(EvenNumbersOfSlices, standSymmetricallyAndApart) {
+    for (const scene::ViewRow& view : scene::kViews) {
+        if (!view.showsAllSlices) continue;
+        scene::Look look;
+        look.view = view.value;
+        for (const std::size_t count : {2, 4, 10}) {
+            SCOPED_TRACE(testing::Message() << view.name << ", " << count);
+            const Scene s = composed("24-cell", static_cast<int>(count), {}, look);
+            ASSERT_EQ(s.placements.size(), count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::dvec3 here = s.placements[i].position, there = s.placements[count - 1 - i].position;
+                EXPECT_EQ(here, glm::dvec3(-there.x, -there.y, there.z)) << i;
+                if (i == 0) continue;
+                EXPECT_GT(glm::distance(here, s.placements[i - 1].position), 2 * (s.sliceRadius + s.ballRadius)) << i;
+            }
+        }
+    }
+}
+
 TEST(Oval, followsTheFocus) {
     const Scene s = composed("5-cell", 21, {}, {}, 4);
     EXPECT_EQ(s.placements[10].index, 4);
