@@ -242,6 +242,8 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
     if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color
+    // The drawing of the focus slice has the layout of a single slice, but the focus point of the matrix view.
+    if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {
         using Cause = exports::ExportRefusal::Cause;

@@ -176,6 +176,14 @@ def test_a_drawing_of_the_focus_slice_marks_the_focus_point(server, tmp_path):
     assert all(right > left for right, left in zip(points[1], points[2])), "the first point is farther right"
 
 
+
+def test_a_drawing_marks_the_focus_point_where_the_picture_does(server, tmp_path):
+    for query, marked in [("of=focus&view=matrix", True), ("of=oval&view=oval&point=0.2,0.1,-0.3,0", False),
+                          ("of=oval&view=matrix&point=0.2,0.1,-0.3,0", False)]:
+        root = svg_of(server, tmp_path, f"polytope=tesseract&{query}")
+        assert any(group.get("id") == "focus-point" for group in root.iter(SVG + "g")) == marked, query
+
+
 def test_a_drawing_of_the_slices_of_a_star_has_its_faces_and_one_of_a_field_is_refused(server, tmp_path):
     root = svg_of(server, tmp_path, "polytope={5/2,5,3}&of=focus&rotate=xw:0.3")
     assert len(list(root.iter(SVG + "polygon"))) > 100

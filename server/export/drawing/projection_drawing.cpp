@@ -71,10 +71,10 @@ class ProjectionDrawer {
         const SliceSet& set = scene_.projection.elements;
         const scene::Style& style = scene_.style();
         const std::uint32_t v0 = set.vertexBegin[part];
-        const auto isSeen = [&](slicing::Visibility v) { return v != slicing::Visibility::hidden; };
         for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {
-            if (!isSeen(scene_.visibilities.face(set.faceSource[f]))) continue;
-            FilledPolygon polygon{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity};
+            const double seen = slicing::opacityOf(scene_.visibilities.face(set.faceSource[f]));
+            if (seen == 0) continue;
+            FilledPolygon polygon{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity * seen};
             double depth = 0;
             for (std::uint32_t c = set.cornerBegin[f]; c < set.cornerBegin[f + 1]; ++c) {
                 const glm::dvec3 p = place(set.vertices[v0 + set.corners[c]]);
@@ -84,7 +84,8 @@ class ProjectionDrawer {
             add(depth, std::move(polygon));
         }
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
-            if (!isSeen(scene_.visibilities.edge(set.edgeSource[e]))) continue;
+            const double seen = slicing::opacityOf(scene_.visibilities.edge(set.edgeSource[e]));
+            if (seen == 0) continue;
             const glm::dvec3 a = place(set.vertices[v0 + set.edges[e][0]]),
                              b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
@@ -95,18 +96,20 @@ class ProjectionDrawer {
                             .to = onPaper(b - gap),
                             .width = kHaloWidth * width,
                             .color = kHalo,
-                            .opacity = 0.7});
+                            .opacity = 0.7 * seen});
             add(depth, Line{.from = onPaper(a),
                             .to = onPaper(b),
                             .width = width,
                             .color = lit ? style.highlight : colorAt(part, depth),
-                            .roundEnds = true});
+                            .roundEnds = true,
+                            .opacity = seen});
         }
         for (std::uint32_t v = v0; look.ballRadius > 0 && v < set.vertexBegin[part + 1]; ++v) {
-            if (!isSeen(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
+            const double seen = slicing::opacityOf(scene_.visibilities.vertex(set.vertexSource[v]));
+            if (seen == 0) continue;
             const glm::dvec3 p = place(set.vertices[v]);
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
-            const double opacity = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
+            const double opacity = seen * (set.ballOpacity.empty() ? 1 : set.ballOpacity[v]);
             const bool lit = scene_.highlight.hasVertex(set.vertexSource[v]);
             add(p.z + scale_ * look.ballRadius,
                 Disk{onPaper(p), scale_ * look.ballRadius * own, lit ? style.highlight : colorAt(part, p.z), opacity});

@@ -287,6 +287,13 @@ ShapeGroup drawAxes(const scene::Scene& scene, const Paper& paper) {
     return axes;
 }
 
+/// Returns whether the focus point is drawn. Pictures show it in the matrix view; a drawing of the focus slice alone
+/// also shows it wherever the user has set it.
+bool showsFocusPoint(const scene::Look& look) {
+    if (look.view == scene::View::matrix) return true;
+    return !showsAllSlices(look.view) && look.focusPoint != glm::dvec3(0);
+}
+
 /// Draws the focus point in the focus slice: a line along each axis through it.
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, const Paper& paper) {
     ShapeGroup point{"focus-point", {}};
@@ -328,7 +335,7 @@ Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, con
         budget.checkBytes(kTypicalShapeBytes * shapes);
     }
     for (const scene::SlicePlacement& placement : scene.placements) {
-        if (placement.focus && placement.drawn && scene.look.focusPoint != glm::dvec3(0))
+        if (placement.focus && showsFocusPoint(scene.look))
             drawing.groups.push_back(drawFocusPoint(scene, placement, paper));
     }
     drawing.groups.push_back(drawLabels(scene, paper));
