@@ -189,16 +189,19 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const Style& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
-    // Without balls, the bars are joined by balls of their own radius and color, as in slices.
-    projection.parts.push_back({look.parts.balls ? ball : barRadius, barRadius,
+    // Without balls, the bars are joined by balls of their own radius and color, and points of clouds are as small, as
+    // in slices.
+    const bool isCloud = !projection.elements.ballScale.empty();
+    const double pointRadius = look.parts.balls ? ball : bar;
+    projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,
                                 look.parts.balls ? styles.ball : styles.bar, styles.bar, 0.25});
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
         const bool isFocus = i == focusSlice;
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
         const bool filled = isFocus && look.parts.faces && !out.needsDepthBuffer;
-        const bool points = !slices.ballScale.empty();
-        projection.parts.push_back({points ? 1.02 * ball : sectionBar, sectionBar, color, color, filled ? 0.5 : 0});
+        projection.parts.push_back(
+            {isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color, filled ? 0.5 : 0});
     }
 }
 

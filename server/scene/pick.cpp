@@ -48,9 +48,10 @@ class Picker {
         const Parts& parts = scene_.look.parts;
         for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
             if (!scene_.placements[i].drawn) continue;
-            const bool points = !scene_.slices->ballScale.empty();
+            // Without balls, only the points of a cloud are found, not the joints of bars.
+            const bool points = parts.balls || !scene_.slices->ballScale.empty();
             pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
-                 {parts.balls || points ? scene_.ballRadius : 0, parts.bars ? scene_.barRadius : 0, parts.faces},
+                 {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, parts.faces},
                  {{}, PictureArea::slice, i});
         }
     }

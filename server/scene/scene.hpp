@@ -104,6 +104,15 @@ struct Scene : Layout {
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
+    /// Returns the radius of the balls at the vertices of slices, in world units, before SliceSet::ballScale. Without
+    /// balls, the bars are joined by balls of their own radius and color, and the points of a cloud, which have no
+    /// bars, are as small. 0 if no balls are drawn.
+    double drawnBallRadius() const {
+        if (look.parts.balls) return ballRadius;
+        return look.parts.bars || !slices->ballScale.empty() ? barRadius : 0;
+    }
+    /// Returns the color of these balls.
+    Color drawnBallColor() const { return look.parts.balls ? style().ball : style().bar; }
     /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. Slices
     /// extend into this part only if the viewer has moved the camera.
     bool clearsCoordinates() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }

@@ -66,6 +66,15 @@ async def test_points_at_the_origin_are_shown(server, data):
         assert png.pixels(await client.request_frame(**SIZE)) != png.pixels(shown)
 
 
+async def test_the_points_of_a_cloud_are_shown_without_balls_and_bars(server):
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="c", format="cloud", data=torus_points(40)[0])
+        await client.request("set", shown=dict.fromkeys(("faces", "bars", "balls", "coordinates", "labels"), False))
+        before = png.pixels(await client.request_frame(**SIZE))
+        await client.request("rotate", planes=["xy"], angles=[0.3])
+        assert png.pixels(await client.request_frame(**SIZE)) != before
+
+
 @pytest.mark.parametrize("data, message", [
     ("", "the file is empty"), ("1 2 3", "line 1: a point has 3 coordinates"),
     ("1 0 0 0\n1 2 x 4", "line 2"), ("1 2 3 4 -1", "radius is negative"), ("1 2 3 4 5 6", "follows a point's radius"),

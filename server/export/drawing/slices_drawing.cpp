@@ -79,7 +79,7 @@ class SliceDrawer {
         findSides();
         if (scene_.look.parts.faces && !scene_.needsDepthBuffer) addFaces();
         if (scene_.look.parts.faces && scene_.needsDepthBuffer) addPieces();
-        if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // balls of a point cloud are always drawn
+        if (scene_.drawnBallRadius() > 0) addBalls();
         if (scene_.look.parts.bars) addBars();
         std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
         ShapeGroup group{"slice_" + std::to_string(scene_.placements[slice].index), {}};
@@ -195,20 +195,33 @@ class SliceDrawer {
         return toward ? toward_frame : away_frame;
     }
 
+    /// Returns for each vertex whether the round end of a bar is drawn there in place of a ball.
+    std::vector<bool> findRoundEnds() const {
+        std::vector<bool> found(points_.size(), false);
+        if (scene_.look.parts.balls) return found;
+        for (std::uint32_t e = set_.edgeBegin[slice_]; e < set_.edgeBegin[slice_ + 1]; ++e) {
+            if (scene_.visibilities.edge(set_.edgeSource[e]) == slicing::Visibility::hidden) continue;
+            for (const std::uint32_t v : set_.edges[e]) found[v] = true;
+        }
+        return found;
+    }
+
     // A bar has the depth of its far end, and shapes of equal depth are drawn in the order in which they are added.
     // Balls are added before bars, so that a bar covers the ball at its far end. The ball at the near end covers the
     // bar.
     void addBalls() {
+        const std::vector<bool> isRoundEnd = findRoundEnds();
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
+            if (isRoundEnd[i]) continue;
             const std::uint32_t v = set_.vertexBegin[slice_] + i;
             const double own = set_.ballOpacity.empty() ? 1 : set_.ballOpacity[v];
             const double opacity = own * slicing::opacityOf(scene_.visibilities.vertex(set_.vertexSource[v]));
             if (opacity == 0 || isBehind(points_[i])) continue;
-            const double radius = scene_.ballRadius * (set_.ballScale.empty() ? 1 : set_.ballScale[v]);
+            const double radius = scene_.drawnBallRadius() * (set_.ballScale.empty() ? 1 : set_.ballScale[v]);
             const bool isHighlighted = scene_.highlight.hasVertex(set_.vertexSource[v]);
             items_.push_back({frameLayer(towardVertices_[i]), points_[i].z,
                               Disk{paper_(points_[i]), radius * paper_.scaleAt(points_[i]),
-                                   isHighlighted ? style_.highlight : style_.ball, opacity}});
+                                   isHighlighted ? style_.highlight : scene_.drawnBallColor(), opacity}});
         }
     }
 

@@ -77,8 +77,8 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars; lengths are in world units. If only bars are shown, a ball with the radius and the
-/// color of bars is drawn at each vertex, so that bars are joined by round corners.
+/// The appearance of balls and bars; lengths are in world units. `ballRadius` and `ballColor` are those of
+/// Scene::drawnBallRadius() and Scene::drawnBallColor().
 struct SkeletonStyle {
     bool balls, bars;
     float ballRadius, barRadius;
@@ -86,11 +86,11 @@ struct SkeletonStyle {
     float hiddenEndLength;  ///< the length of the part of a bar that is inside the ball at one end
 
     explicit SkeletonStyle(const scene::Scene& scene)
-        : balls(scene.look.parts.balls || scene.look.parts.bars),
+        : balls(scene.drawnBallRadius() > 0),
           bars(scene.look.parts.bars),
-          ballRadius(static_cast<float>(scene.look.parts.balls ? scene.ballRadius : scene.barRadius)),
+          ballRadius(static_cast<float>(scene.drawnBallRadius())),
           barRadius(static_cast<float>(scene.barRadius)),
-          ballColor(scene.look.parts.balls ? scene.style().ball : scene.style().bar),
+          ballColor(scene.drawnBallColor()),
           barColor(scene.style().bar),
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 

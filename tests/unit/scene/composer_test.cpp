@@ -1,11 +1,14 @@
 // What a scene contains: the colors of its cells and the parts of the projection.
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include <gtest/gtest.h>
 
+#include "geometry/point_cloud.hpp"
 #include "scene/composer.hpp"
+#include "slicing/cloud_slicer.hpp"
 #include "unit/scene/composed_scene.hpp"
 #include "unit/slicing/support.hpp"
 
@@ -59,6 +62,36 @@ TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
     const Scene none = composed("24-cell", 21, {}, look);
     EXPECT_EQ(none.projection.parts[0].ballRadius, 0);
     EXPECT_EQ(none.projection.parts[0].barRadius, 0);
+}
+
+TEST(Cloud, isShownWithoutBallsAndBars) {
+    const auto cloud = std::make_shared<const geometry::PointCloud>(
+        geometry::makePointCloud("dots", {{1, 0, 0, 0}, {0, 1, 0, 0.2}, {0, 0, -1, 0}}, {0, 0, 0.1}));
+    slicing::SliceSet slices;
+    slicing::CloudSlicer().slice(*cloud, {}, {-1, 3, 0.5}, slices);
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    const auto compose = [&] {
+        Scene s;
+        scene::Composer().compose(cloud, {}, slices, 0, look, {}, s);
+        return s;
+    };
+    const Scene whole = compose();
+    EXPECT_EQ(whole.drawnBallRadius(), whole.ballRadius);
+    look.parts.balls = false;
+    for (const bool bars : {true, false}) {
+        look.parts.bars = bars;
+        const Scene s = compose();
+        EXPECT_EQ(s.drawnBallRadius(), s.barRadius);
+        EXPECT_EQ(s.drawnBallColor(), s.style().bar);
+        ASSERT_EQ(s.projection.parts.size(), 2U);
+        for (const scene::ProjectionPartLook& part : s.projection.parts) {
+            EXPECT_GT(part.ballRadius, 0);
+            EXPECT_LT(part.ballRadius, whole.projection.parts[0].ballRadius);
+        }
+    }
+    look.parts.bars = false;
+    EXPECT_EQ(composed("5-cell", 21, {}, look).drawnBallRadius(), 0) << "vertices of polytopes are hidden";
 }
 
 }  // namespace

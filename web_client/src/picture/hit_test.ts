@@ -62,7 +62,8 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
-        const look = { ball, bar, hasFaces: shown.faces && !scene.surfaces }; // the box of a field has none
+        const hasFaces = shown.faces && !scene.surfaces; // the box of a field has none
+        const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces };
         meshes.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
     }
     for (const part of projection?.parts ?? []) {

@@ -47,7 +47,8 @@ export class SliceMesh {
         this.writeFaces();
         this.shapes.markChanged();
         this.paint(picture, highlighted);
-        this.order.update({ ...shown, faces: shown.faces && faces });
+        const hasPoints = picture.slices.some((slice) => slice.balls); // those of a cloud are small without balls
+        this.order.update({ ...shown, faces: shown.faces && faces, balls: shown.balls || hasPoints });
     }
 
     /** Writes the colors. The picture must be the one that was last passed to update(). */
