@@ -86,7 +86,7 @@ async def test_a_file_without_a_state_is_refused(server):
 
         status, code, text = await refusal(plain.getvalue())
         assert (status, code) == (400, "bad_message") and "contains no state" in text
-        for body, code in ((b"", "bad_field"), (b"OFF", "bad_json"), (b"{", "bad_message"), (b"[]", "bad_message"),
+        for body, code in ((b"", "bad_field"), (b"OFF", "bad_json"), (b"{", "bad_json"), (b"[]", "bad_message"),
                            (b"{}", "bad_message"), (b'{"type":"state","alpha":"x"}', "bad_message"),
                            (b'{"type":"state","polytope":{"name":"no such thing"}}', "unknown_polytope"),
                            (b'{"type":"state","slices":{"count":2}}', "out_of_range")):

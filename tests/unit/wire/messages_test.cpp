@@ -200,6 +200,8 @@ TEST(StateMessage, WhatIsNoStateIsRefused) {
         EXPECT_NE(set.error().message.find(says), std::string::npos) << set.error().message;
     };
     refused("", ErrorCode::bad_json, "not JSON");
+    refused("{", ErrorCode::bad_json, "not JSON");
+    refused(R"({"alpha":0.1,"beta":,"type":"state"})", ErrorCode::bad_json, "at byte 21");
     refused("[]", ErrorCode::bad_message, "a message must be a JSON object");
     refused("{}", ErrorCode::bad_message, "\"type\":\"state\"");
     refused(R"({"type":"undo"})", ErrorCode::bad_message, "\"type\":\"state\"");
