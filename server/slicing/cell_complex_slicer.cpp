@@ -402,28 +402,30 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
 void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
+    upward_.assign(complex.cells.size(), std::nullopt);
+    const auto isUpward = [&](std::uint32_t cell) {
+        std::optional<bool>& known = upward_[cell];
+        if (!known) known = hasUpwardNormal(complex, cell, out);
+        return *known;
+    };
     for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
         const std::int32_t plane = lyingIn_[f];
         if (plane == kNoPlane) continue;
         std::array<bool, 2> standsOnFace{};
         std::array<bool, 2> bounds{};
-        std::array<bool, 2> outward{};
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t cell = complex.faceCells[f].at(i);
-            const auto faces = complex.cells[cell];
-            const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
-            outward.at(i) = complex.cellSigns[complex.cells.begin[cell] + place] > 0;
             const Span span = cellSpan_[cell];
             standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
-            bounds.at(i) =
-                standsOnFace.at(i) || (span.from > plane && span.to <= plane && hasUpwardNormal(complex, cell, out));
+            bounds.at(i) = standsOnFace.at(i) || (span.from > plane && span.to <= plane && isUpward(cell));
         }
         if ((standsOnFace[0] && standsOnFace[1]) || (!bounds[0] && !bounds[1])) {
             touchingFaces_.push_back(f);
             continue;
         }
         for (std::size_t i = 0; i < 2; ++i) {
-            if (bounds.at(i)) addLyingFace(complex, f, outward.at(i));
+            // The loop of a 2-face is counterclockwise seen from outside its second cell: see CellComplex::faceCells.
+            if (bounds.at(i)) addLyingFace(complex, f, i == 1);
         }
     }
     for (const std::uint32_t f : touchingFaces_) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -134,6 +135,7 @@ class CellComplexSlicer {
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be the whole slice in it
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
+    std::vector<std::optional<bool>> upward_;   // per cell: the result of hasUpwardNormal(), if it is known
     std::vector<Loop> loops_;
     // Per corner: its slice vertex, and the slice edge to the next corner.
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
