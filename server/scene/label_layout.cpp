@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scene/slice_label.hpp"
 #include "scene/style.hpp"
 
 namespace oval4d::scene {
@@ -33,6 +34,9 @@ LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double or
     for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
     const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
     width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
+    // A number with an exponent is shorter. None of its characters is wider than a digit.
+    if (decimals > kMaxPlainDecimals)
+        width_ = kSignWidth + static_cast<double>(labelNumber(w, decimals).size()) * kDigitWidth;
 }
 
 void LabelLayout::shrink(double columnWidth) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 namespace oval4d::scene {
@@ -21,17 +22,38 @@ double leastDistance(const geometry::Hyperplanes& planes) {
     return least;
 }
 
+std::string fixed(double number, int decimals) {
+    std::array<char, 48> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.*f", decimals, number);
+    return digits.data();
+}
+
+// formatW() in web_client/src/format.ts writes the same text.
+std::string withManyDecimals(double number, int decimals) {
+    constexpr int kMostDigits = 17;  // the significant digits of a double
+    constexpr double kLeastWithoutExponent = 1e-4;
+    std::array<char, 48> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.*e", kMostDigits - 1, number);
+    std::string text = digits.data();
+    const int exponent = std::atoi(text.c_str() + text.find('e') + 1);
+    if (number >= kLeastWithoutExponent) return fixed(number, std::clamp(kMostDigits - 1 - exponent, 0, decimals));
+    std::snprintf(digits.data(), digits.size(), "%.*e", std::clamp(exponent + decimals, 0, kMostDigits - 1), number);
+    text = digits.data();
+    const std::size_t first = text.find("e-") + 2;
+    text.erase(first, text.find_first_not_of('0', first) - first);  // "e-05" becomes "e-5"
+    return text;
+}
+
 }  // namespace
 
 int labelDecimals(const geometry::Hyperplanes& planes) {
-    return static_cast<int>(std::clamp(std::ceil(-std::log10(leastDistance(planes))) + 1, 2.0, 9.0));
+    return static_cast<int>(std::clamp(std::ceil(-std::log10(leastDistance(planes))) + 1, 2.0, 300.0));
 }
 
 std::string labelNumber(double w, int decimals) {
     if (std::abs(w) < 0.5 * std::pow(10, -decimals)) return "0";
-    std::array<char, 48> digits{};
-    std::snprintf(digits.data(), digits.size(), "%.*f", decimals, std::abs(w));
-    return (w < 0 ? "\u2212" : "") + std::string(digits.data());
+    return (w < 0 ? "\u2212" : "") +
+           (decimals > kMaxPlainDecimals ? withManyDecimals(std::abs(w), decimals) : fixed(std::abs(w), decimals));
 }
 
 }  // namespace oval4d::scene

@@ -7,11 +7,15 @@
 
 namespace oval4d::scene {
 
-/// Returns the number of decimals, from 2 to 9, at which the values of w of neighboring hyperplanes differ.
+/// With more decimals than this, small numbers are written with an exponent.
+inline constexpr int kMaxPlainDecimals = 9;
+
+/// Returns the number of decimals, at least 2, at which the values of w of neighboring hyperplanes differ.
 int labelDecimals(const geometry::Hyperplanes& planes);
 
 /// Returns w, rounded to this number of decimals, with a minus sign (U+2212) if it is negative; "0" if all digits are
-/// 0.
+/// 0. If `decimals` is greater than kMaxPlainDecimals, a number below 0.0001 has an exponent ("5.0e-11"), and no number
+/// has more digits than a double.
 std::string labelNumber(double w, int decimals);
 
 }  // namespace oval4d::scene

@@ -3,7 +3,7 @@
 import type { Box, Settings, State } from "@oval4d/protocol";
 
 import { textOfFog } from "./fog";
-import { formatCoordinate } from "./format";
+import { formatFieldValue } from "./format";
 import { frameQuery } from "./reference_frame";
 
 /** A formula, its domain, and what colors its surfaces: all from which the server makes a field. */
@@ -58,9 +58,9 @@ export function fieldOfLine(line: string): FormulaWithBox | undefined {
 export function spokenLevels({ levels, inside = "below", fog = [] }: State): string {
     if (!levels) return "";
     const named = levels.length === 1 ? "level" : "levels";
-    const ends = [fog[0], fog.at(-1)].map((point) => formatCoordinate(point?.value ?? 0));
+    const ends = [fog[0], fog.at(-1)].map((point) => formatFieldValue(point?.value ?? 0));
     const fogText = fog.length > 0 ? `, fog from ${ends.join(" to ")}` : "";
-    return `${named} ${levels.map(formatCoordinate).join(", ")}, inside ${inside}${fogText}`;
+    return `${named} ${levels.map(formatFieldValue).join(", ")}, inside ${inside}${fogText}`;
 }
 
 /**

@@ -4,6 +4,8 @@ import type { State } from "@oval4d/protocol";
 
 const kMinus = "\u2212";
 const kMaxPlanes = 3; // the most planes that the text of a rotation lists
+const kMaxPlainDecimals = 9; // with more decimals, small numbers are written with an exponent
+const kMostDigits = 17; // the significant digits of a number
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
@@ -23,15 +25,47 @@ export function formatDegrees(radians: number): string {
     return `${formatDecimal((radians * 180) / Math.PI, 2)}°`;
 }
 
-/** A length with three significant digits, more if its integer part has more, and at most eight decimals. */
+/** A length with three significant digits, more if its integer part has more. */
 export function formatLength(value: number): string {
-    const digits = value === 0 ? 0 : Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))));
-    return formatDecimal(value, Math.min(8, digits));
+    return formatRounded(value, value === 0 ? 0 : Math.max(0, 2 - exponentOf(value)));
 }
 
-/** A coordinate of a vertex, with three decimals at most. */
-export function formatCoordinate(value: number): string {
-    return formatDecimal(value, 3);
+/**
+ * A coordinate, such as one of a vertex, with three decimals at most, or with more if slices that are `spacing` apart
+ * could not be told apart otherwise.
+ */
+export function formatCoordinate(value: number, spacing: number): string {
+    return formatRounded(value, Math.max(3, 1 - exponentOf(spacing)));
+}
+
+/** A value of a field with three decimals at most, or with three significant digits if it is below 0.01. */
+export function formatFieldValue(value: number): string {
+    const size = Math.abs(value);
+    return formatRounded(value, size === 0 || size >= 0.01 ? 3 : 2 - exponentOf(size));
+}
+
+/** A number with at most `decimals` decimals, without trailing zeros; with an exponent instead of too many zeros. */
+function formatRounded(value: number, decimals: number): string {
+    if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
+    const size = Math.abs(value);
+    if (size < 0.5 * 10 ** -decimals) return "0";
+    const text = withManyDecimals(size, decimals)
+        .replace(/(\.\d*?)0+(e|$)/, "$1$2")
+        .replace(/\.(e|$)/, "$1");
+    return value < 0 ? kMinus + text : text;
+}
+
+/** The integer n for which 10 ** n is the largest power of ten that is not above the size of the number. */
+function exponentOf(value: number): number {
+    return Number(value.toExponential(kMostDigits - 1).split("e")[1]);
+}
+
+/** A positive number with more than kMaxPlainDecimals decimals, as in server/scene/slice_label.cpp. */
+function withManyDecimals(size: number, decimals: number): string {
+    const exponent = exponentOf(size);
+    const atMost = (most: number, wanted: number): number => Math.max(0, Math.min(most, wanted));
+    if (size >= 1e-4) return size.toFixed(atMost(decimals, kMostDigits - 1 - exponent));
+    return size.toExponential(atMost(kMostDigits - 1, exponent + decimals));
 }
 
 /** The w of the focus slice. */
@@ -41,7 +75,12 @@ export function focusW({ section, slices }: State): string {
 
 /** The w of a slice, rounded like its label in the picture (labelNumber() in server/scene/slice_label.cpp). */
 export function formatW(w: number, spacing: number): string {
-    const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
+    const decimals = Math.min(300, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
+    if (decimals > kMaxPlainDecimals) {
+        const size = Math.abs(w);
+        if (size < 0.5 * 10 ** -decimals) return "0";
+        return (w < 0 ? kMinus : "") + withManyDecimals(size, decimals);
+    }
     const text = new Intl.NumberFormat("en-US", {
         minimumFractionDigits: decimals,
         maximumFractionDigits: decimals,

@@ -120,7 +120,7 @@ function announcementsOf(state: State): string[] {
         ...kHeaderValues.map((one) => one.spoken(state)),
         state.section.name ? `section: ${state.section.name}` : "",
         `${state.view} view`,
-        state.view === "matrix" ? `focus point ${state.point.map(formatCoordinate).join(", ")}` : "",
+        state.view === "matrix" ? `focus point ${spokenPoint(state)}` : "",
         state.turning ? "turning" : "at rest",
         spokenColoring(state),
         spokenKinds(state),
@@ -130,6 +130,10 @@ function announcementsOf(state: State): string[] {
         state.highlight ? `${state.highlight.element} ${state.highlight.number} highlighted` : "no highlight",
         ...Object.entries(state.shown).map(([part, isShown]) => onOff(part, isShown as boolean)),
     ];
+}
+
+function spokenPoint({ point, slices }: State): string {
+    return point.map((coordinate) => formatCoordinate(coordinate, slices.spacing)).join(", ");
 }
 
 function description(name: string, symbol: string, meaning: string, value: (state: State) => string) {

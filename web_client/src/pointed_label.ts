@@ -1,6 +1,6 @@
 // The label beside the pointer, which names an element of the polytope.
 
-import type { PolytopeElement } from "@oval4d/protocol";
+import type { PolytopeElement, State } from "@oval4d/protocol";
 
 import { byId } from "./element";
 import { capitalize, formatCoordinate, formatLength } from "./format";
@@ -26,12 +26,15 @@ const kMargin = 4; // pixels between the label and the edges of the drawing
 export class PointedLabel {
     private readonly label = byId("pointed");
 
-    constructor(private readonly drawing: HTMLElement) {}
+    constructor(
+        private readonly drawing: HTMLElement,
+        private readonly state: () => State | undefined,
+    ) {}
 
     /** Shows the label of an element beside the pointer. */
     show(element: ElementDescription, pointer: Point): void {
         this.label.hidden = false;
-        this.label.textContent = describe(element);
+        this.label.textContent = describe(element, this.state()?.slices.spacing ?? 1);
         this.place(pointer);
     }
 
@@ -50,15 +53,18 @@ export class PointedLabel {
     }
 }
 
-function describe({ element, number, kind, coordinates, length, range, sliceW }: ElementDescription): string {
+/** `spacing`: the distance between slices, to which coordinates are rounded. */
+function describe(described: ElementDescription, spacing: number): string {
+    const { element, number, kind, coordinates, length, range, sliceW } = described;
+    const format = (coordinate: number): string => formatCoordinate(coordinate, spacing);
     const parts = [`${capitalize(element)} ${number}`];
-    if (coordinates) parts[0] += ` (${coordinates.map(formatCoordinate).join(", ")})`;
+    if (coordinates) parts[0] += ` (${coordinates.map(format).join(", ")})`;
     if (kind !== undefined) parts.push(kind);
     if (length !== undefined) parts.push(`length ${formatLength(length)}`);
     if (range) {
-        const [least, most] = range.map(formatCoordinate);
+        const [least, most] = range.map(format);
         parts.push(least === most ? `w ${least}` : `w ${least} … ${most}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${formatCoordinate(sliceW)}`);
+    if (sliceW !== undefined) parts.push(`slice w ${format(sliceW)}`);
     return parts.join(" · ");
 }
