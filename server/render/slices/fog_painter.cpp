@@ -32,6 +32,7 @@ void main() {
 
 // web_client/src/picture/fog_painter.ts has the same algorithm.
 constexpr std::string_view kFragmentSource = R"(
+// Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
 in vec3 place;
 in float depthSeen;  // the distance of this place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
@@ -46,7 +47,6 @@ uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
-uniform float circumradius;
 out vec4 pixel;
 // Returns the distance, along the view axis, of the nearest shape at this pixel of a depth texture; 1e30 if none.
 float distanceIn(sampler2D depths) {
@@ -72,7 +72,7 @@ void main() {
     if (!(begin < end)) discard;
     float reach = (end - begin) * length(way);
     float count = clamp(ceil(reach / latticeStep), 1.0, 512.0);
-    float thickness = reach / count / circumradius;
+    float thickness = reach / count;
     vec3 move = (end - begin) / count * way / (latticeStep * size);
     vec3 at = ((eye + begin * way - low) / latticeStep + 0.5) / size + 0.5 * move;
     vec3 light = vec3(0.0);
@@ -121,8 +121,8 @@ FogPainter::FogPainter()
                std::to_array<Attribute>(
                    {{3, GL_FLOAT, offsetof(BoxCorner, clip)}, {3, GL_FLOAT, offsetof(BoxCorner, place)}})) {
     const auto at = [&](const char* name) { return program_.uniform(name); };
-    uniforms_ = {at("toDepth"), at("isBehind"), at("eye"),         at("walls"),       at("wallCount"),
-                 at("low"),     at("size"),     at("latticeStep"), at("circumradius")};
+    uniforms_ = {at("toDepth"),   at("isBehind"), at("eye"),  at("walls"),
+                 at("wallCount"), at("low"),      at("size"), at("latticeStep")};
     makeTexture(GL_TEXTURE_2D, GL_NEAREST, table_);
     makeTexture(GL_TEXTURE_2D, GL_NEAREST, frameDepths_);
     makeTexture(GL_TEXTURE_2D, GL_NEAREST, surfaceDepths_);
@@ -167,7 +167,6 @@ void FogPainter::begin(const scene::Scene& scene, DepthRange range) {
     const glm::vec2 toDepth = range.toDepth();
     program_.use();
     glUniform2f(uniforms_.toDepth, toDepth.x, toDepth.y);
-    glUniform1f(uniforms_.circumradius, static_cast<float>(scene.circumradius));
 }
 
 void FogPainter::deleteLattices() {
@@ -206,16 +205,19 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     const slicing::SliceFog& fog = scene.slices->fogs[slice];
     const SliceView view{*scene.slices, scene, toView_, slice};
     const SliceTransform transform(view);
+    const double unit = scene.circumradius;
     const glm::dvec3 reach = fog.step * glm::dvec3(fog.size - 1);
     std::array<BoxCorner, 8> corners{};
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 place = fog.min + reach * glm::dvec3(i & 1, i >> 1 & 1, i >> 2);
-        corners[static_cast<std::size_t>(i)] = {projection_.clipXyw(transform(place)), glm::vec3(place)};
+        corners[static_cast<std::size_t>(i)] = {projection_.clipXyw(transform(place)), glm::vec3(place / unit)};
     }
     std::array<glm::vec4, slicing::FieldSection::kMaxWalls> walls{};
-    std::ranges::transform(fog.walls, walls.begin(),
-                           [](const slicing::FieldSection::Wall& wall) { return glm::vec4(wall.normal, wall.offset); });
-    const glm::vec3 eye((scene.camera.eye - scene.placements[slice].position) / scene.scale);
+    std::ranges::transform(fog.walls, walls.begin(), [unit](const slicing::FieldSection::Wall& wall) {
+        return glm::vec4(wall.normal, wall.offset / unit);
+    });
+    const glm::vec3 eye((scene.camera.eye - scene.placements[slice].position) / (scene.scale * unit));
+    const glm::vec3 low(fog.min / unit);
     glActiveTexture(GL_TEXTURE0 + kBlocksUnit);
     glBindTexture(GL_TEXTURE_3D, blocks_[slice]);
     glActiveTexture(GL_TEXTURE0);
@@ -225,11 +227,10 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     glUniform3f(uniforms_.eye, eye.x, eye.y, eye.z);
     glUniform4fv(uniforms_.walls, static_cast<GLsizei>(walls.size()), &walls[0].x);
     glUniform1i(uniforms_.wallCount, static_cast<GLint>(fog.walls.size()));
-    glUniform3f(uniforms_.low, static_cast<float>(fog.min.x), static_cast<float>(fog.min.y),
-                static_cast<float>(fog.min.z));
+    glUniform3f(uniforms_.low, low.x, low.y, low.z);
     glUniform3f(uniforms_.size, static_cast<float>(fog.size.x), static_cast<float>(fog.size.y),
                 static_cast<float>(fog.size.z));
-    glUniform1f(uniforms_.step, static_cast<float>(fog.step));
+    glUniform1f(uniforms_.step, static_cast<float>(fog.step / unit));
     // Draws the back faces of the box, because they are visible even if the eye is inside it.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);

@@ -59,7 +59,7 @@ class FogPainter {
     // A corner of the box that the lattice of a slice fills; the box is drawn to run the shader for its pixels.
     struct BoxCorner {
         glm::vec3 clip;   // clip coordinates x, y, w
-        glm::vec3 place;  // in slice coordinates
+        glm::vec3 place;  // in slice coordinates, in circumradii
     };
     void load(const slicing::SliceFog& fog);
     void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table);
@@ -67,7 +67,7 @@ class FogPainter {
 
     ShaderProgram program_;
     struct {
-        GLint toDepth, isBehind, eye, walls, wallCount, low, size, step, circumradius;
+        GLint toDepth, isBehind, eye, walls, wallCount, low, size, step;
     } uniforms_{};
     GLuint table_ = 0, frameDepths_ = 0, surfaceDepths_ = 0;
     std::vector<GLuint> lattices_, blocks_;  // per slice: the texture of its lattice, and of its blocks; 0 without fog

@@ -12,7 +12,7 @@ const kVertexShader = `#version 300 es
 precision highp float;
 layout(location = 0) in vec3 corner;  // 0 or 1 along each axis of the box
 uniform mat4 view, projection;
-uniform vec4 origin;  // the world position of the slice's origin, and the scale
+uniform vec4 origin;  // the world position of the slice's origin, and the circumradius in world units
 uniform vec3 low, size;
 uniform float latticeStep;
 out vec3 place;
@@ -28,6 +28,7 @@ void main() {
 const kFragmentShader = `#version 300 es
 precision highp float;
 precision highp sampler3D;
+// Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
 in vec3 place;
 in float depthSeen;  // the distance of this place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
@@ -42,7 +43,6 @@ uniform int wallCount;
 uniform vec3 low;            // the first point of the lattice
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
-uniform float circumradius;
 out vec4 pixel;
 // Returns the distance, along the view axis, of the nearest shape at this pixel of a depth texture; 1e30 if none.
 float distanceIn(sampler2D depths) {
@@ -68,7 +68,7 @@ void main() {
     if (!(begin < end)) discard;
     float reach = (end - begin) * length(way);
     float count = clamp(ceil(reach / latticeStep), 1.0, 512.0);
-    float thickness = reach / count / circumradius;
+    float thickness = reach / count;
     vec3 move = (end - begin) / count * way / (latticeStep * size);
     vec3 at = ((eye + begin * way - low) / latticeStep + 0.5) / size + 0.5 * move;
     vec3 light = vec3(0.0);
@@ -97,7 +97,7 @@ void main() {
 
 const kUniforms = [
     ...(["view", "projection", "origin", "lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const),
-    ...(["toDepth", "isBehind", "eye", "walls", "wallCount", "low", "size", "latticeStep", "circumradius"] as const),
+    ...(["toDepth", "isBehind", "eye", "walls", "wallCount", "low", "size", "latticeStep"] as const),
 ] as const;
 
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
@@ -220,7 +220,6 @@ export class FogPainter {
         gl.uniformMatrix4fv(uniforms.projection, false, viewCamera.projection.elements);
         // A point at the distance d along the view axis has the depth −P₂₂ + P₂₃ / d.
         gl.uniform2f(uniforms.toDepth, -viewCamera.projection.elements[10]!, viewCamera.projection.elements[14]!);
-        gl.uniform1f(uniforms.circumradius, picture.scene.circumradius);
         kSamplers.forEach((name, unit) => gl.uniform1i(uniforms[name], unit));
     }
 
@@ -236,7 +235,8 @@ export class FogPainter {
         if (!picture || !resources || !targets || !lattice || !slice.fog) return;
         const { program, uniforms, arrays, table } = resources;
         const { size, min, step, walls } = slice.fog;
-        const { scale } = picture.scene;
+        const { circumradius } = picture.scene;
+        const scale = picture.scene.scale * circumradius;
         const { x, y, z } = viewCamera.eye;
         const [atX, atY, atZ] = slice.position;
         gl.useProgram(program);
@@ -244,10 +244,11 @@ export class FogPainter {
         gl.uniform4f(uniforms.origin, atX, atY, atZ, scale);
         gl.uniform3f(uniforms.eye, (x - atX) / scale, (y - atY) / scale, (z - atZ) / scale);
         gl.uniform1i(uniforms.wallCount, walls.length / 4);
-        if (walls.length > 0) gl.uniform4fv(uniforms.walls, walls);
-        gl.uniform3f(uniforms.low, ...min);
+        const scaled = walls.map((value, i) => (i % 4 === 3 ? value / circumradius : value));
+        if (walls.length > 0) gl.uniform4fv(uniforms.walls, scaled);
+        gl.uniform3f(uniforms.low, min[0] / circumradius, min[1] / circumradius, min[2] / circumradius);
         gl.uniform3f(uniforms.size, ...size);
-        gl.uniform1f(uniforms.latticeStep, step);
+        gl.uniform1f(uniforms.latticeStep, step / circumradius);
         const depthsOf = (target: WebGLRenderTarget): WebGLTexture =>
             (this.renderer.properties.get(target.depthTexture!) as { __webglTexture: WebGLTexture }).__webglTexture;
         const textures = [

@@ -72,6 +72,21 @@ TEST(FogPainter, AbsorptionGrowsExponentiallyWithTheLength) {
     }
 }
 
+TEST(FogPainter, LooksTheSameInAnyUnitOfLength) {
+    const Rgb expected = blended(1 - std::pow(0.4, 2 * 0.3));
+    for (const double unit : {1e-25, 1e-3, 1.0, 1e6, 1e25}) {
+        FogPicture picture(0.3, 0.1, kConstant);
+        picture.setOpacity(0.6);
+        slicing::SliceFog& fog = picture.slices.fogs[0];
+        fog.min *= unit;
+        fog.step *= unit;
+        for (slicing::FieldSection::Wall& wall : fog.walls) wall.offset *= unit;
+        picture.scene.circumradius = unit;
+        picture.scene.scale = 1 / unit;
+        EXPECT_LE(difference(centerOf(picture), expected), 2) << unit;
+    }
+}
+
 TEST(FogPainter, AnOpacityOfOneLetsAlmostNothingThrough) {
     FogPicture picture(0.5, 0.1, kConstant);
     picture.setOpacity(1);
