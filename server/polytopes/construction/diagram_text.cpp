@@ -209,7 +209,8 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
             builder.add(builder.nodes - first < kMirrors && holds(*rings, builder.nodes - first));
             builder.join(builder.nodes - 2, builder.nodes - 1, *branch);
         }
-        if ((*rings >> static_cast<unsigned>(builder.nodes - first)) != 0) {
+        // A prefix rings at most four nodes, and a shift by 32 or more is undefined.
+        if (const int own = builder.nodes - first; own < kMirrors && (*rings >> static_cast<unsigned>(own)) != 0) {
             return NameError::impossible(
                 "the numbers before { must be node numbers, from 0 to the last node of the symbol");
         }

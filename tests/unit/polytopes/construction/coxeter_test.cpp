@@ -169,6 +169,30 @@ TEST(Names, ofNoPolytopeGiveAnError) {
     }
 }
 
+TEST(Names, ofAnyLengthAndWithAnyNumbersGiveAnError) {
+    for (const int nodes : {5, 32, 33, 64, 1000}) {
+        std::string numbers = "3";
+        std::string nodesOfDiagram = "x3o";
+        for (int i = 2; i < nodes; ++i) {
+            numbers += ",3";
+            nodesOfDiagram += "3o";
+        }
+        const std::string expected =
+            "the diagram of a polychoron has four nodes, as in x5o3o3x, not " + std::to_string(nodes);
+        for (const char* prefix : {"", "r", "t", "2tr", "t0,3"})
+            EXPECT_EQ(std::get<NameError>(parseSchlaefli(prefix + ("{" + numbers) + "}")).message, expected);
+        EXPECT_EQ(std::get<NameError>(parseDiagram(nodesOfDiagram)).message, expected);
+    }
+    for (const char* text : {"{0,3,3}", "{1,3,3}", "{-3,3,3}", "{3/0,3,3}", "{3/-2,3,3}", "{1000001,3,3}",
+                             "{4294967299,3,3}", "{18446744073709551619,3,3}", "{3,3,1000000/3}", "{5/4,3,3}",
+                             "{1000000,3,3}", "{1000000,1000000,1000000}", "t0,1,0,1,0,1,0,1,4{3,3,3}", "t{}", "{3}×"})
+        EXPECT_TRUE(std::holds_alternative<NameError>(parseSchlaefli(text))) << text;
+    EXPECT_EQ(errorFor("1000000,1000000-duoprism"),
+              "the 1000000,1000000-duoprism has 1000000000000 vertices; at most 100000 are allowed");
+    EXPECT_EQ(errorFor("1000000,1000000-duoantiprism"),
+              "the 1000000,1000000-duoantiprism has 2000000000000 vertices; at most 100000 are allowed");
+}
+
 TEST(Names, ofAnyTextAreParsedSafely) {
     // All concatenations of four of these pieces.
     const auto pieces =
