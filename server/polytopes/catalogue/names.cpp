@@ -39,6 +39,16 @@ std::size_t constructionsIn(const std::vector<std::string>& words) {
     return count;
 }
 
+// Returns whether the words contain "of circumradius", but not within a hull or an intersection. Only the polytopes of
+// these take a circumradius.
+bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        if (words[i] == "hull" || words[i] == "intersection") return false;
+        if (words[i] == "of" && words[i + 1] == "circumradius") return true;
+    }
+    return false;
+}
+
 // Returns why a text that is in none of the notations names no polytope: because it names a polyhedron, or because it
 // has the form of a construction, but begins with an unknown word. Returns an empty string for other texts.
 std::string reasonFor(const std::vector<std::string>& words) {
@@ -61,6 +71,11 @@ DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
     if (const std::size_t count = constructionsIn(words); count > kMaxConstructions) {
         return NameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +
                                      std::to_string(kMaxConstructions) + " are allowed");
+    }
+    if (hasMisplacedCircumradius(words)) {
+        return NameError::impossible(
+            "'of circumradius' and a number may follow only a polytope of a hull or an intersection, as in hull of "
+            "tesseract and 16-cell of circumradius 3");
     }
     for (const Notation* notation : kNotations) {
         auto found = notation->parse({words, lookup});

@@ -110,6 +110,23 @@ TEST(Constructions, areListedForOneThatIsUnknown) {
               "truncation, rectification, product, hull, intersection");
 }
 
+TEST(Constructions, takeACircumradiusOnlyWithinHullsAndIntersections) {
+    for (const char* name :
+         {"prism of circumradius 3", "prism of cube of circumradius 3", "tesseract of circumradius 3",
+          "dual of rectified 5-cell of circumradius 3", "product of 5-gon and 7-gon of circumradius 3",
+          "hull of tesseract and 16-cell of circumradius 2 of circumradius 3"}) {
+        const auto named = designNamed(name, 100'000);
+        ASSERT_TRUE(std::holds_alternative<NameError>(named)) << name;
+        EXPECT_EQ(std::get<NameError>(named).message,
+                  "'of circumradius' and a number may follow only a polytope of a hull or an intersection, as in hull "
+                  "of tesseract and 16-cell of circumradius 3")
+            << name;
+    }
+    for (const char* name : {"hull of prism of cuboctahedron of circumradius 3 and tesseract",
+                             "dual of intersection of pyramid of cube and 5,7-duoprism of circumradius 2.5"})
+        EXPECT_TRUE(std::holds_alternative<Design>(designNamed(name, 100'000))) << name;
+}
+
 TEST(Duoprisms, areNamedAfterTwoPolygons) {
     for (const char* text : {"6,8-duoprism", "6x8 duoprism", "6×8-duoprism", "6, 8 duoprism", "8-6 duoprism",
                              "hexagonal-octagonal duoprism", "6-gonal 8-gonal duoprism"})
