@@ -17,6 +17,7 @@ namespace {
 // Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of an example field or a
 // loaded object if that is at least as similar; an empty string if nothing is similar.
 std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
+    name = name.substr(0, polytopes::kMaxNameBytes);
     std::vector<std::string_view> near = polytopes::nearestNames(name);
     std::size_t least =
         near.empty() ? text::normalizedName(name).size() / 3 : polytopes::editDistance(name, near.front());

@@ -15,7 +15,7 @@ namespace oval4d::text {
 
 namespace {
 
-// Returns the Levenshtein distance in O(|a| |b|) steps, which is fast enough because both texts are short.
+// Returns the Levenshtein distance in O(|a| |b|) steps, so both texts must be short.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -61,6 +61,8 @@ std::string_view closestMatch(std::string_view text, std::span<const std::string
     std::string_view best;
     std::size_t least = 2 * kMaxQuotedBytes;
     for (const std::string_view candidate : candidates) {
+        // The distance is at least the difference of the lengths. A file may have thousands of long names.
+        if (candidate.size() > text.size() + least / 2) continue;
         // Among candidates at the same distance, prefer one of the same length: "25-cell" more likely means 24-cell
         // than 5-cell.
         const std::size_t d = 2 * distance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);

@@ -128,6 +128,7 @@ bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= l
 // similar. If several names have the same distance, keeps only those whose length is nearest to that of `text`, because
 // a wrong letter is likelier than a missing one.
 std::vector<NearMatch> nearest(std::string_view text) {
+    text = text.substr(0, kMaxNameBytes);
     const std::size_t wanted = text::normalizedName(text).size();
     std::vector<NearMatch> best;
     std::pair<std::size_t, std::size_t> least(-1, -1);
@@ -135,7 +136,8 @@ std::vector<NearMatch> nearest(std::string_view text) {
         const auto consider = [&](std::string_view name) {
             const std::size_t known = text::normalizedName(name).size();
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
-            if (longer > least.first) return;
+            // The distance is at least the difference of the lengths.
+            if (longer > least.first || !isNear(longer, wanted)) return;
             const std::pair distance(polytopes::editDistance(text, name), longer);
             if (distance < least) best.clear();
             if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
@@ -147,8 +149,6 @@ std::vector<NearMatch> nearest(std::string_view text) {
     if (!isNear(least.first, wanted)) best.clear();
     return best;
 }
-
-constexpr std::size_t kMaxNameBytes = 256;  // of a canonical name; limited because names are stored and shown
 
 // Returns the reason why a polytope is too large to be built; std::nullopt if it is not too large.
 std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
@@ -208,9 +208,8 @@ DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
 }
 
 std::size_t editDistance(std::string_view one, std::string_view other) {
-    constexpr std::size_t kLongest = 64;
-    const std::string a = text::normalizedName(one.substr(0, kLongest));
-    const std::string b = text::normalizedName(other.substr(0, kLongest));
+    const std::string a = text::normalizedName(one.substr(0, kMaxNameBytes));
+    const std::string b = text::normalizedName(other.substr(0, kMaxNameBytes));
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {

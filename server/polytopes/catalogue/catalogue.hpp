@@ -33,6 +33,9 @@ struct CatalogueEntry {
 /// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
+/// The maximum size of a canonical name, which is limited because names are stored and shown.
+inline constexpr std::size_t kMaxNameBytes = 256;
+
 /// Returns the entry with this name, alias, diagram or Schläfli symbol, or the entry of the polytope that the text
 /// describes in one of the notations (see describedBy() in names.hpp); nullptr if there is none. Ignores case; blanks
 /// and hyphens are equivalent.
@@ -42,7 +45,7 @@ const CatalogueEntry* findEntry(std::string_view text);
 /// polytope that the text describes in one of the notations (see describedBy() in names.hpp). Returns an error if the
 /// text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
 /// `maxVertices` vertices, if the convex hulls that build it have more than kMaxHullPoints points in total
-/// (convex_hull.hpp), or if its canonical name has more than 256 bytes.
+/// (convex_hull.hpp), or if its canonical name has more than kMaxNameBytes.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). Among equal
@@ -54,7 +57,7 @@ std::string_view nearestName(std::string_view text);
 /// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names. Cuts each name after 64 bytes, and converts it by
+/// Returns the edit distance (Levenshtein) of two names. Cuts each name after kMaxNameBytes, and converts it by
 /// text::normalizedName().
 std::size_t editDistance(std::string_view one, std::string_view other);
 

@@ -278,6 +278,9 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("polytope rectification of 1001,3-duoprism", ErrorCode::too_large, "at most 1000 are allowed");
     refused("polytope truncation of great 120-cell", ErrorCode::unknown_polytope, "the great 120-cell is not convex");
     expectRefused(session, CommandLine{"polytope q"}, ErrorCode::unknown_polytope, "no polytope is called 'q'");
+    const auto longName = apply(session, CommandLine{"polytope " + std::string(300, 'q')}, Limits{});
+    ASSERT_FALSE(longName);
+    EXPECT_EQ(longName.error().message.find("did you mean"), std::string::npos) << longName.error().message;
     refused("set", ErrorCode::unknown_command, "the names are polytope, pace");
     refused("set slcies=3", ErrorCode::unknown_command, "did you mean 'slices'?");
     refused("set slices 31", ErrorCode::bad_expression, "has no '='");

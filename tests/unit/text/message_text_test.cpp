@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,15 @@ TEST(RoundedDecimal, HasSixDigitsAndNoTrailingZeros) {
 TEST(OutsideBounds, RoundsUnlessTheNumberIsCloseToABound) {
     EXPECT_EQ(outsideBoundsText(-2, 0.1234567, " m", -7.1234567), "from −2 to 0.123457 m, not −7.12346");
     EXPECT_EQ(outsideBoundsText(-2, 2, "", -2.0000001), "from −2 to 2, not −2.0000001");
+}
+
+TEST(ClosestMatch, IsTheFirstOfThoseWithTheLeastDistance) {
+    const std::string letters(100'000, 'a');
+    const std::vector<std::string_view> names{letters, "density", "intensity", "intensities"};
+    EXPECT_EQ(closestMatch("intensitys", names), "intensity");
+    EXPECT_EQ(closestMatch("desnity", names), "density");
+    EXPECT_EQ(closestMatch(letters, names), "");
+    EXPECT_EQ(closestMatch("xyz", names), "");
 }
 
 TEST(PlainBlanks, ReplaceEachKindOfSpace) {

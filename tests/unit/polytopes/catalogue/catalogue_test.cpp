@@ -184,6 +184,14 @@ TEST(CatalogueNames, onlySimilarNamesAreSuggested) {
     EXPECT_EQ(nearestName("icositetrakoron"), "icositetrachoron");
 }
 
+TEST(CatalogueNames, nothingIsSuggestedForLongTexts) {
+    for (const std::size_t size : {100, 200, 256, 257, 1000, 1'000'000}) {
+        EXPECT_EQ(nearestName(std::string(size, 'q')), "") << size;
+        EXPECT_EQ(nearestName("tesseract" + std::string(size, 't')), "") << size;
+    }
+    EXPECT_EQ(editDistance("tesseract", std::string(1'000'000, 't')), 254U);
+}
+
 TEST(CatalogueNames, nearMissesAreSuggested) {
     EXPECT_EQ(nearestName("25-cell"), "24-cell");
     EXPECT_EQ(nearestName("teseract"), "tesseract");
