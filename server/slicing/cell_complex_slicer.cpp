@@ -3,7 +3,9 @@
 #include "slicing/cell_complex_slicer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -193,6 +195,7 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
         faceCrossingBegin_[f] = static_cast<std::uint32_t>(faceCrossings_.size());
         if (above.from == above.to) continue;
+        if (above.from < faceSpan_[f].from) findLowestEdges(complex, f, above.from);
         if (!complex.convexFaces || !cutConvexFace(complex, f, above)) cutNonconvexFace(complex, f, above, out);
     }
     faceCrossingBegin_[faces] = static_cast<std::uint32_t>(faceCrossings_.size());
@@ -255,6 +258,17 @@ void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, s
     }
 }
 
+void CellComplexSlicer::findLowestEdges(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane) {
+    lowestEdges_.clear();
+    for (const std::uint32_t e : complex.faceEdges[face]) {
+        const auto [a, b] = complex.edges[e];
+        if (!liesInHyperplane({a, b}) || below_[a] != plane) continue;
+        const auto [first, last] = std::minmax(vertexPoint_[a], vertexPoint_[b]);
+        lowestEdges_.push_back({first, last, e});
+    }
+    std::ranges::sort(lowestEdges_);
+}
+
 void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane,
                                         std::uint32_t up, std::uint32_t down) {
     std::uint32_t edge = kNewEdge;
@@ -265,10 +279,11 @@ void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, st
     } else if (plane < faceSpan_[face].from) {
         // The lowest vertices of the 2-face lie in this hyperplane, and both points are such vertices. If an edge of
         // the 2-face joins them, the segment moves to this edge.
-        for (const std::uint32_t e : complex.faceEdges[face]) {
-            const auto [v, u] = complex.edges[e];
-            if (!liesInHyperplane({v, u}) || below_[v] != plane) continue;
-            if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
+        const auto [first, last] = std::minmax(a, b);
+        const auto after = std::upper_bound(lowestEdges_.begin(), lowestEdges_.end(), std::array{first, last, kNone});
+        if (after != lowestEdges_.begin()) {
+            const auto& [from, to, found] = *std::prev(after);
+            if (from == first && to == last) edge = found;
         }
         // In a complex without cells, whose 2-faces need not be flat, it is possible that no edge joins the two
         // vertices; the slice then has no segment between them. In a complex with cells, this happens only by rounding

@@ -83,6 +83,8 @@ class CellComplexSlicer {
     void cutFaces(const geometry::CellComplex& complex, SliceSet& out);
     bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above);
     void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above, const SliceSet& out);
+    // Sets lowestEdges_ to those of the 2-face in the hyperplane `plane`, which contains its lowest vertices.
+    void findLowestEdges(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane);
     void addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane, std::uint32_t up,
                          std::uint32_t down);
     void numberEdges(const geometry::CellComplex& complex, SliceSet& out);
@@ -141,6 +143,9 @@ class CellComplexSlicer {
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
     std::vector<std::uint32_t> cursor_, cornerCursor_;  // per hyperplane: the index at which to write the next element
     std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
+    // Of the current 2-face: the edges in the hyperplane of its lowest vertices. Each entry has the slice vertices at
+    // the two ends of an edge, in ascending order, and the index of the edge; the entries are sorted.
+    std::vector<std::array<std::uint32_t, 3>> lowestEdges_;
     std::vector<LoopCrossing> ups_, downs_;  // in one hyperplane: where a nonconvex 2-face's loop rises and descends
 };
 

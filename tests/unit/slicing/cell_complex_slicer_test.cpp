@@ -82,6 +82,28 @@ TEST(NonConvex, sectionNearThePointOfAPentagramIsABox) {
     EXPECT_EQ(s.faceCount(0), 6U);
 }
 
+// A comb with many teeth along w, times a square with the area 4. The lowest or highest edges of the comb's 2-faces lie
+// in the hyperplane: one for each tooth.
+TEST(NonConvex, sectionThroughTheTipsOfACombConsistsOfBoxes) {
+    constexpr int kTeeth = 12;
+    for (const double down : {-1.0, 1.0}) {
+        Polygon comb;
+        for (int tooth = 0; tooth < kTeeth; ++tooth) {
+            const double left = 2 * tooth, right = left + 1;
+            if (tooth > 0) comb.emplace_back(left, 0);
+            comb.emplace_back(left, down);
+            comb.emplace_back(right, down);
+            if (tooth + 1 < kTeeth) comb.emplace_back(right, 0);
+        }
+        comb.emplace_back(2 * kTeeth - 1, -down);
+        comb.emplace_back(0, -down);
+        const SliceSet s = cutAt(product(kSquare, comb), {}, down);
+        expectClosed(s);
+        EXPECT_EQ(sliceCounts(s), (ElementsOfSlice{8 * kTeeth, 12 * kTeeth, 6 * kTeeth})) << down;
+        EXPECT_NEAR(volumeOf(s, 0), 4 * kTeeth, 1e-9) << down;
+    }
+}
+
 // The vertices of a cell in a hyperplane w = const are moved up and down, so that a hyperplane between them cuts the
 // cell's 2-faces several times.
 TEST(NonConvex, slicesThroughBentCellsAreClosed) {
