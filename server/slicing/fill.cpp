@@ -180,7 +180,12 @@ int FaceFiller::sweep(FilledFaces& out) {
         }
         sortActive((bottom + top) / 2);
 
-        for (Piece& piece : open_) piece.continued = false;
+        arrivals_.clear();
+        for (Piece& piece : open_) {
+            piece.continued = false;
+            arrivals_.push_back({sides_[piece.leftSide].at(bottom), static_cast<std::uint32_t>(arrivals_.size())});
+        }
+        std::ranges::sort(arrivals_);
         int winding = 0;
         std::uint32_t left = 0;
         bool hasPositiveWinding = true;
@@ -217,10 +222,14 @@ void FaceFiller::sortActive(double y) {
 }
 
 // Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
-// else begins a new piece.
+// else begins a new piece. Only a piece that arrives at the left end of the region can continue; there is at most one,
+// except where several sides meet.
 void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
-    for (Piece& piece : open_) {
+    const double x = l.at(bottom);
+    auto arrival = std::ranges::lower_bound(arrivals_, x - epsilon_, {}, &Arrival::x);
+    for (; arrival != arrivals_.end() && arrival->x <= x + epsilon_; ++arrival) {
+        Piece& piece = open_[arrival->piece];
         if (piece.continued || piece.hasPositiveWinding != hasPositiveWinding || !canContinue(piece, l, r, bottom))
             continue;
         if (piece.leftSide != left) piece.left.at(piece.leftCount++) = {l.at(bottom), bottom};

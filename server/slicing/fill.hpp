@@ -2,6 +2,7 @@
 // Filled faces of slices, decomposed into convex polygons. Nonconvex slices are drawn and exported in this form.
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -74,6 +75,12 @@ class FaceFiller {
         // extends into the current strip (see active_).
         bool hasPositiveWinding, continued;
     };
+    // Where the left side of an open piece arrives at the current level: its x, and the index of the piece.
+    struct Arrival {
+        double x;
+        std::uint32_t piece;
+        auto operator<=>(const Arrival&) const = default;
+    };
     // A plane in space, with orthonormal axes.
     struct Plane {
         glm::dvec3 origin, x, y;
@@ -100,6 +107,7 @@ class FaceFiller {
     std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels
     std::vector<std::uint32_t> active_;   // sides in the current strip (between two levels), from left to right
     std::vector<Piece> open_;             // pieces that may continue in the next strip
+    std::vector<Arrival> arrivals_;       // of the open pieces that begin below the current strip, from left to right
 };
 
 }  // namespace oval4d::slicing

@@ -141,6 +141,29 @@ TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 16, 1e-8);
 }
 
+// A comb of which each tooth has another length: most strips contain many pieces, and all but one of them continue.
+TEST(FaceFiller, ContinuesThePiecesOfACombInEachStrip) {
+    constexpr int kTeeth = 60;
+    std::vector<glm::dvec2> comb{{2.0 * kTeeth - 1, 0.0}};
+    double area = 2 * kTeeth - 1;
+    for (int tooth = kTeeth; tooth-- > 0;) {
+        const double length = 1 + 7 * tooth % kTeeth;
+        const double left = 2 * tooth;
+        comb.emplace_back(left + 1, 1);
+        comb.emplace_back(left + 1, 1 + length);
+        comb.emplace_back(left, 1 + length);
+        if (tooth > 0) comb.emplace_back(left, 1);
+        area += length;
+    }
+    comb.emplace_back(0, 0);
+    const FilledFaces fill = filled(flat({comb}, {1, 0, 0}, {0, 0.6, 0.8}), kTeeth);
+    EXPECT_NEAR(areaOf(fill), area, 1e-6);
+    ASSERT_EQ(fill.faces.size(), 1U);
+    EXPECT_EQ(fill.faces[0].winding, 1);
+    // A polygon that does not cross itself is divided into fewer trapezoids than it has sides.
+    EXPECT_LE(fill.cornerBegin.size() - 1, comb.size());
+}
+
 TEST(FaceFiller, CoversExactlyThePointsWithNonzeroWindingNumber) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1, 1);
