@@ -22,9 +22,12 @@ class Hull {
         }
     }
 
-    std::vector<Triangle> run() {
+    std::vector<Triangle> run(const Budget* budget) {
         if (!begin()) return {};
-        for (std::uint32_t p = 0; p < points_.size(); ++p) add(p);
+        for (std::uint32_t p = 0; p < points_.size(); ++p) {
+            if (budget != nullptr) budget->checkTime();
+            add(p);
+        }
         return std::move(triangles_);
     }
 
@@ -85,7 +88,7 @@ class Hull {
 
 }  // namespace
 
-Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid) {
+Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget) {
     Mesh mesh;
     std::vector<std::optional<std::uint32_t>> numbers(points.size());
     const auto number = [&](std::uint32_t point) {
@@ -95,7 +98,7 @@ Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid) {
         }
         return *numbers[point];
     };
-    for (const auto& [a, b, c] : Hull(points, grid.step()).run()) {
+    for (const auto& [a, b, c] : Hull(points, grid.step()).run(budget)) {
         const std::uint32_t first = number(a);
         const std::uint32_t second = number(b);
         mesh.add(first, second, number(c), kNoCell);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "export/budget.hpp"
 #include "export/mesh/mesh.hpp"
 
 namespace oval4d::exports {
@@ -10,7 +11,8 @@ namespace oval4d::exports {
 /// Returns the convex hull of points that lie on the grid. The computation uses integers and has no rounding errors.
 /// Therefore the mesh is closed, 2-manifold and convex for all inputs. The caller must ensure that the extent of the
 /// points along each axis is at most 2^18 grid steps; otherwise the integers may overflow. Returns an empty mesh if all
-/// points lie in one plane.
-Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid);
+/// points lie in one plane. Takes up to quadratic time. Throws ExportRefused if `budget` is exceeded,
+/// which may be null.
+Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget = nullptr);
 
 }  // namespace oval4d::exports

@@ -41,13 +41,14 @@ glm::dvec3 directionOf(const slicing::SliceSet& slices, int i, std::uint32_t fac
 }
 
 /// Returns whether the whole slice is on the inner side of every face.
-bool isConvex(const slicing::SliceSet& slices, int i) {
+bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const std::size_t count = slices.vertexCount(i);
     double extent = 0;
     for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], points[0]));
     constexpr double kFlat = 1e-7;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        budget.checkTime();
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = crossOf(slices, i, f);
         // The normal of a sliver, a face with almost no area, is unreliable. The tests of its neighbors are sufficient.
@@ -89,11 +90,12 @@ class Welded {
 };
 
 /// Triangulates a convex loop as a fan from the corner that maximizes the area of the smallest triangle.
-void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
+void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& budget) {
     const std::size_t n = loop.size();
     std::size_t best = 0;
     double bestLeast = -1;
     for (std::size_t apex = 0; apex < n; ++apex) {
+        budget.checkTime();
         double least = 1e300;
         for (std::size_t c = 1; c + 1 < n; ++c) {
             const glm::dvec3 normal =
@@ -108,13 +110,13 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
     for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
 }
 
-Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
+Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
     const Welded welded(slices, i, scale, grid);
     Mesh mesh;
     mesh.points = welded.points();
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
         const Loop loop = welded.loop(cornersOf(slices, f));
-        if (loop.size() > 2) addConvex(loop, slices.faceSource[f], mesh);
+        if (loop.size() > 2) addConvex(loop, slices.faceSource[f], mesh, budget);
     }
     return mesh;
 }
@@ -122,12 +124,14 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Rou
 /// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. Assigns each triangle to the
 /// cell of the slice face with the most similar normal. The hull is used instead of the faces if points of the slice
 /// coincide on the grid, because two faces may then share more than one edge.
-Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid) {
-    Mesh hull = hullOf(faces.points, grid);
+Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid,
+                const Budget& budget) {
+    Mesh hull = hullOf(faces.points, grid, &budget);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
         normals.emplace_back(directionOf(slices, i, f), slices.faceSource[f]);
     for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
+        budget.checkTime();
         const glm::dvec3 normal = doubleAreaNormalOf(hull, hull.triangles[t]);
         hull.cells[t] = std::ranges::max_element(normals, {}, [&](const auto& face) {
                             return glm::dot(face.first, normal);
@@ -140,9 +144,9 @@ Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const
 
 Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
     if (slices.faceCount(i) < 4) return {};
-    if (isConvex(slices, i)) {
-        Mesh mesh = convexSolid(slices, i, scale, grid);
-        if (!isClosedManifold(mesh)) mesh = convexHull(slices, i, mesh, grid);
+    if (isConvex(slices, i, budget)) {
+        Mesh mesh = convexSolid(slices, i, scale, grid, budget);
+        if (!isClosedManifold(mesh)) mesh = convexHull(slices, i, mesh, grid, budget);
         return isThickEnough(mesh, grid) ? mesh : Mesh{};
     }
     Mesh surface = outerSurfaceOf(slices, i, scale, grid, budget);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 
 #include "export/mesh/hull.hpp"
 #include "export/mesh/measure.hpp"
@@ -113,6 +114,18 @@ TEST(Solid, isNotToBeHadOfAFaceAnEdgeOrAPoint) {
         EXPECT_TRUE(solid(p, s).triangles.empty());
         EXPECT_TRUE(solid(p, cutAt(p, up, most * 1.01)).triangles.empty());
     }
+}
+
+TEST(Solid, ofAConvexSliceObservesTheLimitOfTime) {
+    const Polytope& p = named("600-cell");
+    const SliceSet s = cutAt(p, {}, 0.1);
+    const RoundingGrid grid(kSize, kSize);
+    const Budget spent({.time = std::chrono::duration<double>(-1)}, {});
+    EXPECT_THROW(solidOf(s, 0, scaleOf(p), grid, spent), ExportRefused);
+    std::vector<glm::dvec3> points;
+    for (const glm::dvec3& vertex : s.vertices) points.push_back(grid.snap(vertex * scaleOf(p)));
+    EXPECT_THROW(hullOf(points, grid, &spent), ExportRefused);
+    expectPrintable(hullOf(points, grid));
 }
 
 TEST(Hull, isClosedAndConvexThoughManyPointsLieInOnePlane) {
