@@ -5,13 +5,26 @@
 #include <utility>
 #include <variant>
 
+#include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/polytope.hpp"
 #include "store/cbor.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::store {
 
 using nlohmann::json;
+
+namespace {
+
+// Returns the memory that slicing::transformedTo() needs for an image. The image of a field has a domain of its own;
+// all images share the functions, and thus the samples of an array.
+std::size_t memoryOfImage(const slicing::Object& source) {
+    const fields::Field* const field = slicing::fieldIn(source);
+    return field == nullptr ? slicing::memoryOf(source) : sizeof *field + polytopes::memoryOf(*field->domain);
+}
+
+}  // namespace
 
 std::size_t ObjectListEncoder::indexOf(const slicing::Object& object) {
     const auto [found, isNew] = indices_.try_emplace(slicing::identityOf(object), list_.size());
@@ -24,7 +37,9 @@ std::size_t ObjectListEncoder::indexOf(const slicing::Object& object) {
     return found->second;
 }
 
-ObjectListDecoder::ObjectListDecoder(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
+ObjectListDecoder::ObjectListDecoder(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
+                                     std::size_t maxVertices)
+    : vertexBudget_(maxVertices) {
     for (const json& entry : list) {
         if (entry.size() == 1) {
             objects_.push_back(rebuilt(readShortText(entry.at(0)), cache));
@@ -47,15 +62,13 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
     if (known != images_.end()) return known->image;
-    slicing::Object image = slicing::transformedTo(source, frame);
     // An image counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its share of
-    // the other elements: a record may list few vertices, but many 2-faces. The samples of an array do not count,
-    // because all images share them.
+    // the other elements: a record may list few vertices, but many 2-faces.
     constexpr std::size_t kBytesOfVertex = 100;
-    const std::size_t vertices = std::max(slicing::elementCounts(image)[0], slicing::memoryOf(image) / kBytesOfVertex);
+    const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
     vertexBudget_ -= vertices;
-    images_.push_back({source, frame, std::move(image)});
+    images_.push_back({source, frame, slicing::transformedTo(source, frame)});
     return images_.back().image;
 }
 

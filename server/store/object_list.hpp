@@ -37,17 +37,20 @@ class ObjectListEncoder {
 /// of reference in which states show them.
 class ObjectListDecoder {
   public:
+    static constexpr std::size_t kMaxTotalVertices = 10'000'000;
+
     /// Reads what ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
-    /// built, or if the objects that are built from their names have more than ten million vertices altogether.
-    ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache);
+    /// built, or if the objects that are built from their names have more than `maxVertices` vertices altogether.
+    ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
+                      std::size_t maxVertices = kMaxTotalVertices);
 
     /// Returns the object with this index. The reference is valid as long as this decoder exists. Throws
     /// UnreadableRecord if there is no such object.
     const slicing::Object& at(const nlohmann::json& index) const;
 
     /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments
-    /// return the same object, so that states share it. Throws UnreadableRecord if all transformed objects and the
-    /// objects that are built from their names have more than ten million vertices altogether.
+    /// return the same object, so that states share it. Throws UnreadableRecord, before it makes an object, if all
+    /// transformed objects and those that are built from their names would have more than `maxVertices` vertices.
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
@@ -60,7 +63,7 @@ class ObjectListDecoder {
 
     // The number of vertices that may still be built. There is a limit because a few bytes of a record can request
     // large objects.
-    std::size_t vertexBudget_ = 10'000'000;
+    std::size_t vertexBudget_;
     std::vector<slicing::Object> objects_;
     std::vector<Image> images_;
 };

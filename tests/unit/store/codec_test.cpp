@@ -1,10 +1,13 @@
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fields/array_field.hpp"
@@ -12,6 +15,7 @@
 #include "geometry/surface_mesh.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
+#include "store/object_list.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/store/support.hpp"
 
@@ -286,6 +290,26 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
         EXPECT_THROW(decode(input, "", none, support::cache()), UnreadableRecord);
         EXPECT_THROW(decodeObjectRecord(input), UnreadableRecord);
     }
+}
+
+/// An image in a frame of reference is not made before its size is checked. Each object that is made gets a serial
+/// number, so no number is missing.
+TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
+    const geometry::ReferenceFrame frame{.pace = 2}, other{.pace = 3};
+    const auto list = nlohmann::json::array({nlohmann::json::array({"mesh", "key"})});
+    geometry::JaggedArray faces;
+    faces.add(std::array{0U, 1U, 2U});
+    slicing::Object mesh = std::make_shared<const geometry::SurfaceMesh>(
+        geometry::makeSurfaceMesh("mesh", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, std::move(faces)));
+    const ObjectLookup lookup = [&](const std::string&) { return mesh; };
+    const std::size_t needed = slicing::memoryOf(mesh) / 100;
+    ASSERT_GE(needed, 3U);
+    ObjectListDecoder objects(list, lookup, support::cache(), needed);
+    const slicing::Object image = objects.transformedTo(objects.at(0), frame);
+    EXPECT_TRUE(objects.transformedTo(objects.at(0), frame) == image);
+    const std::uint64_t before = geometry::nextSerial();
+    EXPECT_THROW(objects.transformedTo(objects.at(0), other), UnreadableRecord);
+    EXPECT_EQ(geometry::nextSerial(), before + 1);
 }
 
 /// Damaged bytes decode to a session that can be sliced, or throw UnreadableRecord.
