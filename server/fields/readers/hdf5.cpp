@@ -108,6 +108,17 @@ std::optional<std::vector<std::size_t>> sizeOfDataset(hid_t dataset) {
     return std::vector<std::size_t>(size.begin(), size.begin() + dimensions);
 }
 
+// Returns whether a type is that of IEEE 754 floats of two bytes, as h5py writes them. The library has no name for it
+// before version 1.14.4.
+bool isHalf(hid_t type) {
+    std::size_t sign = 0, exponent = 0, exponentBits = 0, fraction = 0, fractionBits = 0;
+    const H5T_order_t order = H5Tget_order(type);
+    return H5Tget_size(type) == 2 && (order == H5T_ORDER_LE || order == H5T_ORDER_BE) &&
+           H5Tget_fields(type, &sign, &exponent, &exponentBits, &fraction, &fractionBits) >= 0 && sign == 15 &&
+           exponent == 10 && exponentBits == 5 && fraction == 0 && fractionBits == 10 && H5Tget_ebias(type) == 15 &&
+           H5Tget_norm(type) == H5T_NORM_IMPLIED && H5Tget_offset(type) == 0 && H5Tget_precision(type) == 16;
+}
+
 // Returns how a file stores numbers of this HDF5 type; an empty optional if the type is none of NumberType.
 std::optional<NumberFormat> formatOf(hid_t type) {
     static constexpr std::array kSigned{NumberType::i1, NumberType::i2, NumberType::i4, NumberType::i8};
@@ -126,7 +137,9 @@ std::optional<NumberFormat> formatOf(hid_t type) {
             format.type = number;
             return format;
         }
-        return {};
+        if (!isHalf(type)) return {};
+        format.type = NumberType::f2;
+        return format;
     }
     if (kind == H5T_ENUM) {  // h5py's Booleans: FALSE is 0, TRUE is 1
         const Handle base(H5Tget_super(type), H5Tclose);
@@ -210,11 +223,12 @@ Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vec
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
-    const bool known = std::any_of(datasets.begin(), datasets.end(),
-                                   [&](const std::string& each) { return each == name || "/" + each == name; });
+    // A path may contain soft links, which `datasets` does not list. It leads to nothing outside of this file, because
+    // readHdf5() refuses files with links of other kinds.
+    const bool isPath = !name.ends_with('/') && name.find('\0') == std::string::npos;
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     if (access) H5Pset_chunk_cache(*access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheSize, 1);
-    const Handle dataset(known ? H5Dopen2(id, name.c_str(), access ? *access : H5P_DEFAULT) : -1, H5Dclose);
+    const Handle dataset(isPath ? H5Dopen2(id, name.c_str(), access ? *access : H5P_DEFAULT) : -1, H5Dclose);
     if (!dataset) {
         const std::vector<std::string_view> names(datasets.begin(), datasets.end());
         return Error{ErrorCode::not_found,
@@ -262,7 +276,11 @@ Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options)
     const bool visited = H5Lvisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitLink, &contents) >= 0 &&
                          (contents.refers || H5Ovisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitObject, &contents) >= 0);
     if (!visited) return badField("the file is not a valid HDF5 file: its groups cannot be read");
-    if (contents.refers) return badField("the file refers to other files");
+    if (contents.refers) {
+        return badField(
+            "the file refers to other files, which are not read: it has external links, external storage or virtual "
+            "datasets");
+    }
     if (contents.datasets.size() == kMaxDatasets) return badField("the file has too many datasets");
     if (H5Aexists(*id, "_NCProperties") > 0) return readNetcdf(file, options);
     return readDataset(file, *id, contents.datasets, options);

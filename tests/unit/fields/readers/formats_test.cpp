@@ -7,9 +7,11 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "fields/readers/field_reader.hpp"
 #include "fields/readers/hdf5.hpp"
@@ -62,7 +64,7 @@ std::string netcdf(int mode, const std::vector<float>& samples) {
 }
 
 struct Hdf5Options {
-    bool compressed = false, bigEndian = false, external = false;
+    bool compressed = false, bigEndian = false, external = false, softLinks = false;
 };
 
 std::string hdf5(const std::vector<float>& samples, const Hdf5Options& options = {}) {
@@ -80,11 +82,42 @@ std::string hdf5(const std::vector<float>& samples, const Hdf5Options& options =
     const hid_t dataset = H5Dcreate2(group, "f", options.bigEndian ? H5T_IEEE_F32BE : H5T_IEEE_F32LE, space,
                                      H5P_DEFAULT, list, H5P_DEFAULT);
     if (!options.external) H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data());
+    if (options.softLinks) {
+        for (const auto& [target, name] : {std::pair{"/run/f", "latest"},
+                                           {"/run", "last"},
+                                           {"latest", "twice"},
+                                           {"/nothing", "dangling"},
+                                           {"circular", "circular"}})
+            H5Lcreate_soft(target, file, name, H5P_DEFAULT, H5P_DEFAULT);
+    }
     H5Dclose(dataset);
     H5Pclose(list);
     H5Sclose(space);
     H5Gclose(group);
     H5Fclose(file);
+    return readFile(path);
+}
+
+// Numbers of IEEE 754 binary16, as h5py writes them.
+std::string hdf5OfHalves(std::vector<std::uint16_t> bits, bool bigEndian) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.h5").string();
+    const hid_t type = H5Tcopy(bigEndian ? H5T_IEEE_F32BE : H5T_IEEE_F32LE);
+    H5Tset_fields(type, 15, 10, 5, 0, 10);
+    H5Tset_size(type, 2);
+    H5Tset_ebias(type, 15);
+    if (bigEndian != (std::endian::native == std::endian::big)) {
+        for (std::uint16_t& each : bits) each = static_cast<std::uint16_t>(each >> 8U | each << 8U);
+    }
+    const hsize_t size = bits.size();
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t dataset = H5Dcreate2(file, "f", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bits.data());
+    H5Dclose(dataset);
+    H5Sclose(space);
+    H5Fclose(file);
+    H5Tclose(type);
     return readFile(path);
 }
 
@@ -307,6 +340,32 @@ TEST(Hdf5, FindsDatasetsByTheirPath) {
         EXPECT_EQ(field.error().code, ErrorCode::not_found);
     }
     EXPECT_EQ(readHdf5(FileContents::copyOf(bytes), {.maxSamples = 119}).error().code, ErrorCode::too_large);
+}
+
+TEST(Hdf5, FollowsSoftLinksWithinTheFile) {
+    const auto samples = numbers();
+    const auto bytes = hdf5(samples, {.softLinks = true});
+    const auto expected = bitsOf(readOrFail(bytes));
+    for (const std::string path : {"latest", "/latest", "last/f", "twice"})
+        EXPECT_EQ(bitsOf(readOrFail(bytes, {.variable = path})), expected) << path;
+    for (const std::string path : {"last", "dangling", "circular", "last/latest"}) {
+        const auto field = readHdf5(FileContents::copyOf(bytes), {.variable = path});
+        ASSERT_FALSE(field) << path;
+        EXPECT_EQ(field.error().code, ErrorCode::not_found);
+    }
+}
+
+TEST(Hdf5, ReadsFloatsOfTwoBytes) {
+    const std::vector<std::uint16_t> bits{0x0000, 0x0001, 0x03ff, 0x0400, 0x3c00,
+                                          0x3c01, 0xc000, 0x7bff, 0x7c00, 0x7e00};
+    const std::vector<float> expected{0, 0x1p-24F, 0x1.ff8p-15F, 0x1p-14F, 1, 1.0009765625F, -2, 65504};
+    for (const bool bigEndian : {false, true}) {
+        const auto field = readOrFail(hdf5OfHalves(bits, bigEndian));
+        const auto values = field.samples.values();
+        ASSERT_EQ(values.size(), bits.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(values[i], expected[i]) << i;
+        for (std::size_t i = expected.size(); i < bits.size(); ++i) EXPECT_FALSE(std::isfinite(values[i])) << i;
+    }
 }
 
 TEST(Hdf5, UsesFloatsInPlace) {
