@@ -69,10 +69,9 @@ void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFil
                        "), where the middle of the slices is, too; the option center=origin keeps the origin");
 }
 
-template <polytopes::FileFormat format>
-Result<ObjectWithWarnings> readPolytope(const LoadObject& load, const Limits& limits) {
-    auto imported =
-        polytopes::importPolytope(format, load.data, load.name, {limits.maxVertices, limits.maxHullCells}, load.center);
+polytopes::ImportLimits importLimits(const Limits& limits) { return {limits.maxVertices, limits.maxHullCells}; }
+
+Result<ObjectWithWarnings> polytopeFrom(std::variant<polytopes::Imported, FileError> imported, const LoadObject& load) {
     if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
     auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
     warnOfMove(load.center, polytope.originInFile, warnings);
@@ -127,10 +126,19 @@ Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits)
     try {
         const std::string text = text_files::plainText(load.data);
         if (!polytopes::listsCells(text)) return readSurface(text, load, limits);
+        return polytopeFrom(
+            polytopes::importPlainText(polytopes::FileFormat::off4, text, load.name, importLimits(limits), load.center),
+            load);
     } catch (const FileError& error) {
         return errorOf(error);
     }
-    return readPolytope<polytopes::FileFormat::off4>(load, limits);
+}
+
+// Reads a list of points, whose convex hull is the object.
+Result<ObjectWithWarnings> readHull(const LoadObject& load, const Limits& limits) {
+    return polytopeFrom(polytopes::importPolytope(polytopes::FileFormat::points, load.data, load.name,
+                                                  importLimits(limits), load.center),
+                        load);
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
@@ -245,7 +253,7 @@ struct FormatRow {
 };
 constexpr auto kFormats = std::to_array<FormatRow>({
     {"off", "off (4OFF)", readOff, false},
-    {"points", "points", readPolytope<polytopes::FileFormat::points>, true},
+    {"points", "points", readHull, true},
     {"cloud", "cloud", readCloud, false},
     {kFormula, kFormula, readFormulaText, false},
     {"npy", "npy", readArrayFile, false},

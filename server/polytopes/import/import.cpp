@@ -210,9 +210,17 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
 std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
                                                  const ImportLimits& limits, const geometry::Centering& centering) {
     try {
-        const std::string plain = text_files::plainText(text);
-        return format == FileFormat::off4 ? importOff4(plain, name, limits, centering)
-                                          : importPoints(plain, std::move(name), limits, centering);
+        return importPlainText(format, text_files::plainText(text), std::move(name), limits, centering);
+    } catch (const FileError& error) {
+        return error;
+    }
+}
+
+std::variant<Imported, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
+                                                  const ImportLimits& limits, const geometry::Centering& centering) {
+    try {
+        return format == FileFormat::off4 ? importOff4(text, name, limits, centering)
+                                          : importPoints(text, std::move(name), limits, centering);
     } catch (const FileError& error) {
         return error;
     } catch (const std::invalid_argument& unsound) {

@@ -60,6 +60,11 @@ struct Imported {
 std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
                                                  const ImportLimits& limits, const geometry::Centering& centering = {});
 
+/// Does the same for a text that text_files::plainText() has returned.
+std::variant<Imported, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
+                                                  const ImportLimits& limits,
+                                                  const geometry::Centering& centering = {});
+
 /// Guesses the format of a file: 4OFF if its first word contains "OFF" in upper or lower case, else a list of points.
 /// `text` is the text of the file (see text_files::plainText()).
 FileFormat detectFileFormat(std::string_view text);
