@@ -22,9 +22,9 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// Groups the points that lie within `distance` of each other, and returns, for each point, the point with the least
-// index in its group. Sorts the points by their projections onto a line, so that only points with close projections are
-// compared.
+// Groups the points: points within `distance` of each other are in one group, and so are points that a chain of such
+// points joins. Returns, for each point, the point with the least index in its group. Sorts the points by their
+// projections onto a line, so that only points with close projections are compared.
 std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -34,17 +34,23 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     for (const auto& p : points) place.push_back(glm::dot(p, along));
     std::sort(order.begin(), order.end(),
               [&](auto a, auto b) { return std::pair(place[a], a) < std::pair(place[b], b); });
+    // A union–find structure. As a root is joined to a root with a lesser index, it is the first point of its group.
     std::vector<std::uint32_t> first(points.size());
     std::iota(first.begin(), first.end(), 0U);
+    const auto rootOf = [&](std::uint32_t v) {
+        while (first[v] != v) v = first[v] = first[first[v]];
+        return v;
+    };
     for (std::size_t i = 0; i < order.size(); ++i) {
+        const glm::dvec4& point = points[order[i]];
+        if (i > 0 && point == points[order[i - 1]]) continue;  // this point has been compared with all that follow
         for (std::size_t j = i + 1; j < order.size() && place[order[j]] - place[order[i]] <= distance; ++j) {
-            const auto [a, b] = std::minmax(order[i], order[j]);
-            if (glm::distance(points[a], points[b]) <= distance) first[b] = std::min(first[b], first[a]);
+            if (glm::distance(point, points[order[j]]) > distance) continue;
+            const std::uint32_t a = rootOf(order[i]), b = rootOf(order[j]);
+            first[std::max(a, b)] = std::min(a, b);
         }
     }
-    // If point a was joined to an earlier point only after b had been joined to a, first[b] is out of date. As first[v]
-    // is at most v, ascending order brings all entries up to date.
-    for (std::uint32_t& v : first) v = first[v];
+    for (std::uint32_t v = 0; v < first.size(); ++v) first[v] = rootOf(v);
     return first;
 }
 

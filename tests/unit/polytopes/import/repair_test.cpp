@@ -1,5 +1,6 @@
 // The repairs of unsound 4OFF files.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -86,24 +87,44 @@ TEST(Repair, RemovesRepeatedCornersFromFaces) {
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
 }
 
-// Three points in a line, of which the outer two are farther apart than the distance for merging.
+// Four points in a line, of which only neighbors lie within the distance for merging, in all orders. The 2-faces at a
+// vertex of a 5-cell have one of them each.
 TEST(Repair, MergesAChainOfVertices) {
     const Polytope& simplex = named("5-cell");
-    PolygonSoup soup{simplex.vertices, simplex.faces, simplex.cells, {}, {}};
-    soup.faceSourcePositions.resize(soup.faces.size());
-    soup.cellSourcePositions.resize(soup.cells.size());
     const double distance = 1e-4;
-    for (const double steps : {0.8, 1.6})
-        soup.vertices.push_back(simplex.vertices[0] - glm::dvec4(steps * distance, 0, 0, 0));
-    std::uint32_t uses = 0;
-    for (std::uint32_t& v : soup.faces.items) {
-        if (v == 0 && uses++ % 3 > 0) v = uses % 3 == 0 ? 5 : 6;
+    std::vector<double> steps{0, 0.8, 1.6, 2.4};
+    do {
+        PolygonSoup soup{simplex.vertices, simplex.faces, simplex.cells, {}, {}};
+        soup.faceSourcePositions.resize(soup.faces.size());
+        soup.cellSourcePositions.resize(soup.cells.size());
+        const glm::dvec4 place = simplex.vertices[0];
+        soup.vertices[0] = place - glm::dvec4(steps[0] * distance, 0, 0, 0);
+        for (std::size_t i = 1; i < steps.size(); ++i)
+            soup.vertices.push_back(place - glm::dvec4(steps[i] * distance, 0, 0, 0));
+        std::uint32_t uses = 0;
+        for (std::uint32_t& v : soup.faces.items) {
+            if (v != 0) continue;
+            if (const std::uint32_t point = uses++ % 4; point > 0) v = 4 + point;
+        }
+        std::vector<std::string> warnings;
+        repair(soup, distance, warnings);
+        EXPECT_EQ(warnings, std::vector<std::string>{"3 vertices coincide with others and were merged with them"});
+        EXPECT_EQ(soup.vertices.size(), 5U);
+        EXPECT_EQ(countsOf(build(soup, "5-cell")), countsOf(simplex));
+    } while (std::next_permutation(steps.begin(), steps.end()));
+}
+
+TEST(Repair, MergesManyCopiesOfEachVertex) {
+    Lines lines(named("5-cell"));
+    const std::vector<glm::dvec4> vertices = lines.vertices;
+    for (int copy = 0; copy < 200; ++copy)
+        lines.vertices.insert(lines.vertices.end(), vertices.begin(), vertices.end());
+    for (std::size_t f = 0; f < lines.faces.size(); ++f) {
+        for (std::uint32_t& v : lines.faces[f]) v += static_cast<std::uint32_t>(5 * (17 * f % 201));
     }
-    std::vector<std::string> warnings;
-    repair(soup, distance, warnings);
-    EXPECT_EQ(warnings, std::vector<std::string>{"2 vertices coincide with others and were merged with them"});
-    EXPECT_EQ(soup.vertices.size(), 5U);
-    EXPECT_EQ(countsOf(build(soup, "5-cell")), countsOf(simplex));
+    const Imported imported = sound(importOff4(lines.text()));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("5-cell")));
+    EXPECT_EQ(warningsOf(imported), "1000 vertices coincide with others and were merged with them");
 }
 
 // The compound of three tesseracts inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2). Each of the 24
