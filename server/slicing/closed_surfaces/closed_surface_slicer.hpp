@@ -37,8 +37,9 @@ namespace oval4d::slicing {
 /// values, the surface is a 2-manifold, because it separates the inside points of a triangulated 3-manifold from the
 /// others. Triangles may have zero area.
 ///
-/// Samples that are NaN or infinite have no value. Pentatopes with such a corner do not belong to the body; they form
-/// holes, and the body has caps there. Parts of the body that touch along an edge of a hole share this edge.
+/// Samples that are NaN or infinite have no value (see FieldLattice::sample()). Pentatopes with such a corner do not
+/// belong to the body; they form holes, and the body has caps there. Parts of the body that touch along an edge of a
+/// hole share this edge.
 ///
 /// Reuses its memory. Only one thread at a time may use a slicer.
 class ClosedSurfaceSlicer {

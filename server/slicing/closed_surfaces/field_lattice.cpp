@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -86,7 +87,11 @@ void FieldLattice::sample(glm::ivec4 first, glm::ivec4 last, std::span<float> va
     std::size_t done = 0;
     const auto evaluate = [&] {
         const auto part = [&](std::size_t axis) { return std::span<const float>(at[axis]).first(count); };
-        field_.function->evaluate({part(0), part(1), part(2), part(3)}, values.subspan(done, count));
+        const std::span<float> evaluated = values.subspan(done, count);
+        field_.function->evaluate({part(0), part(1), part(2), part(3)}, evaluated);
+        for (float& value : evaluated) {
+            if (std::isinf(value)) value = std::copysign(std::numeric_limits<float>::max(), value);
+        }
         done += count;
         count = 0;
     };

@@ -49,7 +49,9 @@ class FieldLattice {
     /// Returns bounds of the function's values at the lattice points in the box from `first` to `last`, both included.
     fields::Bounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
     /// Writes the samples in the box from `first` to `last`, both included; x varies fastest. `values` must have room
-    /// for all of them.
+    /// for all of them. A formula may be infinite at a pole, such as 1/(x²+y²+z²+w²) at the origin; the sample is then
+    /// the greatest float, or the least one, so that it is above or below all levels. Infinite samples of an array are
+    /// missing ones, and remain infinite.
     void sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const;
     /// Returns the sample at a point.
     float sample(glm::ivec4 point) const;

@@ -1,12 +1,16 @@
 #include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "fields/array/array_function.hpp"
@@ -248,22 +252,49 @@ TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
 
 // A lattice of which one sample has no value: the pentatopes around it are missing.
 TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
-    std::vector<float> samples(5 * 5 * 5 * 5, -1);
-    samples[2 + 5 * (2 + 5 * (2 + 5 * 2))] = NAN;
-    const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
-    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{5, 5, 5, 5}, box,
-                                                                  fields::SampleStorage(std::move(samples)));
-    fields::Field field = fields::makeField("hole", function, box);
-    field.array = function;
-    ClosedSurfaceSlicer slicer(field, {});
-    const ClosedSurface surface = exactSlice(slicer, 0.25, 0);
-    EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
-    EXPECT_EQ(surface.firstCap, 0U);
-    const auto measured = measureSurface(surface);
-    EXPECT_EQ(measured.components, 1U);
-    EXPECT_EQ(measured.euler, 4) << "a cube with a cavity";
-    EXPECT_LT(measured.volume, 64);
-    EXPECT_GT(measured.volume, 56);  // the hole is within 8 cells
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const float hole : {NAN, kInfinity, -kInfinity}) {
+        std::vector<float> samples(5 * 5 * 5 * 5, -1);
+        samples[2 + 5 * (2 + 5 * (2 + 5 * 2))] = hole;
+        const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
+        auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{5, 5, 5, 5}, box,
+                                                                      fields::SampleStorage(std::move(samples)));
+        fields::Field field = fields::makeField("hole", function, box);
+        field.array = function;
+        ClosedSurfaceSlicer slicer(field, {});
+        for (const auto& [level, inside] : {std::pair{0.0, Inside::below}, {-2.0, Inside::above}}) {
+            SCOPED_TRACE(testing::Message() << hole << " beside " << level);
+            const ClosedSurface surface = exactSlice(slicer, 0.25, level, inside);
+            EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
+            EXPECT_EQ(surface.firstCap, 0U);
+            const auto measured = measureSurface(surface);
+            EXPECT_EQ(measured.components, 1U);
+            EXPECT_EQ(measured.euler, 4) << "a cube with a cavity";
+            EXPECT_LT(measured.volume, 64);
+            EXPECT_GT(measured.volume, 56);  // the hole is within 8 cells
+            EXPECT_EQ(measured.area, 0);
+            ASSERT_TRUE(measured.centroid);
+            EXPECT_LT(glm::length(*measured.centroid), 0.25);
+        }
+    }
+}
+
+// The function is infinite at the origin, which is a point of the lattice in the middle of the body.
+TEST(ClosedSurfaceSlicer, PolesOfFormulasBelongToTheBody) {
+    const double w = 0.01, radius = std::sqrt(0.25 - w * w),
+                 expected = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+    for (const auto& [text, level, inside] :
+         {std::tuple{"1/(x^2+y^2+z^2+w^2)", 4.0, Inside::above}, {"-1/(x^2+y^2+z^2+w^2)", -4.0, Inside::below}}) {
+        const fields::Field field = formula(text, {glm::dvec4(-1), glm::dvec4(1)});
+        ClosedSurfaceSlicer slicer(field, {}, 32);
+        const ClosedSurface surface = exactSlice(slicer, w, level, inside);
+        EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
+        EXPECT_EQ(surface.firstCap, surface.triangles.size());
+        const auto measured = measureSurface(surface);
+        EXPECT_EQ(measured.components, 1U);
+        EXPECT_EQ(measured.euler, 2) << "a ball without a cavity";
+        EXPECT_NEAR(measured.volume / expected, 1, 0.1);
+    }
 }
 
 TEST(ClosedSurfaceSlicer, EllipsoidsConverge) {
