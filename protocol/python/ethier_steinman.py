@@ -9,7 +9,7 @@ from oval4d_client import connect
 
 A, D = numpy.pi / 4, numpy.pi / 2  # the parameters a and d of the paper
 FILE = "ethier_steinman.nc"
-SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; moments; the last moment
+SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; number of moments; time of the last moment
 
 
 def velocity(x, y, z, t):

@@ -147,7 +147,7 @@ class Client:
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
         self._waiting = {}  # for the id of each call in progress: its answer, or None until the answer arrives
-        self._wants_bytes = set()  # ids of calls that a binary message answers; their done follows it
+        self._wants_bytes = set()  # ids of calls that are answered by a binary message, and then by their done
         self._binary = None  # the newest frame or file, whose done may follow
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
@@ -179,8 +179,9 @@ class Client:
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
     def toward(self, element, number=None, immediately=False):
-        """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number or, if it is None, the closest
-        one; if that is already there, the next one. If `immediately` is true, jumps there instead of moving."""
+        """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number or, if `number` is None, the
+        closest one. If the closest one is already there, turns the next one. If `immediately` is true, the object jumps
+        instead of turning step by step."""
         chosen = {} if number is None else {"number": number}
         return self.request("toward", element=element, immediately=immediately, **chosen)
 
@@ -226,7 +227,7 @@ class Client:
         such as "a*x", its values color the surfaces. All this is one step of undo. Raises Refused; if
         only the levels or `inside` are refused, the field is shown nevertheless, without these."""
         colored = {} if values is None else {"values": values}
-        return self._show(self.load(name, formula, "formula", box, **colored), levels, inside)
+        return self._set_levels(self.load(name, formula, "formula", box, **colored), levels, inside)
 
     def field(self, name, array, axes=None, spacing=None, origin=None, levels=None, inside=None, values=None):
         """Shows a numpy array of 1 to 4 dimensions as a field. `axes` names the axis of each index; t means w. If it is
@@ -238,7 +239,7 @@ class Client:
         samples = _samples(array)
         axes = axes or "tzyx"[-samples.ndim :]
         box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
-        return self._show(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
+        return self._set_levels(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
 
     def append(self, name, array, axes=None, values=None):
         """Adds moments at the end of w of the field `name`, for example while a simulation runs. The numpy array is one
@@ -280,7 +281,7 @@ class Client:
             raise Refused(message["code"] if message else str(answer.status), message["message"] if message else text)
         return message
 
-    def _show(self, done, levels, inside):
+    def _set_levels(self, done, levels, inside):
         settings = {} if levels is None else {"levels": [float(level) for level in levels]}
         settings |= {} if inside is None else {"inside": inside}
         return self.set(continues=True, **settings) if settings else done
@@ -487,10 +488,10 @@ class Client:
                 self._reconnecting = again
                 self.closed = None if again else end
                 self._change.notify_all()
-            if not again or not await self._return(end):
+            if not again or not await self._reconnect(end):
                 return
 
-    async def _return(self, end):
+    async def _reconnect(self, end):
         """Reconnects to the session, on any server that answers. Returns whether the connection is open again."""
         last = time.monotonic() + self.timeout
         pause = 0.1
@@ -551,7 +552,7 @@ class Client:
         return pictures
 
     def _pass_on(self, picture):
-        """Passes a picture of the stream, if it is a frame, to the function that live() has set."""
+        """Passes a picture of the stream, if the picture is a frame, to the function that live() has set."""
         try:
             if self._live and isinstance(picture, bytes):
                 self._live(picture)
@@ -580,7 +581,7 @@ class Client:
 
 def _samples(values):
     """Returns the values as a numpy array. Floats of more than 32 bits become float32, in which the server computes.
-    Masked values are missing: they become NaN, and the others of their array float32, too."""
+    Masked values become NaN; an array that has some is converted to float32."""
     if numpy is None:
         raise ImportError("arrays need python3-numpy")
     if numpy.ma.is_masked(values):

@@ -1,5 +1,5 @@
-// A connection to one session. If it breaks, the client reconnects automatically, and uses the token to return to the
-// session. It reports the status of the connection.
+// A client of one session. If its connection breaks, the client reconnects automatically, and returns to the session
+// with the token. It reports the status of the connection.
 
 import { Arena } from "./arena.js";
 import { decodeBinary, decodeText } from "./decode.js";
@@ -50,9 +50,9 @@ export interface Options {
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
     /**
-     * Called if the server refuses the first hello of a connection. If a viewport is returned, the client asks once
-     * more, with this size, or for "default" with the server's default; otherwise it reports the refusal as the reason,
-     * and connects again later.
+     * Called if the server refuses the first hello of a connection. If it returns a size, the client says hello once
+     * more with this size; for "default", with the server's default size. If it returns undefined, the client reports
+     * the refusal as the reason in the status, and connects again later.
      */
     onRefused?(error: RequestError): Viewport | "default" | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
@@ -83,7 +83,7 @@ interface PendingRequest {
      * the request follows it.
      */
     wants: "frame" | "file" | "slices" | "message";
-    /** Whether the server may need long for the answer, and answers no later request before. */
+    /** Whether the answer may take long. The server answers later requests only after this one. */
     mayTakeLong: boolean;
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
@@ -99,7 +99,7 @@ const kWelcomeTimeout = 30; // seconds within which the server, which may have t
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kLongTestTimeout = 300; // seconds: the same after a request that may take long, because a test is answered later
+const kLongTestTimeout = 300; // seconds: kTestTimeout while a request that may take long is unanswered
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -149,18 +149,25 @@ export class Client {
         this.timer = setTimeout(() => this.closed(1006, ""), kOpeningTimeout * 1000);
     }
 
-    /** Says hello on a new connection. If the server refuses that, says hello again with a size that it may allow. */
+    /**
+     * Says hello on a new connection. If the server refuses, says hello again with the size that onRefused() returns,
+     * if any.
+     */
     private async begin(): Promise<void> {
         let refusal = await this.firstHello({});
         if (refusal?.code === "not_connected") return; // the connection has ended
         const size = refusal && this.options.onRefused?.(refusal);
         if (size) refusal = await this.firstHello({ viewport: size === "default" ? undefined : size });
-        // The server closes the connection itself if it does not open the session. After other refusals, it waits.
+        // The server closes the connection after not_found and bad_token. After other refusals, the client must close
+        // it.
         if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
         this.closed(1006, refusal.message);
     }
 
-    /** Resolves to the error if the server refuses. If it does not answer, the connection counts as lost. */
+    /**
+     * Says hello; resolves to the error if the server refuses. If the server does not answer, the connection counts as
+     * lost.
+     */
     private firstHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.closed(1006, "the server does not answer"), kWelcomeTimeout * 1000);
@@ -190,7 +197,8 @@ export class Client {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        // A scheme is sent only if it is "light": servers of earlier versions do not know it, and draw dark pictures.
+        // A scheme is sent only if it is "light": servers of earlier versions do not know this member, and draw dark
+        // pictures.
         const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
         return this.request({ type: "hello", stream, encoding, ...own });
     }
@@ -310,12 +318,15 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsentBytes } = this; // without the bytes of the test: that they are sent is no sign of a connection
+        const { unsentBytes } = this; // without the bytes of the test, which leave this queue even if nothing arrives
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitAnswer(unsentBytes);
     }
 
-    /** Waits for the answer to a test. While queued data are still being sent, the wait begins again. */
+    /**
+     * Waits for the answer to a test. If fewer than `unsentBytes` bytes wait to be sent after the time limit, waits
+     * once more.
+     */
     private awaitAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
         clearTimeout(this.timer);
@@ -386,7 +397,7 @@ export class Client {
     }
 }
 
-/** Whether the server may read, build, search or draw before it answers, and answers no later request before. */
+/** Whether the server may have to read, build, search or draw before it answers this request and later ones. */
 function mayTakeLong(message: Request): boolean {
     switch (message.type) {
         case "load":

@@ -171,9 +171,9 @@ function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonEl
         vertices: floats(vertices),
         edges: indices(edges),
         faces: flattenFaces(faces),
-        of: ofAll(of),
+        of: indicesPerKind(of),
         ...(tints && { tints: indices(tints) }),
-        ...(seen && { seen: ofAll(seen) }),
+        ...(seen && { seen: indicesPerKind(seen) }),
         ...(balls && { balls: { scale: floats(balls.scale), opacity: floats(balls.opacity) } }),
     };
 }
@@ -207,7 +207,7 @@ function flattenedSurface({ colors, cap_colors, ...surface }: NonNullable<JsonSl
     };
 }
 
-function ofAll(lists: JsonSlice["of"]): Slice["of"] {
+function indicesPerKind(lists: JsonSlice["of"]): Slice["of"] {
     return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
 }
 
