@@ -2,12 +2,12 @@
 
 import { formatDecimal, formatDegrees } from "./format";
 
-const kMaxDenominator = 60; // of a fraction of pi
+const kMaxDenominator = 60; // the largest denominator of a fraction of pi that editableAngle() returns
 const kTolerance = 1e-9;
 
 /**
- * An angle for editing: in degrees if two decimals are exact, else as a fraction of pi if one is exact, else in degrees
- * with ten decimals.
+ * An angle as a text for editing: in degrees if two decimals express it exactly, else as a fraction of pi if one is
+ * equal to it, else in degrees with ten decimals.
  */
 export function editableAngle(radians: number): string {
     const degrees = (radians * 180) / Math.PI;

@@ -85,7 +85,7 @@ export class App {
             rememberSession(welcome);
             this.stage.setSizeLimits(welcome.limits);
         },
-        onRequest: (answer) => this.connection.follow(answer),
+        onRequest: (answer) => this.connection.trackRequest(answer),
         onState: (state) => this.update(state),
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
@@ -95,9 +95,10 @@ export class App {
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        // `welcome` tells the allowed sizes; its answer is a hello with the page's size within these limits.
+        // The page learns the allowed sizes from the welcome to the default size, and then says hello with its own
+        // size, within these limits.
         onRefused: ({ code }) => (code === "out_of_range" ? "default" : undefined),
-        onLost: (reason) => this.session.lost(reason, this.state),
+        onLost: (reason) => this.session.sessionLost(reason, this.state),
     });
     private readonly session = new PageSession(this.client, this.initialView, {
         joined: () => (this.state = undefined),
@@ -238,13 +239,14 @@ export class App {
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.requestStream());
         window.addEventListener("online", () => this.requestStream());
-        window.addEventListener("offline", () => this.client.test()); // a server on this computer still answers
+        window.addEventListener("offline", () => this.client.test()); // tests: the server may be on this computer
         window.addEventListener("hashchange", () => this.session.joinShared());
         window.addEventListener("popstate", () => this.session.joinSessionOfEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
         if (this.session.useFirstVisitView()) this.welcomeLine.show();
-        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the first connection
+        // There is no connection yet: this sets the size for the first hello.
+        this.client.hello({ viewport: this.stage.size }).catch(() => {});
         this.client.connect();
     }
 
@@ -254,7 +256,7 @@ export class App {
         this.tour.start();
     }
 
-    /** Handles a new connection. It may lead to another server than the last one, with another key table. */
+    /** Handles a new connection. The server may be another one than before, with another key table. */
     private async connectionOpened(): Promise<void> {
         this.keyRepeatLimiter.restart();
         this.latency.restart();
@@ -309,8 +311,8 @@ export class App {
     }
 
     /**
-     * Says hello with a change; shows why the server refuses it. Without a connection, the client says this hello when
-     * it connects again; until then, it finds an allowed size itself.
+     * Says hello with a change; if the server refuses it, shows why. Without a connection, shows nothing: the client
+     * says hello with the change when it connects again, and `onRefused` then handles a refusal.
      */
     private hello(change: Parameters<Client["hello"]>[0]): void {
         this.client.hello(change).catch((error: Error) => {
@@ -383,7 +385,8 @@ export class App {
     }
 
     /**
-     * Hides the messages over the picture, and focuses the drawing. If it had the focus before, removes the highlight.
+     * Hides the messages over the picture, and focuses the drawing. If the drawing had the focus before, also removes
+     * the highlight.
      */
     private escape(event: KeyboardEvent): void {
         const isInDrawing = event.target === this.drawing;
@@ -473,7 +476,7 @@ export class App {
     /** Opens the export dialog. If an element is given, only this element is exported. */
     private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
-        this.slider.stop(); // otherwise the file would contain another slice than the dialog says
+        this.slider.stop(); // so that the file contains the slice that the dialog names
         if (!this.state) return;
         if (highlight) this.exportDialog.open({ ...this.state, highlight }, "highlight");
         else this.exportDialog.open(this.state);
@@ -482,7 +485,8 @@ export class App {
     /** Saves the file that a format and options describe. */
     private async saveFile(description: string): Promise<void> {
         this.slider.stop();
-        // A move of the focus may be on its way. The file shows the slice after it, so its name must say that one, too.
+        // A move of the focus may be on its way to the server. The file shows the slice after this move, so its name is
+        // made from the state after it.
         const state = await this.client.request({ type: "get", what: "state" });
         await this.exportDialog.save(description, state);
     }

@@ -4,7 +4,7 @@ import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 
 import { FileError, utf16Of } from "./files";
 
-const kHeader = 512; // bytes at the start of a file; those of an array contain a character that texts do not contain
+const kHeader = 512; // bytes at the start of a file; in an array, they contain a character that texts do not contain
 
 /** Whether a file is binary, and so not a text. Only the server finds whether it is an array, and in which format. */
 export async function isBinary(file: File): Promise<boolean> {
@@ -15,8 +15,7 @@ export async function isBinary(file: File): Promise<boolean> {
 
 /**
  * Loads an array into the session under a name. `sent` is called with the fraction that has been sent, from 0 to 1.
- * Rejects with a FileError if the connection is lost, or if the server refuses the array; then the FileError has the
- * server's reason.
+ * Rejects with a FileError if the connection is lost, or, with the server's reason, if the server refuses the array.
  */
 export function uploadArray(
     file: File,

@@ -13,9 +13,12 @@ const kLeastDisc = 12; // pixels: a click this near to the center of a slice hit
 
 interface ClickActions {
     state: () => State | undefined;
-    /** Resolves to the hit tester of the picture; undefined if it cannot be had, which is told to the user. */
+    /**
+     * Resolves to the hit tester of the picture; undefined if the server does not send it, after the user has been told
+     * why.
+     */
     hitTester: () => Promise<HitTester | undefined>;
-    /** Called when the user has clicked. */
+    /** Called at each click, before its effect. */
     began: () => void;
     /** Moves the focus point to this point of the drawing; returns false if no panel of the matrix is there. */
     moveFocusPoint: (at: Point) => boolean;

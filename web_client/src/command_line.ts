@@ -55,7 +55,7 @@ export class CommandLine {
             if (page !== undefined) this.scroll(event, page);
             if (event.key !== "Escape") return;
             if (this.list.hidden) return this.close();
-            event.stopPropagation(); // elsewhere, Escape moves the focus to the drawing
+            event.stopPropagation(); // Escape must not also move the focus to the drawing
             this.hideList();
         });
         this.input.addEventListener("keydown", (event) => this.keydown(event));
@@ -120,7 +120,7 @@ export class CommandLine {
     }
 
     /** The completions of the text before the caret. */
-    private find(): Completions {
+    private findCompletions(): Completions {
         return completionsOf(this.input.value.slice(0, this.input.selectionEnd ?? undefined), this.events.names());
     }
 
@@ -137,7 +137,7 @@ export class CommandLine {
             return true;
         }
         this.hideList();
-        const found = this.find();
+        const found = this.findCompletions();
         const { start, options, suffix } = found;
         if (options.length === 0) return false;
         if (options.length === 1) {
@@ -216,7 +216,8 @@ export class CommandLine {
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
         const { openings } = this;
-        const isSame = (): boolean => openings === this.openings; // otherwise the user has opened the line again
+        // False if the command line has been opened again meanwhile.
+        const isSame = (): boolean => openings === this.openings;
         try {
             await this.events.run(line);
             if (isSame()) this.close();

@@ -32,23 +32,23 @@ export function completionsOf(line: string, names: Names): Completions {
     if (blanks === "") {
         const options = withPrefix(kCommands.map(({ name }) => name), verb);
         const only = kCommands.find(({ name }) => name === options[0]);
-        return finish(line, before.length, options, only?.arguments === undefined ? "" : " ");
+        return completionsUnlessComplete(line, before.length, options, only?.arguments === undefined ? "" : " ");
     }
     const completes = command?.completes ?? "";
     const word = kOfRestOfLine.includes(completes) ? rest : /\S*$/.exec(rest)![0];
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
     if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument is completed
-    return finish(line, start, valuesOf(completes, word, names));
+    return completionsUnlessComplete(line, start, valuesOf(completes, word, names));
 }
 
 /** The completions of the last word of `set NAME=VALUE …`. */
 function settingCompletions(line: string, start: number, rest: string, names: Names): Completions {
     // A polytope's name may contain blanks if it is the only setting.
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
-    if (name !== "") return finish(line, line.length - value.length, valuesOf(name, value, names));
+    if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
     const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
-    return finish(line, start, withPrefix(all, line.slice(start)));
+    return completionsUnlessComplete(line, start, withPrefix(all, line.slice(start)));
 }
 
 /** What completes `typed`: names of this kind, such as "planes", or else values of the setting called `kind`. */
@@ -77,7 +77,7 @@ function withPrefix(list: string[], prefix: string): string[] {
     return list.filter((one) => one.toLowerCase().startsWith(wanted));
 }
 
-function finish(line: string, start: number, options: string[], suffix = ""): Completions {
+function completionsUnlessComplete(line: string, start: number, options: string[], suffix = ""): Completions {
     const isComplete = options.length === 1 && options[0] + suffix === line.slice(start);
     return { start, options: isComplete ? [] : options, suffix };
 }

@@ -34,7 +34,7 @@ export class ConnectionStatus {
     }
 
     /** Counts a request until it is answered. While any answer is late, shows that the page waits for the server. */
-    follow(answer: Promise<unknown>): void {
+    trackRequest(answer: Promise<unknown>): void {
         this.countUnanswered(1);
         const count = (change: number): void => {
             this.lateAnswers += change;

@@ -38,7 +38,8 @@ export class CriticalValues {
 
     update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
         const object = [polytope, pace, follow, boost, field, levels, inside];
-        const key = JSON.stringify([object, orientation, slices.spacing]); // δ differs if this name has a new object
+        // The spacing is included because it differs if a new object has the same name.
+        const key = JSON.stringify([object, orientation, slices.spacing]);
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;

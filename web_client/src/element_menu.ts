@@ -1,4 +1,4 @@
-// The menu of an element of the polytope: what can be done with it. Opens at a right click or a long press.
+// The menu of an element of the polytope: what can be done with the element. Opens at a right click or a long press.
 
 import { byId, element } from "./element";
 import type { Point } from "./hover";

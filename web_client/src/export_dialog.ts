@@ -59,7 +59,7 @@ export class ExportDialog {
             this.field("format").value = format!.name;
             this.field("of").value = of;
         }
-        this.prepare(state);
+        this.fillForm(state);
         this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
     }
 
@@ -75,9 +75,9 @@ export class ExportDialog {
             const names = [...kAllFormats.map((one) => one.name), "latency"].join(", ");
             throw new Error(`no format is called “${name}”; the formats are ${names}`);
         }
-        const { options, file } = this.withoutChoosing(() => {
+        const { options, file } = this.restoringForm(() => {
             this.field("format").value = format.name;
-            this.prepare(state);
+            this.fillForm(state);
             if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
             const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
             if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
@@ -87,11 +87,11 @@ export class ExportDialog {
             const changed = withChanges(this.options, given);
             return { options: changed, file: this.requestFile(format, changed) };
         });
-        this.finish(await file, format, options, state);
+        this.saveFile(await file, format, options, state);
     }
 
     /** Calls a function that changes the form, then restores what is chosen in the form. */
-    private withoutChoosing<T>(use: () => T): T {
+    private restoringForm<T>(use: () => T): T {
         const { bodyToRestore } = this;
         const inputs = [...this.form.querySelectorAll("input")].map((input) => {
             const { value, checked } = input;
@@ -106,7 +106,7 @@ export class ExportDialog {
         }
     }
 
-    private prepare(state: State): void {
+    private fillForm(state: State): void {
         this.state = state;
         byId("export-of").textContent = state.polytope.name;
         this.showSliceValues();
@@ -274,7 +274,7 @@ export class ExportDialog {
         try {
             const file = await this.requestFile(format, options);
             if (number !== this.requestNumber) return;
-            this.finish(file, format, options, this.state!);
+            this.saveFile(file, format, options, this.state!);
             this.dialog.close();
         } catch (error) {
             if (number !== this.requestNumber) return;
@@ -305,7 +305,7 @@ export class ExportDialog {
         return { bytes: await this.client.request({ type: "get", what: "frame", ...request }), warnings: [] };
     }
 
-    private finish({ bytes, warnings }: ExportedFile, format: Format, options: Options, state: State): void {
+    private saveFile({ bytes, warnings }: ExportedFile, format: Format, options: Options, state: State): void {
         download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }

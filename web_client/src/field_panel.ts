@@ -47,12 +47,12 @@ export class FieldPanel {
     private readonly ends: HTMLInputElement[]; // of the box: from and to, for each of x, y, z and w
     private readonly sliders = new ConstantSliders(byId("field-constants"), (text) => {
         this.formula.value = text;
-        this.changed(0);
+        this.scheduleLoad(0);
     });
     private readonly loads = new NewestOnly<FormulaWithBox>((field) => this.load(field));
-    private readonly levelSettings = new NewestOnly<number[]>((levels) => this.apply({ levels }));
-    private readonly capSettings = new NewestOnly<Caps>((caps) => this.apply({ caps }));
-    private readonly insideSettings = new NewestOnly<Inside>((inside) => this.apply({ inside }));
+    private readonly levelSettings = new NewestOnly<number[]>((levels) => this.applySettings({ levels }));
+    private readonly capSettings = new NewestOnly<Caps>((caps) => this.applySettings({ caps }));
+    private readonly insideSettings = new NewestOnly<Inside>((inside) => this.applySettings({ inside }));
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
@@ -72,8 +72,8 @@ export class FieldPanel {
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
         this.loaded = readStored<FormulaWithBox>(kStorageKey);
         this.write(this.loaded ?? { formula: kExamples[0]!.formula, box: kUsualBox });
-        for (const end of this.ends) end.addEventListener("input", () => this.changed(kTypingDelay));
-        this.example.addEventListener("change", () => this.startFrom(Number(this.example.value)));
+        for (const end of this.ends) end.addEventListener("input", () => this.scheduleLoad(kTypingDelay));
+        this.example.addEventListener("change", () => this.startFromExample(Number(this.example.value)));
         this.levels.addEventListener("input", () => this.changeLevels());
         byId("field-inside").addEventListener("change", (event) => {
             this.insideSettings.submit((event.target as HTMLInputElement).value as Inside, 0);
@@ -90,8 +90,8 @@ export class FieldPanel {
         const ids = { input: of === "" ? "field-formula" : `field${of}`, error: `field${of}-error`, excerpt: `field${of}-excerpt` };
         return new FormulaText(
             ids,
-            () => this.changed(kTypingDelay),
-            () => this.changed(0),
+            () => this.scheduleLoad(kTypingDelay),
+            () => this.scheduleLoad(0),
         );
     }
 
@@ -104,7 +104,7 @@ export class FieldPanel {
         this.setOpen(true);
         // On a touch screen, a text field with the focus would open the keyboard over the panel.
         (matchMedia("(pointer: coarse)").matches ? byId("field-close") : this.formula.input).focus();
-        if (this.state && !isField(this.state)) this.changed(0);
+        if (this.state && !isField(this.state)) this.scheduleLoad(0);
     }
 
     close(): void {
@@ -116,11 +116,11 @@ export class FieldPanel {
     adoptLoaded(field: FormulaWithBox, revision: number): void {
         this.write(field);
         writeStored(kStorageKey, field);
-        this.noteLoaded(field, revision);
+        this.recordLoad(field, revision);
         this.showError(undefined);
     }
 
-    private noteLoaded(field: FormulaWithBox, revision: number): void {
+    private recordLoad(field: FormulaWithBox, revision: number): void {
         this.loaded = field;
         this.lastLoad = { revision, time: performance.now(), isRecorded: false };
         this.recordServerText();
@@ -193,25 +193,25 @@ export class FieldPanel {
         this.readBox(); // clears the error about the box that the text fields had before
     }
 
-    private startFrom(example: number): void {
+    private startFromExample(example: number): void {
         this.write(kExamples[example]!);
         this.loaded = undefined; // so that the levels and slices of the old field are not kept
         this.example.selectedIndex = 0;
-        this.changed(0);
+        this.scheduleLoad(0);
     }
 
     /** Loads the formula that is typed, after `delay` milliseconds, if the box that is typed is valid. */
-    private changed(delay: number): void {
+    private scheduleLoad(delay: number): void {
         this.sliders.update(this.formula.value);
         const box = this.readBox();
         if (!box) return;
-        const field = this.written(box);
+        const field = this.typedField(box);
         writeStored(kStorageKey, field);
         this.loads.submit(field, delay);
     }
 
     /** The formulas in the text fields, with this box. */
-    private written(box: Box): FormulaWithBox {
+    private typedField(box: Box): FormulaWithBox {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };
     }
@@ -236,7 +236,7 @@ export class FieldPanel {
             const settings = this.keptSettings(field);
             const revision = await this.events.load(field, settings, this.continues(field));
             this.sent = { settings, revision };
-            this.noteLoaded(field, revision);
+            this.recordLoad(field, revision);
             this.showError(undefined);
         } catch (error) {
             if ((error as RequestError).code !== "not_connected") this.showError((error as Error).message);
@@ -284,7 +284,7 @@ export class FieldPanel {
         if (isValid) this.levelSettings.submit(levels, kTypingDelay);
     }
 
-    private async apply(settings: Settings): Promise<void> {
+    private async applySettings(settings: Settings): Promise<void> {
         try {
             await this.events.set(settings);
             this.showLevelsError("");
@@ -312,7 +312,7 @@ export class FieldPanel {
         address.hash = "";
         address.search = "";
         const box = this.readBox() ?? kUsualBox;
-        return `${address.href}?${queryOf(this.written(box), this.state ?? {})}`;
+        return `${address.href}?${queryOf(this.typedField(box), this.state ?? {})}`;
     }
 }
 

@@ -15,7 +15,7 @@ const kMaxKept = 8; // files, as many as a session holds objects
 const kMaxExcerptWidth = 120; // characters that are shown of a line of the file
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
-type Kept = LoadContent | File | { name: string; path: string };
+type ReloadableObject = LoadContent | File | { name: string; path: string };
 
 export class FileLoading {
     private readonly root = byId("loading");
@@ -24,7 +24,7 @@ export class FileLoading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly dropTarget = byId("drop");
-    private readonly kept = new Map<string, Kept>(); // what this page loaded, by name
+    private readonly kept = new Map<string, ReloadableObject>(); // what this page loaded, by name
     private queue: Promise<void> = Promise.resolve();
 
     constructor(
@@ -46,7 +46,7 @@ export class FileLoading {
     }
 
     /** Keeps an object that was loaded from this page, for reload(). */
-    keep(object: Kept): void {
+    keep(object: ReloadableObject): void {
         const name = object instanceof File ? nameOf(object) : object.name;
         this.kept.delete(name);
         this.kept.set(name, object);

@@ -6,7 +6,10 @@ import { byId } from "./element";
 
 const kVisitedKey = "oval4d.visited"; // in localStorage
 
-/** Commands for the view of a first visit. The last rotation turns only a little, because keys may repeat it. */
+/**
+ * Commands for the view of a first visit. The last rotation is small, because the keys that repeat it should turn the
+ * polytope only a little.
+ */
 export const kFirstVisitView = ["polytope 24-cell", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "rotate xy,zw"];
 
 /** Whether this browser opens the page for the first time. False if the browser forbids storage. */

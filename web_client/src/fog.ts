@@ -32,7 +32,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-const kVisible = 0.02; // the least difference of tones that is shown; by less, a turn changes them, as they are rounded
+const kVisible = 0.02; // the least difference of tones that counts; turning changes the rounded tones by less
 
 /** Whether two distributions look the same. */
 export function looksLike(one: ValueDistribution, other: ValueDistribution): boolean {

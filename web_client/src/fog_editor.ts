@@ -39,7 +39,7 @@ export class FogEditor {
     private points: FogPoint[] = []; // what the editor shows
     private state: State | undefined;
     private field = ""; // textOf() of the state
-    // Of the field of the state; undefined until a picture of the field has a histogram.
+    // How the values of the state's field are distributed; undefined until a picture of the field has a histogram.
     private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
     private dragged: number | undefined; // the index of the point that is dragged
@@ -49,7 +49,7 @@ export class FogEditor {
     /** `set` changes settings; it rejects with an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
         this.addButton.addEventListener("click", () => this.change(withNewPoint(this.points)));
-        this.showButton.addEventListener("click", () => this.change(this.usual()));
+        this.showButton.addEventListener("click", () => this.change(this.usualPoints()));
         this.offButton.addEventListener("click", () => {
             this.change([]);
             this.showButton.focus(); // the button Off disappears
@@ -78,7 +78,9 @@ export class FogEditor {
         this.draw();
     }
 
-    /** Takes over the distribution of the values from the histogram of a picture, if that shows the newest state. */
+    /**
+     * Takes over the distribution of the values from the histogram of a picture, if the picture shows the newest state.
+     */
     updatePicture(picture: Slices): void {
         if (picture.revision !== this.state?.revision) return;
         const distribution = distributionOf(picture);
@@ -87,7 +89,7 @@ export class FogEditor {
         if (this.dragged === undefined) this.draw();
     }
 
-    private usual(): FogPoint[] {
+    private usualPoints(): FogPoint[] {
         const { levels = [0], inside = "below" } = this.state ?? {};
         const level = levels[0]!;
         return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
@@ -102,7 +104,7 @@ export class FogEditor {
     }
 
     private async apply({ fog, drag }: { fog: FogPoint[]; drag?: number }): Promise<void> {
-        // Decided here, because a newer change may have replaced the first one of the drag before it was sent.
+        // Decided here, because a newer change may have replaced the first change of the drag before that one was sent.
         const continues = drag !== undefined && drag === this.sentDrag;
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });
@@ -225,7 +227,7 @@ export class FogEditor {
         });
     }
 
-    private typed(): void {
+    private changeToTyped(): void {
         const points = this.points.map((point, i) => {
             const [value = NaN, opacity = NaN] = [this.rows[i]!.value, this.rows[i]!.opacity].map(
                 (input) => parseNumbers(input.value)[0] ?? NaN,
@@ -245,7 +247,7 @@ export class FogEditor {
                 ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },
                 ...{ "aria-label": `${name} of point ${i + 1}`, "aria-describedby": "fog-error", "data-fog": `${name} ${i + 1}` },
             });
-            input.addEventListener("input", () => this.typed());
+            input.addEventListener("input", () => this.changeToTyped());
             return input;
         };
         const [value, opacity] = [field("value"), field("opacity")];

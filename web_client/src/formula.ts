@@ -48,7 +48,11 @@ export function mistakeOf(message: string): Mistake | undefined {
 }
 
 /** A part of the text around a character, counted from 0, in three pieces: before it, the character, after it. */
-export function around(text: string, at: number, reach: number): [before: string, character: string, after: string] {
+export function excerptAround(
+    text: string,
+    at: number,
+    reach: number,
+): [before: string, character: string, after: string] {
     const characters = [...text];
     const [from, to] = [Math.max(0, at - reach), at + 1 + reach];
     return [

@@ -2,7 +2,7 @@
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";
-import { around, mistakeOf } from "./formula";
+import { excerptAround, mistakeOf } from "./formula";
 
 const kReach = 14; // characters of the formula shown on either side of a mistake
 
@@ -43,7 +43,7 @@ export class FormulaText {
         this.input.setAttribute("aria-invalid", String(message !== undefined));
         this.excerpt.hidden = mistake === undefined;
         if (!mistake) return;
-        const [before, character, after] = around(this.value, mistake.at, kReach);
+        const [before, character, after] = excerptAround(this.value, mistake.at, kReach);
         this.excerpt.replaceChildren(before, element("mark", {}, character.trim() === "" ? "\u00a0" : character), after);
     }
 }

@@ -1,5 +1,5 @@
-// Where the matrix of planar sections is in the pictures that the server draws. The page requests this when it begins
-// to show the matrix, so that a drag in the matrix can begin at once.
+// Where the matrix of planar sections is in the pictures that the server draws. The page requests the matrix when it
+// begins to show it, so that a drag in the matrix can begin at once.
 
 import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 
@@ -28,7 +28,7 @@ export class FrameMatrixCache {
         const key = isShown ? layoutKey(state, this.stage.size) : "";
         if (key === this.knownFor) return;
         this.knownFor = key;
-        if (!isShown) this.known = undefined; // otherwise the old one serves until the answer comes
+        if (!isShown) this.known = undefined; // a matrix that is still shown stays until the answer comes
         if (isShown) void this.request(key);
     }
 

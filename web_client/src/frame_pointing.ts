@@ -52,7 +52,7 @@ export class FramePointing {
         this.hide();
     }
 
-    /** Asks what is under the pointer, if that is not known. To be called when the page may have become idle. */
+    /** Asks what is under the pointer, unless it is known. To be called when the page may have become idle. */
     update(): void {
         if (!this.isAsking) void this.ask();
     }
@@ -75,7 +75,7 @@ export class FramePointing {
             const pointer = this.pointer!;
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
             const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
-            const answer = await request.catch(() => undefined); // then no name is shown
+            const answer = await request.catch(() => undefined); // after an error, no name is shown
             if (answer) this.answered(answer, pointer);
             await interval;
         }

@@ -12,7 +12,7 @@ import type { RotationControl } from "./rotation";
 import { TwoFingers } from "./two_fingers";
 
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
-const kLineHeight = 16; // pixels, for wheels that count lines
+const kLineHeight = 16; // pixels per line, for wheels that report lines
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
 const kLongPress = 600; // milliseconds of touch after which the menu opens
 const kButtons = { left: 0, middle: 1, right: 2 }; // of a mouse
@@ -81,7 +81,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
             void targets.openMenu(placeOf(event)).then((hasOpened) => (isMenuOpen = hasOpened));
         }, kLongPress);
     });
-    // Otherwise the mouse events that follow a touch would take the focus from the menu.
+    // Suppresses the mouse events that follow a touch: they would take the focus from the menu.
     drawing.addEventListener("touchend", (event) => isLongPress && event.cancelable && event.preventDefault(), {
         passive: false,
     });
@@ -91,7 +91,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     // Some systems open the browser's own menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
     drawing.addEventListener("mousedown", (event) => {
-        if (event.button === kButtons.middle) event.preventDefault(); // otherwise the browser would scroll
+        if (event.button === kButtons.middle) event.preventDefault(); // keeps the browser from scrolling
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);

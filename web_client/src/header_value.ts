@@ -102,7 +102,7 @@ export class HeaderValue {
     private keydown(event: KeyboardEvent): void {
         if (event.isComposing) return;
         if (event.key === "Escape") {
-            event.stopPropagation(); // elsewhere, Escape moves the focus to the drawing
+            event.stopPropagation(); // Escape must not also move the focus to the drawing
             this.close();
         }
         if (event.key === "Enter") void this.submit();
@@ -117,7 +117,7 @@ export class HeaderValue {
     private async submit(): Promise<void> {
         const text = this.input.value.trim();
         if (text === this.before.trim()) return this.close();
-        if (text === this.pending) return undefined; // a second Enter, or Tab, before the answer
+        if (text === this.pending) return undefined; // Enter was pressed again, or Tab, before the answer
         this.pending = text;
         try {
             await this.events.apply(text);

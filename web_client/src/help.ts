@@ -77,7 +77,9 @@ export class Help {
         );
     }
 
-    /** Opens the dialog with what filter() shows; throws an Error if filter() does. */
+    /**
+     * Opens the dialog with the lines that mention the topic, as filter() shows them; throws an Error if filter() does.
+     */
     open(topic = ""): void {
         this.filter(topic);
         if (!this.dialog.open) this.dialog.showModal();
@@ -87,7 +89,9 @@ export class Help {
         this.dialog.close();
     }
 
-    /** Shows only the lines that mention the topic, all for "". Throws an Error if no line mentions it. */
+    /**
+     * Shows only the lines that mention the topic or, if it is "", all lines. Throws an Error if no line mentions it.
+     */
     filter(topic: string): void {
         const wanted = topic.toLowerCase();
         const mentions = (line: HTMLElement): boolean =>

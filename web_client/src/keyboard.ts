@@ -14,7 +14,7 @@ interface KeyActions {
     focusMoves: () => void;
     /** Called when Escape was pressed outside dialogs. */
     escape: (event: KeyboardEvent) => void;
-    /** Executes an action of the camera; returns false if it is another action. */
+    /** Executes an action of the camera; returns false if the action is not one of the camera. */
     camera: (action: string) => boolean;
     /** The other actions that only the page executes, by their names in the key table. */
     page: Readonly<Record<string, () => void>>;
@@ -30,7 +30,7 @@ export class Keyboard {
         private readonly actions: KeyActions,
     ) {}
 
-    /** Whether letters, digits and signs act without Ctrl; the browser remembers it. */
+    /** Whether letters, digits and signs act without Ctrl; this browser remembers the choice. */
     get usesSingleKeys(): boolean {
         return this.actsWithoutCtrl;
     }

@@ -15,7 +15,7 @@ export const kMeasure = "oval4d key to picture"; // name of the performance meas
 
 const kMaxSamples = 10_000;
 const kRecentSamples = 500; // number of samples in the displayed statistics
-const kShownKey = "oval4d.latency"; // storage key
+const kShownKey = "oval4d.latency"; // storage key of whether the statistics are shown
 
 interface Sample {
     /** When the request was sent, in milliseconds as in performance.now(). */

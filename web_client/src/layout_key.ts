@@ -1,5 +1,5 @@
-// What the layout of a picture depends on. When this changes, the page asks the server again where the parts of the
-// server's picture are.
+// What the layout of a picture depends on. When one of these settings changes, the page asks the server again where the
+// parts of the server's picture are.
 
 import type { State, Viewport } from "@oval4d/protocol";
 

@@ -78,7 +78,8 @@ export class ObserverControls {
     }
 
     private showPace(pace: number): void {
-        // The thumb of a rounded pace stays where it is. Otherwise an arrow key might not reach the next rounded pace.
+        // If the thumb already stands for this pace, rounded, it is not moved. Otherwise an arrow key might not reach
+        // the next rounded pace.
         if (this.chosenPace !== pace) this.pace.value = String(Math.log10(pace));
         const text = formatDecimal(pace, 3);
         this.paceValue.textContent = text;

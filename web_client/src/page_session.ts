@@ -57,7 +57,7 @@ export class PageSession {
     }
 
     /** Notes that the session is lost. The new session gets the view of `state`, its last state, if that is known. */
-    lost(reason: string, state: State | undefined): void {
+    sessionLost(reason: string, state: State | undefined): void {
         this.lostState ??= state; // if a view has not been restored yet, `state` may be that of the new session
         this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
         this.actions.tell([
@@ -75,7 +75,7 @@ export class PageSession {
             if (this.lostState) await this.restore(this.lostState);
         } catch (error) {
             if ((error as RequestError).code !== "not_connected") this.lostState = undefined;
-            throw error; // if the connection is lost, the next one restores the view
+            throw error; // if the connection was lost, this is called again on the next one
         }
         this.lostState = undefined;
         if (field) {

@@ -11,14 +11,14 @@ import type { Stage } from "./picture/stage";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 
 /** An element of the polytope, and the slice in which it was pointed at. */
-export interface Pointed extends PolytopeElement {
+export interface PointedElement extends PolytopeElement {
     slice?: Slice;
 }
 
 export class Pointing {
     private at: Point | undefined;
     private scheduled = false;
-    private shown: Pointed | undefined;
+    private shown: PointedElement | undefined;
     private sources: ElementSources | undefined;
     private hitTester: HitTester | undefined; // of the picture that `sources` belongs to
     private isTapped = false; // whether the label names what a finger has tapped
@@ -33,7 +33,7 @@ export class Pointing {
     }
 
     /** The element at a point of the drawing, in pixels; undefined if there is none. */
-    elementAt(x: number, y: number, hitTester: HitTester): Pointed | undefined {
+    elementAt(x: number, y: number, hitTester: HitTester): PointedElement | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         // The state may be newer than the picture, and of another object.
@@ -48,10 +48,10 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of what a finger has tapped, until the next touch; the picture may change before, because a tap
-     * moves the focus slice.
+     * Shows the name of what a finger has tapped, until the next touch, even if the picture changes: a tap also moves
+     * the focus slice.
      */
-    showName(tapped: Pointed, hitTester: HitTester, at: Point): void {
+    showName(tapped: PointedElement, hitTester: HitTester, at: Point): void {
         const state = this.state()!;
         const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).partsShowing(tapped);
         this.isTapped = true;
@@ -103,7 +103,7 @@ export class Pointing {
 }
 
 function descriptionOf(
-    { element, number, slice }: Pointed,
+    { element, number, slice }: PointedElement,
     own: number[],
     { picture: { coordinates } }: HitTester,
     state: State,

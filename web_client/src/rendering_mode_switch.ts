@@ -3,7 +3,7 @@
 import type { Mode, Stage } from "./picture/stage";
 import { readStored, writeStored } from "./storage";
 
-const kModeKey = "oval4d.mode"; // storage key
+const kModeKey = "oval4d.mode"; // storage key of the mode that the user has chosen
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
 export class RenderingModeSwitch {

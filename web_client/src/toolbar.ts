@@ -36,7 +36,9 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     });
 }
 
-/** The button that became this text field: the mouse opens a field without giving its button the focus before. */
+/**
+ * The button that this text field replaces. A click with the mouse opens the field without focusing the button first.
+ */
 function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
     if (field.type !== "text") return undefined;
     let around: Element = field;

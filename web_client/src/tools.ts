@@ -33,8 +33,8 @@ const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * For each action that switches something on and off, a function that returns whether this is on. A part of the
- * picture, or a view, is switched by the action of the same name.
+ * For each action that switches something on and off, a function that returns whether it is on. A part of the picture,
+ * or a view, is switched by the action of the same name.
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
@@ -45,7 +45,7 @@ const kToggles: Record<string, (state: State) => boolean> = {
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
 };
-/** The label of the button that switches between projections: the name of the one that is shown, if one is shown. */
+/** The label of the button that switches between projections: the name of the projection that is shown, if any. */
 const kProjectionLabels: Record<Projection, string> = {
     off: "Project",
     perspective: "Perspective",

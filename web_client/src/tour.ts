@@ -4,8 +4,8 @@
 
 import { byId } from "./element";
 
-const kGap = 12; // pixels between the panel, what it points at, and the edges of the window
-const kRingGap = 4; // pixels between what it points at and the ring
+const kGap = 12; // pixels between the panel and what it explains, and between the panel and the edges of the window
+const kRingGap = 4; // pixels between what the panel explains and the ring around it
 
 export class Tour {
     private readonly root = byId("tour");

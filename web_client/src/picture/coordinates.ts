@@ -11,7 +11,7 @@ import { cssColor, setFont } from "./pen";
 
 const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
 const kLevelOpacity = 0.8; // of the lines of levels in a histogram
-const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of the viewport's height
+const kFocusMark = 0.009; // half the width of the mark at the focus slice's w, as a fraction of the viewport's height
 
 const density = new DensityImage();
 

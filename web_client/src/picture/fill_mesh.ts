@@ -52,7 +52,8 @@ export class FillMesh {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
-                // A triangle takes its color from its last point, which no triangle of another tint has as its last.
+                // A triangle takes its color from its last point, which is the last point of no triangle with another
+                // tint.
                 const item = first + fill.triangles[3 * t + 2]!;
                 this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, highlighted), alpha);
             }

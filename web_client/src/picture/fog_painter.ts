@@ -181,13 +181,13 @@ export class FogPainter {
         gl.activeTexture(gl.TEXTURE0);
         gl.bindTexture(gl.TEXTURE_2D, resources.table);
         const { table } = this.picture!.scene.fog!;
-        const looks = looksOf(table);
+        const looks = colorTexelsOf(table);
         gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, looks.length / 4, 1, 0, gl.RGBA, gl.FLOAT, looks);
         for (const slice of this.picture!.slices) {
             if (!slice.fog || !slice.drawn) continue;
             const values = makeTexture(gl, gl.TEXTURE_3D, gl.LINEAR);
             const [x, y, z] = slice.fog.size;
-            gl.texImage3D(gl.TEXTURE_3D, 0, gl.RG8, x, y, z, 0, gl.RG, gl.UNSIGNED_BYTE, texelsOf(slice.fog));
+            gl.texImage3D(gl.TEXTURE_3D, 0, gl.RG8, x, y, z, 0, gl.RG, gl.UNSIGNED_BYTE, valueTexelsOf(slice.fog));
             const blocks = makeTexture(gl, gl.TEXTURE_3D, gl.NEAREST);
             const [[u, v, w], texels] = blocksOf(slice.fog, table);
             gl.texImage3D(gl.TEXTURE_3D, 0, gl.R8, u, v, w, 0, gl.RED, gl.UNSIGNED_BYTE, texels);
@@ -281,8 +281,8 @@ function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
 
-/** For each value, the color from 0 to 1, and the absorption per circumradius. */
-function looksOf(table: ArrayLike<number>): Float32Array {
+/** For each value of the fog: red, green and blue from 0 to 1, and the absorption per circumradius. */
+function colorTexelsOf(table: ArrayLike<number>): Float32Array {
     const looks = new Float32Array(4 * table.length);
     for (let i = 0; i < table.length; ++i) {
         const entry = table[i]!;
@@ -292,8 +292,8 @@ function looksOf(table: ArrayLike<number>): Float32Array {
     return looks;
 }
 
-/** For each point, its value and 255, or 0 and 0 where the field has no value. */
-function texelsOf({ values }: Fog): Uint8Array {
+/** Two bytes for each lattice point: its value and 255, or 0 and 0 where the field has no value. */
+function valueTexelsOf({ values }: Fog): Uint8Array {
     const texels = new Uint8Array(2 * values.length);
     for (let i = 0; i < values.length; ++i) {
         texels[2 * i] = values[i]!;
@@ -303,8 +303,8 @@ function texelsOf({ values }: Fog): Uint8Array {
 }
 
 /**
- * The number of blocks along each axis; and for each block 255 if a value between the least and the greatest value of
- * its points is not transparent, else 0.
+ * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in it, because a value
+ * between the least and the greatest value of its points is not transparent; else 0.
  */
 function blocksOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;

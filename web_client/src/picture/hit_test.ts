@@ -25,7 +25,7 @@ interface PickableMesh {
     position: Vector;
     scale: number;
     ball: number; // the radius of balls in world units; 0 if they are not drawn
-    bar: number; // the radius of bars, likewise
+    bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
     distance: number; // from the eye
 }
@@ -129,8 +129,8 @@ class MeshTest {
         }
     }
 
-    /** Takes an element if it is the nearest so far; `depth` is its distance along the camera's axis. */
-    private take(kind: Hit["kind"], source: number, depth: number): void {
+    /** Keeps an element if it is the nearest so far; `depth` is its distance along the camera's axis. */
+    private keepIfNearest(kind: Hit["kind"], source: number, depth: number): void {
         if (depth >= this.depth) return;
         const { slice } = this.mesh;
         this.depth = depth;
@@ -146,7 +146,7 @@ class MeshTest {
             const perPixel = depth / this.viewCamera.pixelsPerUnit;
             const radius = Math.max(ball * (balls?.scale[v] ?? 1), this.reach * perPixel);
             const distance = Math.hypot(projected[at + 3]! - this.x, projected[at + 4]! - this.y) * perPixel;
-            if (distance <= radius) this.take("vertices", of.vertices[v]!, depth - kBallRise * radius);
+            if (distance <= radius) this.keepIfNearest("vertices", of.vertices[v]!, depth - kBallRise * radius);
         }
     }
 
@@ -164,7 +164,7 @@ class MeshTest {
             const perPixel = depth / this.viewCamera.pixelsPerUnit;
             const radius = Math.max(bar, this.reach * perPixel);
             const distance = Math.hypot(ax + part * dx - this.x, ay + part * dy - this.y) * perPixel;
-            if (distance <= radius) this.take("edges", of.edges[e]!, depth - kBarRise * radius);
+            if (distance <= radius) this.keepIfNearest("edges", of.edges[e]!, depth - kBarRise * radius);
         }
     }
 
@@ -175,7 +175,7 @@ class MeshTest {
             for (let f = 0; f + 1 < faces.begin.length; ++f) {
                 if (visibility?.faces[f] === 0) continue;
                 const depth = this.depthOfPolygon(faces.corners, faces.begin[f]!, faces.begin[f + 1]!);
-                this.take("faces", of.faces[f]!, depth);
+                this.keepIfNearest("faces", of.faces[f]!, depth);
             }
             return;
         }
@@ -183,7 +183,7 @@ class MeshTest {
         projected = ensureCapacity(projected, (kStride * points.length) / 3);
         this.project(points, position, scale);
         for (let t = 0; t < tints.length; ++t) {
-            this.take("faces", tints[t]!, this.depthOfPolygon(triangles, 3 * t, 3 * t + 3));
+            this.keepIfNearest("faces", tints[t]!, this.depthOfPolygon(triangles, 3 * t, 3 * t + 3));
         }
     }
 

@@ -9,7 +9,7 @@ export function sortByKey(
     keys: Float32Array,
     scratch: Uint32Array,
 ): void {
-    for (let from = begin; from < end; from += kRun) insert(items, from, Math.min(from + kRun, end), keys);
+    for (let from = begin; from < end; from += kRun) insertionSort(items, from, Math.min(from + kRun, end), keys);
     let [source, target] = [items, scratch];
     for (let run = kRun; run < end - begin; run *= 2) {
         for (let from = begin; from < end; from += 2 * run) {
@@ -20,7 +20,7 @@ export function sortByKey(
     if (source !== items) for (let i = begin; i < end; ++i) items[i] = source[i]!;
 }
 
-function insert(items: Uint32Array, begin: number, end: number, keys: Float32Array): void {
+function insertionSort(items: Uint32Array, begin: number, end: number, keys: Float32Array): void {
     for (let i = begin + 1; i < end; ++i) {
         const item = items[i]!;
         let k = i;

@@ -32,7 +32,7 @@ const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
-const kLeastTextInFullScreen = 0.02; // the same in full screen, as a fraction of the screen's height
+const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen, as a fraction of the window's height
 
 /** Returns the largest factor by which a picture can be enlarged within the limits. */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {

@@ -26,7 +26,7 @@ export class TrianglesByLevel {
             previous = group;
         }
         for (let g = 0; g < kGroups; ++g) begin[g + 1]! += begin[g]!;
-        this.triangles = sorted ? triangles : this.roomLike(triangles);
+        this.triangles = sorted ? triangles : this.reusableArrayLike(triangles);
         if (sorted) return;
         next.set(begin.subarray(0, kGroups));
         const out = this.triangles;
@@ -44,8 +44,8 @@ export class TrianglesByLevel {
         return [this.begin[group]!, this.begin[group + 1]!];
     }
 
-    /** Returns an array of the same type and length. The next surface uses the same memory again. */
-    private roomLike(triangles: Integers): Integers {
+    /** Returns an uninitialized array of the type and length of `triangles`, in memory that the next surface reuses. */
+    private reusableArrayLike(triangles: Integers): Integers {
         if (triangles.byteLength > this.memory.byteLength) {
             this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(triangles.byteLength)));
         }
