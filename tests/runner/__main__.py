@@ -45,7 +45,8 @@ def targets(preset, wanted):
 
 
 def build(parts):
-    """Installs npm packages and makes all builds that the parts need. Returns what failed, as the log of each build."""
+    """Installs npm packages and makes all builds that the parts need. Returns the logs of the builds that failed, by
+    name."""
     wanted = {part.name for part in parts}
     failed = {}
     if not (prepare("install_npm tests") and prepare("build_web_client") and
@@ -60,8 +61,9 @@ def build(parts):
     return failed
 
 
-def without(part, failed):
-    """Returns the part; if a build that it needs has failed, with a check that fails with the end of the build's log."""
+def with_build_failures(part, failed):
+    """Returns the part. If a build that it needs has failed, its only check fails, and shows the end of the build's
+    log."""
     logs = [log for name, log in failed.items() if name == "npm" or name in part.presets]
     if logs:
         script = 'tail -n 15 "$@"; echo "$0 cannot run, because the build has failed: see $*"; exit 1'
@@ -94,7 +96,7 @@ def main(names):
     started = float(os.environ.get("OVAL4D_TESTS_STARTED", began))
     failed = build(parts)
     built = time.time()
-    results, again_seconds = judge([without(part, failed) for part in parts], RESULTS, say)
+    results, again_seconds = judge([with_build_failures(part, failed) for part in parts], RESULTS, say)
     seconds = {"packages": began - started, "builds": built - began} | ({"again": again_seconds} if again_seconds > 1 else {})
     lines, status = summary(results, seconds, ROOT, RESULTS / "report.txt")
     print("\n" + "\n".join(lines), flush=True)

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 
 from results import Result, read_junit
 
-# Ends a check that hangs. Single tests have a bound of their own: tests/hang_limit_seconds.
+# The time after which a check counts as hanging, and is ended. Single tests have a limit of their own:
+# tests/hang_limit_seconds.
 LIMIT_SECONDS = 1800
 LINES_OF_LOG = 25  # how much of its log is the message of a check that fails without a failed test case
 
@@ -25,7 +26,7 @@ class Check:
 
     def options(self, report, failed):
         """Returns options to add to the command, with which it writes the JUnit file `report`. `failed` are the results
-        of the first run that are to be run again, or None in the first run."""
+        of the tests that have failed in the first run and are run again; None in the first run."""
         del report, failed
         return []
 
@@ -51,7 +52,8 @@ class GoogleTest(Check):
 
     @staticmethod
     def pattern(result):
-        """Returns a filter that matches the test case. A "-" would begin the patterns to exclude."""
+        """Returns a filter that matches the test case. It has "?" for "-", because a "-" would begin the patterns to
+        exclude."""
         return ".".join(result.case).replace("-", "?")
 
 
@@ -117,7 +119,7 @@ def end_all():
 
 
 def in_words(status):
-    """Says how a command ended that did not succeed."""
+    """Says how a command that failed has ended, given what execute() returned."""
     if status == "hung":
         return "did not end in time"
     return f"ended by {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"

@@ -1,4 +1,4 @@
-"""Runs the checks of parts, runs once more what failed, and says what that means."""
+"""Runs the checks of parts, runs once more what failed, and says which tests passed, failed or are unstable."""
 
 import concurrent.futures
 import time
@@ -10,7 +10,8 @@ from results import Result
 
 # With more unstable tests than this, the run fails.
 MOST_UNSTABLE = 2
-# The end of the output, which alone may be seen: the table, and the failures with their messages.
+# The most lines of the summary and of a message in it, and the most characters of a line: only the end of the output
+# may be seen.
 LINES_AT_THE_END = 60
 LINES_OF_A_MESSAGE = 6
 LENGTH_OF_A_LINE = 240
@@ -35,7 +36,7 @@ class Failure:
 
     first: Result
     logs: list[Path]
-    second: Result | None = None  # of the second run, alone
+    second: Result | None = None  # of the second run, with no other test beside it; None before it
 
     @property
     def unstable(self):
@@ -77,7 +78,7 @@ def run_part(part, folder, say):
 
 
 def run_again(check, failed, folder, say):
-    """Runs the failed tests of a check once more, with nothing beside them, and enters what became of them."""
+    """Runs the failed tests of a check once more, with nothing beside them, and stores the results in `failed`."""
     results, log = check.run(folder, [failure.first for failure in failed])
     by_name = {result.name: result for result in results}
     whole = None if any(result.outcome == "failed" for result in results) else Result(check.name, "passed")

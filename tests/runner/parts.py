@@ -11,8 +11,9 @@ from judgment import Part
 ROOT = Path(__file__).resolve().parents[2]
 TESTS = ROOT / "tests"
 
-# With sanitizers, the service tests run the code of the other folders. With ThreadSanitizer, only what has threads is of
-# interest; the service tests that are left out use the same threads in the same way.
+# The folders whose unit tests run with sanitizers; the service tests run the code of the other folders. With
+# ThreadSanitizer, only code that uses threads is run. The service tests that it leaves out use the same threads in the
+# same way.
 SANITIZED_UNITS = {
     "asan-ubsan": ("fields", "file_reading", "geometry", "image", "parallel", "polytopes", "process", "raster", "render", "slicing"),
     "tsan": ("parallel", "polytopes", "raster", "store"),
@@ -30,7 +31,7 @@ def program(name, preset="release"):
 
 
 def pytest(name, *arguments, preset="release", wrapper=(), variables=None):
-    """Returns a check by pytest. The tests start the server of that build."""
+    """Returns a check by pytest. `preset` names the build whose server the tests start."""
     command = [*wrapper, sys.executable, "-m", "pytest", "-q", "-o", "faulthandler_timeout=600", *arguments]
     return Pytest(name, command, {"OVAL4D": str(program("oval4d", preset))} | (variables or {}))
 
@@ -103,7 +104,8 @@ def fuzz(folder):
 
 @functools.cache
 def without_address_randomization():
-    """GCC 12's ThreadSanitizer fails with the address space randomization of newer kernels."""
+    """Returns a command that runs another command without address space randomization, with which GCC 12's
+    ThreadSanitizer fails on newer kernels; empty if this machine does not allow the command."""
     wrapper = ("setarch", "--addr-no-randomize")
     return wrapper if subprocess.run([*wrapper, "true"], check=False, stderr=subprocess.DEVNULL).returncode == 0 else ()
 
@@ -126,7 +128,8 @@ def sanitized(preset, folder):
         checks.append(GoogleTest(f"{preset}-unit-{unit_folder}", command, variables | ({"GTEST_FILTER": chosen} if chosen else {})))
     files = [TESTS / "service" / (f"test_{subject}.py" if subject else "") for subject in SANITIZED_SERVICE[preset]]
     checks.append(pytest(f"{preset}-service", *files, "--numprocesses=2", preset=preset, wrapper=wrapper, variables=variables))
-    # The search for leaks, at the end of a process, also reports a thread that ends while it looks; that is no fault.
+    # LeakSanitizer, which searches at the end of a process, also reports a thread that ends during the search; that is
+    # no fault.
     script = '! head -qn 50 "$0".* 2>/dev/null | grep -v "Unable to get registers from thread"'
     checks.append(Check(f"{preset}-reports", ["bash", "-c", script, reports]))
     return checks
