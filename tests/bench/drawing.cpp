@@ -97,7 +97,8 @@ class Drawer {
     std::vector<std::uint8_t> png_;
 };
 
-/// Waits until `begun` is set, then draws pictures during `seconds`, and appends their latencies.
+/// Warms up, and decrements `cold`. Waits until `begun` is set, then draws pictures for this many seconds, and appends
+/// their latencies in seconds.
 void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
           const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
     Drawer drawer(state, forkJoin);

@@ -27,8 +27,8 @@ using load::Latencies;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Runs coroutines until all have ended; rethrows the first exception.
-class Stage {
+/// Coroutines that run at the same time. run() returns when all have ended; it rethrows their first exception.
+class CoroutineGroup {
   public:
     asio::io_context io;
 
@@ -74,9 +74,9 @@ std::string helloFor(const std::string& stream) { return R"({"type":"hello","str
 std::string setPolytope(const std::string& name) { return R"({"type":"set","polytope":")" + name + "\"}"; }
 
 /// A client that presses a key, waits for its picture, and then presses the next key.
-asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello, std::string polytope, double seconds,
-                               Latencies& latencies) {
-    Client client(stage.io, server);
+asio::awaitable<void> pressing(CoroutineGroup& group, Endpoint server, std::string hello, std::string polytope,
+                               double seconds, Latencies& latencies) {
+    Client client(group.io, server);
     co_await client.open(hello, true);
     if (polytope != "5-cell") {
         co_await client.send(setPolytope(polytope));
@@ -93,10 +93,10 @@ asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello,
 
 /// One of many clients with ten keys per second. Latencies count from the scheduled time of a key, even if a late
 /// picture delays the key.
-asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double seconds, Latencies& latencies) {
-    Client client(stage.io, server);
+asio::awaitable<void> typing(CoroutineGroup& group, Endpoint server, int number, double seconds, Latencies& latencies) {
+    Client client(group.io, server);
     co_await client.open(helloFor("geometry"), true);
-    asio::steady_timer timer(stage.io);
+    asio::steady_timer timer(group.io);
     auto due = Clock::now() + std::chrono::milliseconds(500 + number * 37 % 100);
     for (int i = 0; i < int(seconds * 10); ++i, due += std::chrono::milliseconds(100)) {
         timer.expires_at(due);
@@ -107,8 +107,8 @@ asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double s
     co_await client.close();
 }
 
-asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string stream, int keys) {
-    Client client(stage.io, server);
+asio::awaitable<void> flooding(CoroutineGroup& group, Endpoint server, std::string stream, int keys) {
+    Client client(group.io, server);
     co_await client.open(helloFor(stream), true);
     const std::uint64_t before = client.pictures();
     const auto start = Clock::now();
@@ -122,69 +122,69 @@ asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string stream
 }
 
 /// Sends many requests and never reads, until the server drops the client.
-asio::awaitable<void> neverReading(Stage& stage, Endpoint server, double seconds) {
-    Client client(stage.io, server);
+asio::awaitable<void> neverReading(CoroutineGroup& group, Endpoint server, double seconds) {
+    Client client(group.io, server);
     co_await client.open(helloFor("frames"), false);
     co_await client.send(setPolytope("600-cell"));
     for (int i = 0; i < 50; ++i) co_await client.send(R"({"type":"get","what":"slices"})");
-    asio::steady_timer timer(stage.io,
+    asio::steady_timer timer(group.io,
                              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
     co_await timer.async_wait(use_awaitable);
 }
 
-asio::awaitable<void> memory(Stage& stage, Endpoint server, double& megabytes) {
+asio::awaitable<void> memory(CoroutineGroup& group, Endpoint server, double& megabytes) {
     constexpr const char* kName = "\nprocess_resident_memory_bytes ";
-    const std::string text = co_await load::get(stage.io, server, "/metrics");
+    const std::string text = co_await load::get(group.io, server, "/metrics");
     const std::size_t at = text.find(kName);
     megabytes = at == std::string::npos ? 0 : std::atof(text.c_str() + at + std::string(kName).size()) / 1e6;
 }
 
 asio::awaitable<void> opening(Client& client) { co_await client.open(helloFor("geometry"), true); }
 
-double memoryOf(Stage& stage, Endpoint server) {
+double memoryOf(CoroutineGroup& group, Endpoint server) {
     double megabytes = 0;
-    stage.spawn(memory(stage, server, megabytes));
-    stage.run();
+    group.spawn(memory(group, server, megabytes));
+    group.run();
     return megabytes;
 }
 
 void pressKeys(Endpoint server, const std::string& what, const std::string& hello, const std::string& polytope,
                double seconds) {
-    Stage stage;
+    CoroutineGroup group;
     Latencies latencies;
-    stage.spawn(pressing(stage, server, hello, polytope, seconds, latencies));
-    stage.run();
+    group.spawn(pressing(group, server, hello, polytope, seconds, latencies));
+    group.run();
     row(what, latencies);
 }
 
 void manySessions(Endpoint server, int count, double seconds) {
-    Stage stage;
+    CoroutineGroup group;
     std::vector<Latencies> each(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) stage.spawn(typing(stage, server, i, seconds, each[static_cast<std::size_t>(i)]));
-    stage.run();
+    for (int i = 0; i < count; ++i) group.spawn(typing(group, server, i, seconds, each[static_cast<std::size_t>(i)]));
+    group.run();
     Latencies all;
     for (const Latencies& latencies : each) all.insert(all.end(), latencies.begin(), latencies.end());
     row(std::to_string(count) + " sessions at 10 keys/s, slices of the 5-cell", all);
 }
 
 void besideOneThatNeverReads(Endpoint server, double seconds) {
-    Stage stage;
+    CoroutineGroup group;
     Latencies latencies;
-    stage.spawn(neverReading(stage, server, seconds));
-    stage.spawn(pressing(stage, server, helloFor("geometry"), "5-cell", seconds, latencies));
-    stage.run();
+    group.spawn(neverReading(group, server, seconds));
+    group.spawn(pressing(group, server, helloFor("geometry"), "5-cell", seconds, latencies));
+    group.run();
     row("slices of the 5-cell, beside a client that never reads", latencies);
 }
 
 /// Runs a session with the 5-cell and other sessions with a large polytope, each as fast as possible.
 void besideLargeOnes(Endpoint server, const std::string& stream, int others, double seconds) {
-    Stage stage;
+    CoroutineGroup group;
     Latencies latencies;
     std::vector<Latencies> large(static_cast<std::size_t>(others));
     for (Latencies& each : large)
-        stage.spawn(pressing(stage, server, helloFor(stream), "omnitruncated 120-cell", seconds + 1, each));
-    stage.spawn(pressing(stage, server, helloFor(stream), "5-cell", seconds, latencies));
-    stage.run();
+        group.spawn(pressing(group, server, helloFor(stream), "omnitruncated 120-cell", seconds + 1, each));
+    group.spawn(pressing(group, server, helloFor(stream), "5-cell", seconds, latencies));
+    group.run();
     row(stream + " of the 5-cell, beside " + std::to_string(others) + " of the omnitruncated 120-cell", latencies);
     Latencies all;
     for (const Latencies& each : large) all.insert(all.end(), each.begin(), each.end());
@@ -193,11 +193,11 @@ void besideLargeOnes(Endpoint server, const std::string& stream, int others, dou
 
 /// Runs many sessions at the same time, each as fast as possible.
 void allAtOnce(Endpoint server, const std::string& polytope, int count, double seconds) {
-    Stage stage;
+    CoroutineGroup group;
     std::vector<Latencies> each(static_cast<std::size_t>(count));
     for (Latencies& latencies : each)
-        stage.spawn(pressing(stage, server, helloFor("frames"), polytope, seconds, latencies));
-    stage.run();
+        group.spawn(pressing(group, server, helloFor("frames"), polytope, seconds, latencies));
+    group.run();
     Latencies all;
     for (const Latencies& latencies : each) all.insert(all.end(), latencies.begin(), latencies.end());
     const std::string what = "frames of the " + polytope + ", " + std::to_string(count) + " sessions at once";
@@ -206,16 +206,16 @@ void allAtOnce(Endpoint server, const std::string& polytope, int count, double s
 }
 
 void idle(Endpoint server, int count) {
-    Stage stage;
-    const double before = memoryOf(stage, server);
+    CoroutineGroup group;
+    const double before = memoryOf(group, server);
     std::vector<std::unique_ptr<Client>> clients;
     for (int i = 0; i < count; ++i) {
-        clients.push_back(std::make_unique<Client>(stage.io, server));
-        stage.spawn(opening(*clients.back()));
-        if (i % 50 == 49) stage.run();
+        clients.push_back(std::make_unique<Client>(group.io, server));
+        group.spawn(opening(*clients.back()));
+        if (i % 50 == 49) group.run();
     }
-    stage.run();
-    const double with = memoryOf(stage, server);
+    group.run();
+    const double with = memoryOf(group, server);
     say(std::to_string(count) + " idle sessions", text(R"("before":%.1f,"more":%.1f)", before, with - before));
 }
 
@@ -240,14 +240,14 @@ int main(int argc, char** argv) {
         besideOneThatNeverReads(server, seconds);
         for (const char* stream : {"frames", "geometry"}) {
             besideLargeOnes(server, stream, 4, seconds);
-            Stage stage;
-            stage.spawn(flooding(stage, server, stream, 1000));
-            stage.run();
+            CoroutineGroup group;
+            group.spawn(flooding(group, server, stream, 1000));
+            group.run();
         }
         // Waits until the sessions of departed clients have expired, and idle workers have freed their memory.
         std::this_thread::sleep_for(std::chrono::seconds(6));
-        Stage stage;
-        say("memory after all that", text(R"("after":%.1f)", memoryOf(stage, server)));
+        CoroutineGroup group;
+        say("memory after all that", text(R"("after":%.1f)", memoryOf(group, server)));
     } catch (const std::exception& fault) {
         std::fprintf(stderr, "bench_load: %s\n", fault.what());
         return 1;

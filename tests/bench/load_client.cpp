@@ -13,7 +13,7 @@ using asio::use_awaitable;
 
 namespace {
 
-/// Returns the number after `"revision":`, which is near the beginning.
+/// Returns the number after `"revision":`, which is near the beginning of the text.
 std::uint64_t revisionIn(std::string_view text) {
     constexpr std::string_view kName = "\"revision\":";
     const std::size_t at = text.find(kName);
