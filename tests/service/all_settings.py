@@ -5,8 +5,8 @@ from pathlib import Path
 
 SCHEMA = Path(__file__).parents[2] / "protocol/schema"
 
-# Not settings, or told by others: `field` and `turning` follow from the object and the motion, and `last` repeats a
-# rotation.
+# Members of a state that no command sets as such: `field` and `turning` follow from the object and the motion, and
+# `last` from the rotations.
 FOLLOWING = {"field", "turning", "last"}
 
 
@@ -23,7 +23,7 @@ def descriptions():
             found |= {(name, member): each for member, each in schema["properties"].items()}
         elif name not in FOLLOWING:
             found[(name,)] = schema
-    del found["slices", "w"]  # which moves the focus
+    del found["slices", "w"]  # not a setting: it moves the focus
     return found
 
 
@@ -33,8 +33,9 @@ def setting_names():
 
 
 def examples(of_fields):
-    """Returns values of the settings that only fields have, or of all others but the polytope and the orientation, by
-    their names: the first examples of the schemas and, of what is shown or hidden, the opposite of the default."""
+    """Returns a value for each setting, by its name: if `of_fields` is true, for the settings that only fields have,
+    else for all others but the polytope and the orientation. The value is the first example in the schema or, for what
+    is shown or hidden, the opposite of the default."""
     return {name: schema["examples"][0] if "examples" in schema else not schema["default"]
             for name, schema in descriptions().items()
             if schema.get("x-fields-only", False) == of_fields and name not in (("polytope",), ("orientation",))}

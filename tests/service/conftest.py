@@ -8,8 +8,8 @@ import pytest
 from harness import DEADLINE, Server, is_sanitizer_build
 
 SANITIZED_CASES = 2
-# The seconds after which a coroutine that only ever waits for other things is ended, with its traceback. Every single
-# wait ends after DEADLINE; a test makes many of them.
+# The seconds after which a test that is a coroutine is ended, with its traceback. Each of its waits ends after
+# DEADLINE, but a test has many.
 WHOLE_TEST_LIMIT = 20 * DEADLINE
 
 
@@ -18,8 +18,9 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    """With sanitizers, everything takes several times as long: of a test with more than SANITIZED_CASES cases, only some
-    are run, evenly spread. They run the same code with other data; unit tests and fuzzers cover the readers of data."""
+    """With sanitizers, everything takes several times as long: of a test with more than SANITIZED_CASES cases, only
+    some are run, evenly spread. All cases of a test run the same code with different data; unit tests and fuzzers cover
+    the readers of data."""
     if not is_sanitizer_build():
         return
     cases = collections.defaultdict(list)

@@ -29,10 +29,10 @@ DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_tex
 LONG_TIME = 10 * DEADLINE
 LONG_TIMES = {name: LONG_TIME for name in ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout",
                                            "--max-file-time", "--write-timeout")}
-# A client may be silent for twice this time. During a long command, the server reads nothing for half of it, and the
-# Python client gives up if a ping of its own has no answer after 40 s.
+# A client may be silent for twice this time. During a long command, the server reads nothing for half of this time, and
+# the Python client gives up if a ping of its own has no answer after 40 s.
 LONG_TIMES["--ping-interval"] = DEADLINE / 2
-# The same for servers that are started without options.
+# The same limits as environment variables, for servers that are started without options.
 LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(time) for name, time in LONG_TIMES.items()}
 
 

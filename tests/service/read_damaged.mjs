@@ -86,7 +86,7 @@ function readOrRefuse(kind, bytes) {
     }
 }
 
-/** Returns the milliseconds that an input takes, the least of several times, without what the garbage collector takes. */
+/** Returns the milliseconds that reading an input takes: the least of five times, which excludes garbage collection. */
 function milliseconds(kind, bytes) {
     let least = Infinity;
     for (let time = 0; time < 5; ++time) {

@@ -47,7 +47,7 @@ class Client:
     `messages` holds everything received: dictionaries, and bytes for frames and files. `address` is the local address.
     If `acknowledges`, the client sends `shown` for each picture. If `compares`, it compares at the end what it has
     received as JSON with the schemas: of messages of one type with the same members, the first. A client that measures
-    latencies does not, because finding the members of a message takes milliseconds.
+    latencies must not compare, because finding the members of a message takes milliseconds.
     """
 
     def __init__(self, server, session="", acknowledges=True, address=None, compares=True, **hello):

@@ -75,7 +75,7 @@ def write(folder, values, chunk, version=2, compressor="", order="C", separator=
         if index in skipped:
             continue
         part = values[tuple(slice(i * c, (i + 1) * c) for i, c in zip(index, chunk))]
-        whole = numpy.full(chunk, 77, values.dtype)  # what is beyond the end of the array must not be seen
+        whole = numpy.full(chunk, 77, values.dtype)  # readers must not see the 77 beyond the end of the array
         whole[tuple(slice(0, n) for n in part.shape)] = part
         path = folder / (("c" + separator if version == 3 else "") + separator.join(map(str, index)))
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -9,10 +9,10 @@ import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
 import { afterTest, atEnd, setBroken } from "./suite.mjs";
 
-// One process for all pages, because it takes a quarter of the time of opening a page to start another.
+// One renderer process for all pages, because starting one takes a quarter of the time of opening a page.
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--renderer-process-limit=1"];
 
-// The first one has no windows, which would be drawn as well, and so needs less processor time.
+// The first browser is preferred: it draws no windows, and so needs less processor time.
 const kBrowsers = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => existsSync(path));
 
@@ -62,9 +62,9 @@ export function common() {
 
 /**
  * Opens the page and waits for its first picture. `before` runs in the page before its scripts; `seen` is called with
- * each response; `errors` collects the console's errors and uncaught exceptions. The browser has opened the page before,
- * unless this is the `firstVisit`. If time `isStopped`, it passes only by passTime(). The page is closed at the end of the
- * test, or if it is `lasting`, after all tests.
+ * each response; `errors` collects the console's errors and uncaught exceptions. The browser has opened the page
+ * before, unless this is the `firstVisit`. If `isStopped` is true, the page's time passes only by passTime(). The page
+ * is closed at the end of the test, or if it is `lasting`, after all tests.
  */
 export async function openPage(given = {}) {
     const { url, browser, picture = true, before, seen, firstVisit = false, isStopped, lasting, ...options } = given;
@@ -187,7 +187,7 @@ export async function openWithScript(options) {
     const joined = await scriptFor(opened.page, options?.url);
     const script = {
         ...joined,
-        /** Waits for a state for which `holds` is true, and until the page shows it, too, unless it is cut off. */
+        /** Waits for a state for which `holds` is true, and until the page shows it or has no connection. */
         async until(holds, what) {
             const state = await joined.until(holds, what);
             await shown(opened.page, state.revision);

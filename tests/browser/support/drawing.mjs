@@ -22,7 +22,7 @@ export function assertSimilar(first, second, { mean, far }) {
     assert.ok(difference.far < far, `${(100 * difference.far).toFixed(2)} % of the pixels differ much`);
 }
 
-/** Asserts that the page and the server draw the same picture. Leaves that of the server. */
+/** Asserts that the page and the server draw the same picture. Afterwards, the page shows the server's. */
 export async function assertStreamsAgree(page, limits) {
     const geometry = await picture(page);
     await drawBy(page, "frames");

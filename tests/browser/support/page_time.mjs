@@ -1,7 +1,10 @@
 // The page's time, which a test can stop, and let pass by as many milliseconds as it wants: what the page does after a
 // delay then does not depend on how fast the machine is.
 
-/** Runs in the page before its scripts. Stops its timers and clocks; animation frames continue, but tell that time. */
+/**
+ * Runs in the page before its scripts. Stops its timers and clocks; animation frames continue, but report the stopped
+ * time.
+ */
 export function stopTime() {
     const { setTimeout: later, clearTimeout: forget } = window;
     const ask = window.requestAnimationFrame.bind(window);

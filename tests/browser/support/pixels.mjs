@@ -16,7 +16,10 @@ export function distance(a, b) {
     return Math.max(...a.map((value, i) => Math.abs(value - b[i])));
 }
 
-/** The mean difference of two pictures of the same size, and the fraction of pixels that differ much. */
+/**
+ * The mean difference of two pictures of the same size, and the fraction of pixels that differ by more than 64 of 255
+ * in a channel.
+ */
 export function compare(a, b) {
     if (a.width !== b.width || a.height !== b.height) throw new Error("the pictures differ in size");
     let sum = 0;
@@ -34,7 +37,7 @@ export function compare(a, b) {
     return { mean: sum / (3 * pixels), far: far / pixels };
 }
 
-/** The fraction of pixels that differ from the background. */
+/** The fraction of pixels that differ from the background by more than 24 of 255 in a channel. */
 export function covered(picture, background) {
     let count = 0;
     for (let i = 0; i < picture.data.length; i += 4) {

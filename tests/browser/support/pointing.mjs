@@ -44,7 +44,7 @@ export async function labeled(page, pattern) {
     return label(page);
 }
 
-/** Two animation frames later, everything is drawn. */
+/** Waits for two animation frames, after which everything is drawn. */
 export const frames = (page) =>
     page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
@@ -100,7 +100,7 @@ export function assertSame(one, other, [left, top]) {
     assert.ok(differing < 20, `${differing} pixels differ`);
 }
 
-/** A function that returns a point of vertex v's column between its lines. */
+/** Returns a function from a vertex to a pixel between the lines of its column in the parallel coordinates. */
 export function columnsOf({ coordinates: layout }, { height }) {
     const x = (v) => layout.left + (v % layout.per_row) * layout.column_step + 1.5 * layout.line_step + layout.line_width;
     const zero = (v) => layout.zero - Math.floor(v / layout.per_row) * layout.row_step;

@@ -6,7 +6,7 @@ import { fileURLToPath } from "node:url";
 import { kHangLimit } from "./hang_limit.mjs";
 
 const kWorker = fileURLToPath(new URL("worker.mjs", import.meta.url));
-const kWaitsOfTest = 20; // a test chains several waits, each of which ends after the limit, but not more than these
+const kWaitsOfTest = 20; // the most waits that a test chains; each of them ends after kHangLimit
 
 /** The names of the tests that are running now. */
 export const runningTests = new Set();
@@ -78,7 +78,7 @@ function runJob(worker, job, finished) {
 function startWorker() {
     const child = fork(kWorker, { detached: true }); // a group of processes, with its servers
     let [received, crashed] = [() => {}, () => {}];
-    let killed; // why
+    let killed; // why the process was killed; undefined if it was not
     const kill = () => {
         try {
             process.kill(-child.pid, "SIGKILL");
