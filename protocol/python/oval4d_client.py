@@ -6,8 +6,8 @@
         oval.rotate("xw,yz", 0.39, 1.42)
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
-../README.md specifies the messages and their members. request() sends any of them; the other methods are shorter for
-some, or convert values. Needs python3-websockets (10 or later), and python3-cbor2 for slices in CBOR. With
+../README.md specifies the messages and their members. request() sends any message; the other methods send some of them,
+and are shorter or convert values. Needs python3-websockets (10 or later), and python3-cbor2 for slices in CBOR. With
 python3-numpy, arrays can be shown as fields, and the surfaces in slices are numpy arrays. A separate thread handles the
 socket. Therefore any thread may call the client, and the connection stays open while a script is idle.
 
@@ -46,7 +46,7 @@ PNG = b"\x89PNG\r\n\x1a\n"
 # The numpy types of the arrays of a surface.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
-MAX_DATA = 1 << 20  # bytes: a larger file is uploaded by HTTP instead of sent in a message
+MAX_DATA = 1 << 20  # bytes: an array whose file is larger is uploaded by HTTP, not sent in a message
 RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or without one, the client reconnects
 
 
@@ -136,12 +136,12 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        self.welcome = None  # this and the next three: the newest message of each kind, None before the first
+        self.welcome = None  # the newest welcome; here and in the next three, None before the first message
         self.newest_state = None
         self.newest_slices = None
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
-        self._live = None  # a function that live() sets, called with each frame of the stream
+        self._live = None  # the function that live() sets, which is called with each frame of the stream
         # The revision and the bytes of a frame that is an answer or part of the stream; the next message tells which.
         self._held = None
         self.closed = None  # (code, reason) once the connection has ended for good
@@ -242,9 +242,9 @@ class Client:
         return self._set_levels(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
 
     def append(self, name, array, axes=None, values=None):
-        """Adds moments at the end of w of the field `name`, for example while a simulation runs. The numpy array is one
-        moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the moments
-        need one, too. The settings stay the same. undo() does not remove the moments."""
+        """Adds moments to the field `name`, after its last w, for example while a simulation runs. The numpy array is
+        one moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the
+        moments need one, too. The settings stay the same. undo() does not remove the moments."""
         samples = _samples(array)
         return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
 
@@ -556,7 +556,7 @@ class Client:
         try:
             if self._live and isinstance(picture, bytes):
                 self._live(picture)
-        except Exception:  # the notebook is gone; the session goes on
+        except Exception:  # the notebook may be closed; the session goes on
             self._live = None
 
     def _wait_for(self, happened, timeout, what):

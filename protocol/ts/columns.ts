@@ -1,6 +1,6 @@
-// Converts the slices of a binary message to objects. The message has one array (a column) per property, with the
-// values of all slices in turn. The vertices, edges and faces of the projection's parts (see ObjectProjection) are also
-// in such columns.
+// Converts the slices of a binary message to objects. Such a message has one array (a column) per property, with the
+// values of all slices in turn. The vertices, edges and faces of the projection's parts (see ObjectProjection) are in
+// columns, too.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
@@ -78,7 +78,10 @@ export type IntegerAllocator = (count: number) => Uint32Array;
 
 type Range = [begin: number, end: number];
 
-/** Returns consecutive ranges with these sizes, from index 0. Throws RangeError if they end beyond `length`. */
+/**
+ * Returns consecutive ranges of these sizes, the first of which begins at index 0. Throws RangeError if the last one
+ * ends beyond `length`.
+ */
 function ranges(sizes: Integers, length: number): Range[] {
     let end = 0;
     const all = Array.from(sizes, (size): Range => [end, (end += size)]);
@@ -144,7 +147,10 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
     });
 }
 
-/** Returns one object per slice. */
+/**
+ * Converts the columns of the slices to one object per slice, whose arrays are views of `columns` or come from
+ * `allocate`.
+ */
 export function rowsOf(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
     const filled = columns.fill && fillsOf(columns.fill, widener(allocate));
@@ -169,7 +175,7 @@ export function rowsOf(columns: SliceColumns, allocate: IntegerAllocator): Slice
     });
 }
 
-/** Returns one object per part of the projection. */
+/** Converts the columns of the projection's parts to one object per part. `allocate` is as in rowsOf(). */
 export function partsOf(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }

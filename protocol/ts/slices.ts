@@ -9,7 +9,10 @@ import type { Parts, Vector, Viewport } from "./types.js";
 /** An array of integers. In binary encodings, it has the narrowest type that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
-/** How to draw the slices. A client that follows this draws the same picture as the server, for the size `viewport`. */
+/**
+ * How to draw the slices. A client that follows this description draws the same picture as the server, in the size
+ * `viewport`.
+ */
 export interface SceneDescription {
     view: View;
     shown: Parts;
@@ -58,7 +61,10 @@ export interface SceneDescription {
     fog?: { table: Integers };
     // The lengths of the next three members are fractions of the viewport's height.
 
-    /** The axes in the upper left corner: the distances of their center from the left and top edges; their length. */
+    /**
+     * The axes in the upper left corner: `x` and `y` are the distances of their center from the left and top edges of
+     * the picture, and `length` is the length of each axis.
+     */
     axes: { x: number; y: number; length: number };
     /**
      * The layout of the parallel coordinates, measured from the lower left corner. Vertex i is in row i / per_row (from
@@ -184,9 +190,9 @@ export interface Slice extends Elements {
     label_at: Vector;
     /** The font size of the label, as a fraction of the scene's `text`. */
     label_size: number;
-    /** Whether this is the focus slice. */
+    /** Whether the slice is the focus slice. */
     focus: boolean;
-    /** Whether the view shows this slice. */
+    /** Whether the view shows the slice. */
     drawn: boolean;
 }
 
@@ -297,7 +303,10 @@ export interface Slices {
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */
     histogram?: HistogramScales;
-    /** The names of the focus slice and of the hull of the polytope's vertices in it; see `section` in State. */
+    /**
+     * The names of the focus slice, and of the convex hull of the polytope's vertices that lie in it; see `section` in
+     * State.
+     */
     section: { name: string; vertices: string };
     /** Where the picture shows the highlighted element; absent if no element is highlighted. */
     highlight?: Highlight;
