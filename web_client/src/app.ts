@@ -375,7 +375,10 @@ export class App {
         this.hello({ scheme: this.colorScheme.current });
     }
 
-    /** Full screen hides the tools until the button Tools is pressed. At its end, they are as they were before it. */
+    /**
+     * Full screen hides the tools until the button Tools is pressed. When full screen ends, the tools are open if they
+     * were open before.
+     */
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
@@ -427,9 +430,9 @@ export class App {
     }
 
     /**
-     * Loads a formula, then changes settings; resolves to the revision after both. Rejects if the formula is refused.
-     * If only the settings are refused, shows why, and resolves to the revision of the formula without them. `continues`
-     * tells whether the formula belongs to the undo step of the previous command.
+     * Loads a formula, then changes settings; resolves to the revision after the two commands. Rejects if the formula
+     * is refused. If only the settings are refused, shows why, and resolves to the revision of the formula without
+     * them. `continues` tells whether the formula belongs to the undo step of the previous command.
      */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both requests are sent at once, so that no picture shows the formula without the settings.

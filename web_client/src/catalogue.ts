@@ -7,10 +7,10 @@ export interface Family {
     entries: CatalogueEntry[];
 }
 
-/** The quality of a match; smaller is better. */
+/** How well a name matches what is searched for; smaller numbers are better matches. */
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
-const kMostCompared = 64; // letters: of longer names, only the beginning is compared to find similar names
+const kMostCompared = 64; // letters: of longer names, the search for similar names compares only the beginning
 const kLettersPerMistake = 3; // letters of the typed name per allowed mistake, as in the server's suggestions
 
 interface IndexedEntry {

@@ -13,7 +13,9 @@ interface LabelAndTooltip {
     title: string;
 }
 
-/** The colorings. One without an entry for polytopes, or for fields, has the effect of `plain` on these objects. */
+/**
+ * The colorings. A coloring without an entry for polytopes, or for fields, has the effect of `plain` on such objects.
+ */
 const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
         polytope: { label: "Cell", title: "Each cell has its own color" },
@@ -163,8 +165,8 @@ function coloringSeen(state: State): Coloring {
 }
 
 /**
- * The color scale of the coloring that is seen or, if this has none and the caps show values, the scale of the values;
- * undefined if there is neither.
+ * The color scale of the coloring `seen`. If that coloring has none, but the caps show values, the scale of the values;
+ * undefined if neither applies.
  */
 function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
     const values = field?.values;

@@ -13,7 +13,7 @@ export interface CommandLineEvents {
     /** Executes a line; rejects with an Error whose message is shown to the user. */
     run(line: string): Promise<unknown>;
     closed(): void;
-    /** Called if a line failed after the command line was closed, or opened again. */
+    /** Called if a line fails after the command line was closed, or closed and opened again. */
     failedLater(error: Error): void;
     /** Returns the names that can complete a line, such as those of polytopes and keys. */
     names(): Names;
@@ -23,7 +23,7 @@ export interface CommandLineEvents {
 interface Cycle extends Completions {
     /** The line after the last completion. If the input differs from it, the user has edited the line. */
     line: string;
-    /** The index of the option that is in the line, or -1 if there is none. */
+    /** The index in `options` of the option that is in the line; -1 if none is. */
     at: number;
 }
 

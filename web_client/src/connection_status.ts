@@ -19,7 +19,7 @@ export class ConnectionStatus {
     private presentedAt: Date | undefined;
     private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
     private unanswered = 0; // number of requests without an answer
-    private lateAnswers = 0; // number of these requests that were sent more than kMaxWait ago
+    private lateAnswers = 0; // number of unanswered requests that were sent more than kMaxWait ago
     private countdown: ReturnType<typeof setInterval> | undefined;
 
     update(status: Status): void {

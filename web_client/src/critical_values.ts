@@ -26,7 +26,8 @@ export class CriticalValues {
     /** The lowest and the highest w of the object or, until those of a field are known, of its slices; initially 0. */
     range: [number, number] = [0, 0];
     private originW = 0; // to add to the w of pictures, which is measured from the center of the object
-    private knownFor = ""; // identifies what the known or requested values depend on; "" if a request has failed
+    // Identifies the object, orientation and spacing of the known or requested values; "" if a request has failed.
+    private knownFor = "";
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;

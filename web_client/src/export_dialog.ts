@@ -34,7 +34,7 @@ export class ExportDialog {
     private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
-    /** `size` returns the size of the picture on the page; `warn` shows what a saved file lacks. */
+    /** `size` returns the size of the picture on the page; `warn` shows the warnings about a saved file. */
     constructor(
         private readonly client: Client,
         private readonly size: () => Viewport,
@@ -90,7 +90,7 @@ export class ExportDialog {
         this.saveFile(await file, format, options, state);
     }
 
-    /** Calls a function that changes the form, then restores what is chosen in the form. */
+    /** Calls `use`, which may change the choices in the form, and then restores the choices. */
     private restoringForm<T>(use: () => T): T {
         const { bodyToRestore } = this;
         const inputs = [...this.form.querySelectorAll("input")].map((input) => {
@@ -195,7 +195,7 @@ export class ExportDialog {
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
         else if (this.bodyToRestore !== undefined) choices["body"] = this.bodyToRestore;
         const stored = { ...readStored<Record<string, string>>(kChoicesKey), ...choices };
-        if ("width" in choices && !("preset" in choices)) delete stored["preset"]; // the size is that of no preset
+        if ("width" in choices && !("preset" in choices)) delete stored["preset"]; // no preset has this size
         writeStored(kChoicesKey, stored);
     }
 
@@ -230,7 +230,10 @@ export class ExportDialog {
         this.submit.textContent = `Download ${format.label}`;
     }
 
-    /** Offers what files of the format can contain, and chooses the default if they cannot contain what is chosen. */
+    /**
+     * Offers what files of the format can contain. If they cannot contain what is chosen, chooses the default of the
+     * format.
+     */
     private showContents(format: Format): void {
         const all = this.state?.field ? format.forFields.of : format.of;
         const of = all.filter((one) => one !== "highlight" || this.state?.highlight);

@@ -18,7 +18,10 @@ export interface Format {
     of: string[];
     /** Replaces `about` and `of` if the object is a field. */
     forFields: { about: string; of: string[] };
-    /** The only objects that the format can describe; absent if there is no limit. "polytopes" includes point clouds. */
+    /**
+     * The only kind of objects that the format can describe; absent if it can describe all kinds. "polytopes" includes
+     * point clouds.
+     */
     objects?: "fields" | "polytopes";
 }
 

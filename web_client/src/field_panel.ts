@@ -17,8 +17,8 @@ import { readStored, writeStored } from "./storage";
 
 export interface FieldPanelEvents {
     /**
-     * Loads a formula, then changes settings; resolves to the revision after both. `continues` tells whether this
-     * belongs to the undo step of the previous command. Rejects with an Error if the formula is refused.
+     * Loads a formula, then changes settings; resolves to the revision after the two commands. `continues` tells
+     * whether they belong to the undo step of the previous command. Rejects with an Error if the formula is refused.
      */
     load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
@@ -44,7 +44,7 @@ export class FieldPanel {
     private readonly levelsError = byId("field-levels-error");
     private readonly boxError = byId("field-box-error");
     private readonly example = byId<HTMLSelectElement>("field-example");
-    private readonly ends: HTMLInputElement[]; // of the box: from and to, for each of x, y, z and w
+    private readonly ends: HTMLInputElement[]; // the ends of the box: from and to, for each of x, y, z and w
     private readonly sliders = new ConstantSliders(byId("field-constants"), (text) => {
         this.formula.value = text;
         this.scheduleLoad(0);
@@ -64,7 +64,7 @@ export class FieldPanel {
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // textOf() of the newest state
     private ownText = ""; // textOf() of the state whose formula this page loaded, or took from the server, last
-    private readonly typedFields = new Map<string, FormulaWithBox>(); // what was typed, by textOf() of its state
+    private readonly typedFields = new Map<string, FormulaWithBox>(); // what the user typed, by textOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
@@ -195,7 +195,7 @@ export class FieldPanel {
 
     private startFromExample(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // so that the levels and slices of the old field are not kept
+        this.loaded = undefined; // so that the levels and slices of the old field are not applied to the new one
         this.example.selectedIndex = 0;
         this.scheduleLoad(0);
     }
@@ -256,8 +256,8 @@ export class FieldPanel {
     }
 
     /**
-     * The settings that stay the same when a formula is edited, although a new object has settings of its own. None if
-     * the object that is shown is not a formula that the panel has loaded or shown.
+     * The settings that stay the same when a formula is edited, although a new object usually gets settings of its own.
+     * Empty if the shown object is not a formula that this panel has loaded or shown.
      */
     private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;
@@ -306,7 +306,7 @@ export class FieldPanel {
         this.levels.setAttribute("aria-invalid", String(error !== ""));
     }
 
-    /** An address that opens the field. */
+    /** An address that opens the field of the panel. */
     private address(): string {
         const address = new URL(location.href);
         address.hash = "";

@@ -11,7 +11,7 @@ import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
 const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
-const kMaxKept = 8; // files, as many as a session holds objects
+const kMaxKept = 8; // the most objects that are kept, as many as a session holds
 const kMaxExcerptWidth = 120; // characters that are shown of a line of the file
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
@@ -45,7 +45,7 @@ export class FileLoading {
         this.chooser.click();
     }
 
-    /** Keeps an object that was loaded from this page, for reload(). */
+    /** Keeps an object that this page has loaded, so that reload() can load it again. */
     keep(object: ReloadableObject): void {
         const name = object instanceof File ? nameOf(object) : object.name;
         this.kept.delete(name);
@@ -102,8 +102,8 @@ export class FileLoading {
     }
 
     /**
-     * A button that loads an object again so that it turns about the origin of its file; no button if the object turns
-     * about this origin already, or if another object is shown.
+     * A list of one button, which loads an object again so that it turns about the origin of its file. Empty if the
+     * object already turns about this origin, or if another object is shown.
      */
     private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });
@@ -160,7 +160,7 @@ export class FileLoading {
         this.showReport("Reading the file");
     }
 
-    /** Shows the warnings; hides the panel if there are none. */
+    /** Shows the server's warnings; hides the panel if there are none. */
     private finishLoading(warnings: string[], buttons: Node[] = []): void {
         this.endProgress("done");
         if (warnings.length === 0) return this.hide();

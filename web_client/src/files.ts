@@ -13,7 +13,7 @@ export interface LoadContent {
 /** The reason why a file is refused before it is sent. */
 export class FileError extends Error {}
 
-const kMaxNameLength = 64; // characters, as in `load`
+const kMaxNameLength = 64; // characters, as in the message `load`
 
 /**
  * Reads the text of a polytope or a list of points from a file. Throws FileError if the file is empty, or too large to
@@ -24,7 +24,7 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await textOf(file);
     const message = { name: nameOf(file), format: formatOf(file.name, data), data };
-    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // and room for the other members
+    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // 64 bytes for the other members
     if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
     return message;
 }
@@ -50,7 +50,7 @@ const kStateStart = /^(?:\x89PNG|\s*\{)/;
 
 /**
  * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file begins
- * like neither of them. Throws FileError if it contains no state, or if a JSON file has more than `limit` bytes.
+ * like neither of them. Throws FileError if the file contains no state, or if a JSON file has more than `limit` bytes.
  */
 export async function readState(file: File, limit: number): Promise<State | undefined> {
     const start = new Uint8Array(await file.slice(0, 64).arrayBuffer());

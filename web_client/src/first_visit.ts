@@ -24,7 +24,7 @@ export function isFirstVisit(): boolean {
 /** The line of welcome. It closes when its advice has been followed: the object was turned, and the focus moved. */
 export class WelcomeLine {
     private readonly root = byId("welcome");
-    private since = 0; // the revision from which on the first view is complete
+    private since = 0; // the first revision in which the view of the first visit is complete
     private first: State | undefined;
     private hasTurned = false;
     private hasMoved = false;
@@ -50,11 +50,11 @@ export class WelcomeLine {
         try {
             localStorage.setItem(kVisitedKey, "1");
         } catch {
-            // The storage is full: the next visit counts as the first again.
+            // The storage is full or forbidden: the next visit counts as the first again.
         }
     }
 
-    /** Tells that the first view is complete from this revision on. */
+    /** Records that the view of the first visit is complete from this revision on. */
     firstVisitViewComplete(revision: number): void {
         this.since = revision;
         this.first = undefined;

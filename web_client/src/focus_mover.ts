@@ -3,7 +3,7 @@
 
 import type { Client, State } from "@oval4d/protocol";
 
-const kSame = 1e-6; // spacings: values of w that differ by less count as equal
+const kSame = 1e-6; // in spacings of the slices: values of w that differ by less count as equal
 
 interface FocusAtRevision {
     w: number;
@@ -48,8 +48,8 @@ export class FocusMover {
     }
 
     /**
-     * Records the focus in the newest state. Returns whether something other than this object has moved it there;
-     * false for a state from before the last answered move.
+     * Records the focus in the newest state. Returns whether the focus was moved there by something other than this
+     * class; false for a state that is older than the last answered move.
      */
     recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {
         this.seen = { w, revision };

@@ -57,7 +57,7 @@ export class FocusPointControl {
         this.schedule();
     }
 
-    /** Where the point is, or will be when the server has answered. */
+    /** Where the focus point is, or will be when the server has answered. */
     private get point(): Point4 {
         return this.isUnsent || this.isSending ? this.wanted : this.current;
     }

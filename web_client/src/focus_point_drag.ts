@@ -24,7 +24,7 @@ export class FocusPointDrag {
         });
     }
 
-    /** Shows the cursor for what is under the pointer. To be called when the picture changes. */
+    /** Shows the mouse cursor for what is under it. To be called when the picture changes. */
     updateCursor(): void {
         if (this.hovering) this.showCursor(this.hovering);
     }

@@ -16,7 +16,7 @@ export interface SliderEvents {
 
 const kSnapDistance = 4; // pixels: a drag this near to a mark snaps to the mark
 const kKeySteps = 200; // steps of the arrow keys from one end to the other
-const kMaxMarks = 60; // more critical values are shown as a density
+const kMaxMarks = 60; // if there are more critical values, their density is shown instead of marks
 const kDensityBins = 80;
 const kSweepTime = 8; // seconds from one end to the other at the speed 1
 const kMaxInterval = 0.1; // seconds: if the page is busy, a longer time between two animation frames counts as this
@@ -114,7 +114,7 @@ export class FocusSlider {
         this.show();
     }
 
-    /** Handles a drag, or a step by assistive technology. */
+    /** Moves the focus after a drag of the slider, or a step by assistive technology. */
     private slid(): void {
         this.stop();
         this.moveTo(this.snapped(this.input.valueAsNumber));

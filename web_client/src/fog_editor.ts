@@ -117,7 +117,7 @@ export class FogEditor {
         this.showErrors();
     }
 
-    /** Shows what is wrong with the text in the fields, else why the server refused the last change. */
+    /** Shows what is wrong with the texts in the fields or, if nothing is, why the server refused the last change. */
     private showErrors(): void {
         this.error.textContent = this.mistake || this.refusal;
     }

@@ -12,7 +12,7 @@ export interface Constant {
 /** A mistake that the server has found. */
 export interface Mistake {
     what: string;
-    /** The wrong character, counted from 0; the length of the text if something is missing at its end. */
+    /** The index of the wrong character, from 0; the length of the text if something is missing at its end. */
     at: number;
 }
 
@@ -47,7 +47,10 @@ export function mistakeOf(message: string): Mistake | undefined {
     return position === undefined ? undefined : { what, at: Number(position) - 1 };
 }
 
-/** A part of the text around a character, counted from 0, in three pieces: before it, the character, after it. */
+/**
+ * An excerpt of the text around character `at`, counted from 0, in three pieces: up to `reach` characters before it,
+ * the character, and up to `reach` characters after it.
+ */
 export function excerptAround(
     text: string,
     at: number,

@@ -1,5 +1,5 @@
-// The hit tester (see picture/hit_tester.ts) of the pictures that the server draws. It is made from a slices message.
-// The page requests this message only when it needs the hit tester, because the message is as large as a picture of the
+// The hit tester (see picture/hit_tester.ts) of the pictures that the server draws. The page makes it from a slices
+// message, which it requests only when it needs the hit tester, because the message is as large as a picture of the
 // geometry stream.
 
 import type { Client, State } from "@oval4d/protocol";

@@ -13,7 +13,7 @@ import type { Stage } from "./picture/stage";
 // Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
 const kRest = 200;
 const kInterval = 70; // milliseconds between two requests, at least
-const kNear = 8; // pixels: if the pointer has moved farther when the answer arrives, the answer is not shown
+const kNear = 8; // pixels: the answer is not shown if the pointer has moved farther before it arrived
 const kFollow = 24; // pixels within which the label goes along with the pointer until the next answer
 
 export class FramePointing {

@@ -1,6 +1,7 @@
 // Turns the polytope by gamepads, which are polled once per animation frame while one is connected. Only gamepads whose
 // sticks and triggers have known places are used (the standard mapping of the W3C's Gamepad specification), and only
-// after they have been at rest once: another device, such as a joystick, may have an axis that stays at one end.
+// after all their sticks, triggers and bumpers have been at rest once: an axis of another device, such as a joystick,
+// may stay at one end.
 
 import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationControl } from "./rotation";

@@ -6,7 +6,10 @@ export interface Point {
     y: number;
 }
 
-/** Calls `moved` with the pointer's place; with undefined if it leaves `area`, if a button is down, and for touches. */
+/**
+ * Calls `moved` with the place of the pointer in `area`, or with undefined if the pointer leaves `area`, has a button
+ * down, or is a finger.
+ */
 export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
         const { left, top } = area.getBoundingClientRect();

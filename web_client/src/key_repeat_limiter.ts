@@ -13,7 +13,7 @@ export class KeyRepeatLimiter {
 
     /**
      * Tracks a request: mayRepeat is false until the request is answered and the picture of the answer's revision is
-     * presented. Rejects if the request does.
+     * presented. Rejects if the request is rejected.
      */
     async track(answer: Promise<{ revision: number }>): Promise<void> {
         ++this.unanswered;

@@ -1,6 +1,7 @@
 // Converts keyboard events to keystrokes of the key table. The server decides what a keystroke does.
 //
-// The `key` of a row of this table is a character, a sequence of two characters, or the name of a key, which is longer.
+// In a row of the key table, `key` is one character, a sequence of two characters, or the name of a key, which has more
+// characters.
 
 import type { KeyBinding } from "@oval4d/protocol";
 
@@ -37,9 +38,9 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 
 /**
  * The keystroke of an event; undefined while a text is composed, if a modifier other than Shift and Ctrl is held, and
- * for keys that are not in the table. A character of the table counts, whichever key types it: "(" and "-" on the digit
- * keys of a French keyboard. Otherwise a digit key counts as its digit, and a key that types a letter of another script
- * counts as the American key in its place.
+ * for keys that are not in the table. A character that is in the table counts, whichever key types it: "(" and "-" on
+ * the digit keys of a French keyboard. Otherwise a digit key counts as its digit, and a key that types a letter of
+ * another script counts as the American key in its place.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;

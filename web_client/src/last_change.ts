@@ -1,6 +1,6 @@
-// Tells which states are older than a change that this page has made. States are sent with pictures, so a state from
-// before a change may arrive after the answer to the change. A control that showed this state would jump back for a
-// moment.
+// Tells which states are older than a change that this page has made. The server sends states with pictures, so a state
+// from before a change may arrive after the answer to the change. A control that showed this old state would jump back
+// for a moment.
 
 import type { State } from "@oval4d/protocol";
 

@@ -39,7 +39,7 @@ export class Latency {
         this.updateText();
     }
 
-    /** The newest latency in milliseconds; undefined before the first. */
+    /** The newest measured latency in milliseconds; undefined before the first measurement. */
     get last(): number | undefined {
         return this.samples.at(-1)?.milliseconds;
     }

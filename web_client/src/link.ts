@@ -29,8 +29,8 @@ interface HistoryEntry {
     credentials?: Credentials;
 }
 
-const kIgnoredParameters = ["width", "height", "token"]; // not part of the view
-const kFieldParameters = ["formula", "values", "box"]; // not commands
+const kIgnoredParameters = ["width", "height", "token"]; // parameters of the API that are not part of the view
+const kFieldParameters = ["formula", "values", "box"]; // parameters that are not converted to commands
 const kSessionKey = `oval4d.session ${location.pathname}`; // storage key of the tab's newest session
 
 export function readInitialView(): InitialView {

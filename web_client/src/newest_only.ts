@@ -8,7 +8,7 @@ export class NewestOnly<T> {
     /** `send` sends a value, and resolves when it has been answered; it must not reject. */
     constructor(private readonly send: (value: T) => Promise<void>) {}
 
-    /** Whether a value is on its way or waits. */
+    /** Whether a value has been sent and not answered, or waits to be sent. */
     get isBusy(): boolean {
         return this.isSending || this.waiting !== undefined;
     }

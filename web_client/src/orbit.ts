@@ -54,7 +54,7 @@ export class OrbitControl {
         const from = this.stage.orbit;
         const to = this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) });
         this.setOrbit(to);
-        if (Math.abs(factor - 1) <= kLeastZoom) return; // fingers that only move or twist ask for no zoom
+        if (Math.abs(factor - 1) <= kLeastZoom) return; // two fingers that only move or twist do not zoom
         if (Math.abs(to.zoom / from.zoom - 1) > kLeastZoom) return;
         if (factor < 1) this.stopped("The camera is as far away as it can be.");
         else if (to.zoom >= max) this.stopped("The camera is as close as it can be.");
@@ -146,7 +146,7 @@ export class OrbitControl {
     }
 }
 
-/** The orbit between two others: the first if `part` is 0, the second if it is 1. */
+/** The orbit between two orbits: `from` if `part` is 0, `to` if it is 1. */
 function mix(from: Orbit, to: Orbit, part: number): Orbit {
     const between = (a: number, b: number): number => (part === 1 ? b : a + (b - a) * part);
     return {

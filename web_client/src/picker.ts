@@ -25,7 +25,7 @@ export class Picker {
     private readonly typedOption = element("div", { role: "option", id: "picker-typed", class: "typed" });
     private current = "";
     private active: HTMLElement | undefined;
-    private failure = ""; // why the catalogue cannot be listed; "" if it can be
+    private failure = ""; // why the catalogue cannot be listed; "" if it can
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /**

@@ -7,7 +7,7 @@ import type { Stage } from "./picture/stage";
 
 export class PrintView {
     private readonly root = byId("print");
-    private frame: ImageBitmap | undefined; // the picture to print, if the server draws the pictures
+    private frame: ImageBitmap | undefined; // the picture on white, if the server draws the pictures
     private isPrepared = false;
     private focused: HTMLElement | undefined; // the element that had the focus last; printing takes the focus from it
 
@@ -25,7 +25,7 @@ export class PrintView {
         document.addEventListener("focusin", ({ target }) => (this.focused = target as HTMLElement));
     }
 
-    /** If the server draws the pictures, requests one on white when Ctrl-P is pressed, and prints it. */
+    /** Handles Ctrl-P: if the server draws the pictures, requests a picture on white, and prints this picture. */
     private keydown(event: KeyboardEvent): void {
         const isPrintKey = !event.repeat && event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
         if (!isPrintKey || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;
@@ -39,7 +39,7 @@ export class PrintView {
             const png = await this.client.request({ type: "get", ...request });
             this.frame = await createImageBitmap(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
         } catch (error) {
-            this.failed(error as Error); // then the picture is printed as it is shown
+            this.failed(error as Error); // the picture is then printed as the page shows it
         }
         window.print();
     }

@@ -20,9 +20,7 @@ export function turnsOfDrag(ball: Ball, dx: number, dy: number, height: number):
     return rolled(ball, dx * perPixel, dy * perPixel);
 }
 
-/**
- * Turns by a wheel, in the plane in which a drag does not roll the same ball: zw for the 4-D ball, xy for the 3-D ball.
- */
+/** Turns by a wheel, in a plane in which drags do not roll the ball: zw for the 4-D ball, xy for the 3-D ball. */
 export function turnsOfWheel(ball: Ball, pixels: number): Turns {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }

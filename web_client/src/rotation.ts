@@ -16,7 +16,7 @@ interface Gesture {
 }
 
 export class RotationControl {
-    private gestures: Gesture[] = []; // the last one is the current one, the others have something to send
+    private gestures: Gesture[] = []; // the last one is the current gesture; the others still have angles to send
     private sending = false;
     private scheduled = false;
 

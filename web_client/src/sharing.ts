@@ -56,7 +56,7 @@ export class Sharing {
 
     /**
      * A link for a script. It opens the present view in a new session; or, if the object is from a file, which only
-     * this session has, it joins this session. `joins` tells which.
+     * this session has, it joins this session. `joins` is true if it joins this session.
      */
     private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {

@@ -9,7 +9,8 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     root.setAttribute("aria-label", label);
     const setTabStop = (wanted?: Element): void => {
         const focused = document.activeElement;
-        // A button that became a text field stays the tab stop while the field has the focus, although it is hidden.
+        // A button that a text field replaces stays the tab stop while the field has the focus, although the button is
+        // hidden.
         if (!wanted && focused instanceof HTMLInputElement && root.contains(focused)) return;
         const buttons = [...root.querySelectorAll("button")];
         const enabled = buttons.filter((button) => button === wanted || isUsable(button));

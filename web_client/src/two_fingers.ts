@@ -1,4 +1,4 @@
-// Two fingers on the drawing: how far they have moved, spread and twisted. A movement and a twist begin only beyond a
+// Two fingers on the drawing: how far they have moved, spread and twisted. A movement or a twist counts only beyond a
 // dead zone, so that a pinch does not also turn the polytope.
 
 const kMoveDeadZone = 16; // pixels

@@ -8,7 +8,7 @@ export class FrameView {
     private bitmap: ImageBitmap | undefined;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
-        this.context = canvas.getContext("bitmaprenderer")!; // with an alpha channel, for transparent pictures
+        this.context = canvas.getContext("bitmaprenderer")!; // has an alpha channel, for transparent pictures
     }
 
     /** Decodes a frame in a worker; draw() then shows it. Transfers the buffer: the caller can no longer use it. */

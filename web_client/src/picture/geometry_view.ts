@@ -132,7 +132,7 @@ export class GeometryView {
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Highlights these elements as those under the pointer, until the next call. Does not draw. */
+    /** Highlights these elements, which are under the pointer, until the next call. Does not draw. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         if (!this.picture) return;

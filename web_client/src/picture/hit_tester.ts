@@ -1,4 +1,4 @@
-// Finds what is at a point of a picture, and the share of its slices that is visible.
+// Finds what is at a point of a picture, and which fraction of its slices is visible.
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 

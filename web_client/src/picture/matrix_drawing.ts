@@ -18,7 +18,7 @@ const kFocusLine = 0.0011; // the width of the lines through the focus point, as
 const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
-/** What all panels of a picture have in common. */
+/** What the functions that draw a panel need: it is the same for all panels of a picture. */
 interface PanelContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;

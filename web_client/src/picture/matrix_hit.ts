@@ -8,8 +8,8 @@ import type { MatrixPanel } from "./matrix_panel";
 type Pixel = readonly [x: number, y: number];
 
 /**
- * Of the section's points that are drawn at the pixel, the nearest; if there is none, the nearest edge that is drawn
- * there; undefined if there is neither. Here, the radius of a point and half the width of an edge are at least `reach`
+ * Of the section's points that are drawn at the pixel, the nearest one; if no point is, the nearest edge that is drawn
+ * there; if no edge is, undefined. Here, the radius of a point and half the width of an edge are at least `reach`
  * pixels.
  */
 export function hitInPanel(

@@ -15,7 +15,7 @@ function fixedColors({ text, focus, ball, bar, zero, highlight, axes }: typeof d
     return [text, focus, ball, bar, zero, highlight, ...axes].map(numberOf);
 }
 
-/** For each fixed color on a dark ground: the color on a light ground that replaces it. */
+/** For each fixed color of pictures on a dark ground, the color that replaces it on a light ground. */
 const kReplaced = new Map(
     fixedColors(dark).map((color, i): [number, number] => [color, fixedColors(light)[i]!]),
 );
@@ -44,7 +44,7 @@ export function onWhite(picture: Slices): Slices {
     const opaque = 0xff000000;
     return {
         ...picture,
-        density: picture.density.slice(), // a new array, so that DensityImage uses the new colors
+        density: picture.density.slice(), // copied, because DensityImage repaints only for a new array
         scene: {
             ...scene,
             colors,

@@ -1,5 +1,5 @@
 // The painter's algorithm for the mesh of slice_mesh.ts. The slices are painted from far to near; of each slice, first
-// the back faces, then the balls and bars on them, then the front faces, then the other balls and bars. Balls are
+// the back faces, then the balls and bars on the back, then the front faces, then the other balls and bars. Balls are
 // ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers its farther ball, and its
 // nearer ball covers the bar. This order is exact for convex slices that do not overlap.
 
@@ -70,7 +70,9 @@ export class PaintersOrder {
         this.sliceRanges.sort((a, b) => b.distance - a.distance);
     }
 
-    /** Finds which faces of a slice face the viewer. A vertex or edge is in front if it belongs to such a face. */
+    /**
+     * Finds which faces of a slice are turned to the viewer. A vertex or edge is in front if it belongs to such a face.
+     */
     private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: ViewCamera): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);

@@ -42,7 +42,7 @@ export class ProjectionMesh {
     private scratch = new Uint32Array(0);
     private count = 0;
 
-    /** Takes over the projection of a new picture; returns whether the picture has one. */
+    /** Writes the projection of a new picture into the meshes; returns whether the picture has a projection. */
     update(picture: Slices, highlighted: HighlightedElements): boolean {
         const { projection, scene } = picture;
         if (!projection) return false;

@@ -37,7 +37,7 @@ export class ShapeBuffers {
         }
     }
 
-    /** Marks the contents as changed. */
+    /** Marks all buffers as changed, so that the next rendering uploads them. */
     markChanged(): void {
         for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.markChanged();
     }

@@ -28,7 +28,7 @@ export interface SizeLimits {
     max_pixels?: number;
 }
 
-const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
+const kMaxPixels = 4_000_000; // of a picture on the page; more pixels take time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
@@ -220,7 +220,7 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
-        this.redraw(); // zooming the page may change only the size of texts
+        this.redraw(); // zooming the page may change the size of texts only
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
         this.events.resized(size);

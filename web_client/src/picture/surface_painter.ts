@@ -75,13 +75,13 @@ interface SliceSurfaces {
     surface: Surface;
     position: Vector;
     groups: TrianglesByLevel;
-    depth: number; // of the slice's origin, along the camera's axis
+    depth: number; // the distance of the slice's origin from the eye, along the camera's axis
     firstPoint: number;
     firstByte: number; // the offset of the slice's indices in the buffer, in bytes
 }
 
 export class SurfacePainter {
-    private readonly parts: SliceSurfaces[] = []; // sorted from far to near when they are drawn
+    private readonly parts: SliceSurfaces[] = []; // from far to near after the sorting in draw()
     private readonly spare: SliceSurfaces[] = [];
     private picture: Slices | undefined; // the newest picture; undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
@@ -92,7 +92,7 @@ export class SurfacePainter {
         this.gl = renderer.getContext() as WebGL2RenderingContext;
     }
 
-    /** Takes over the surfaces of a new picture; returns whether the picture shows the surfaces of a field. */
+    /** Uploads the surfaces of a new picture to the GPU; returns whether the picture shows the surfaces of a field. */
     update(picture: Slices): boolean {
         this.spare.push(...this.parts.splice(0));
         this.levels = picture.scene.surfaces ?? [];
@@ -231,7 +231,7 @@ export class SurfacePainter {
         if (!isOpaque(level)) {
             for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
         } else if (level.caps) {
-            this.drawSides(part, level, gl.BACK); // with caps, the surface is closed and hides its own back
+            this.drawSides(part, level, gl.BACK); // with caps, the surface is closed, so that its back is not seen
         } else {
             this.drawSides(part, level, undefined);
         }

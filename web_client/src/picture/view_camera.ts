@@ -1,5 +1,5 @@
 // The view and projection matrices of the camera. The server has placed the camera for one orbit of the viewer; the
-// page moves it from there to the newest orbit.
+// page moves the camera to the newest orbit.
 
 import { Matrix4, Vector3, Vector4 } from "three";
 
