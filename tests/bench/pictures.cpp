@@ -113,8 +113,8 @@ class Bench {
         return rasterizer;
     }
 
-    // Calls step(i) at least `least` times and for some time, after a warm-up; then again with the same i, when all
-    // memory has the size that it needs, and records the allocations per step.
+    // After a warm-up, calls step(i) at least `least` times and for some time. Then calls it again with the same values
+    // of i, when all buffers have the size that they need, and records the allocations per step.
     template <typename Step>
     void repeat(const char* name, int least, Step&& step) {
         const int warm = std::min(least, 24);

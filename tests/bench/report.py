@@ -103,7 +103,7 @@ class Turns:
         with_vtk = not peers.why_no_vtk()
         for _ in range(TURNS):
             ours, theirs = {}, {}
-            for name in REGULAR:  # one right after the other, because the machine's speed changes
+            for name in REGULAR:  # oval4d and the others in turn, because the machine's speed changes
                 ours[name] = pictures(name)
                 theirs.update({(name, way): peers.vtk(name, way) for way in peers.VTK if with_vtk})
             self.frames.append(ours)

@@ -39,8 +39,8 @@ LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(time)
 def free_port():
     """Returns a TCP port that belongs to this process until its end.
 
-    Only a program with a fixed port can take it: it is outside the range from which the kernel chooses ports, and other
-    tests see that the abstract socket of its name is taken.
+    Only a program with a fixed port can take this port: it is outside the range from which the kernel chooses ports,
+    and other tests see that the abstract socket of its name is taken.
     """
     first, last = map(int, Path("/proc/sys/net/ipv4/ip_local_port_range").read_text(encoding="ascii").split())
     for port in itertools.chain(range(first - 1, 9999, -1), range(last + 1, 1 << 16)):

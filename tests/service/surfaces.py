@@ -85,7 +85,8 @@ def lattice_step(message):
 
 def ellipsoid_slice(axes, center, orientation, w):
     """Returns the volume and the centroid of the slice at `w` of an ellipsoid with these semi-axes and this center,
-    after the rotation; None if the hyperplane misses it. `scale` is the slice's size relative to the central one."""
+    after the rotation; None if the hyperplane misses it. `scale` is the size of the slice relative to the parallel
+    slice through the center."""
     rotated = [dot(row, center) for row in orientation]
     spread = [[dot([a * a * p for a, p in zip(axes, row)], other) for other in orientation] for row in orientation]
     height = math.sqrt(spread[3][3])

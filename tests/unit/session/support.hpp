@@ -73,7 +73,8 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     EXPECT_TRUE(session == before) << done.error().message;
 }
 
-/// Applies a command as a server does; returns how many times it must wait for an object that is loaded separately.
+/// Applies a command as a server does; returns how many times the server must wait for an object that is loaded
+/// separately.
 inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
     for (int orders = 0;; ++orders) {
         const Session before = session;
