@@ -23,7 +23,7 @@ constexpr std::size_t kFirstSweep = 256;     // number of clients at which forge
 constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one account
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
-address_v6 mapped(const address& any) {
+address_v6 asIPv6(const address& any) {
     return any.is_v6() ? any.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, any.to_v4());
 }
 
@@ -100,11 +100,11 @@ Network::Network(const std::string& text) {
         throw std::invalid_argument("a network must be an address or a CIDR range, such as ::1 or 10.0.0.0/8, not '" +
                                     text + "'");
     bits_ += kBits - most;
-    first_ = mapped(given);
+    first_ = asIPv6(given);
 }
 
 bool Network::contains(const address& any) const {
-    const auto own = first_.to_bytes(), other = mapped(any).to_bytes();
+    const auto own = first_.to_bytes(), other = asIPv6(any).to_bytes();
     for (unsigned bit = 0; bit < bits_; ++bit) {
         const unsigned shift = 7 - bit % 8;
         if (((own[bit / 8] ^ other[bit / 8]) >> shift & 1U) != 0) return false;

@@ -61,9 +61,9 @@ class AddressAccount {
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return the client's flows, its shares of the worker pools (see parallel::FairQueue):
-    /// pictureFlow() is for the picture workers, exportFlow() for the export workers. In these flows, a session creates
-    /// its lanes for the client's jobs.
+    /// These functions return the client's flows (see parallel::FairQueue): pictureFlow() in the pool of picture
+    /// workers, exportFlow() in the pool of export workers. Each session of the client creates its own lane in each
+    /// flow.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
     /// These functions return the client's lane for jobs that belong to no session: pictureLane() in the pool of
@@ -108,8 +108,8 @@ class Network {
 /// The accounts of the known clients, by address. Every function may be called from any thread.
 class Clients {
   public:
-    /// `trustedProxies`: networks (see Network) of the proxies whose X-Forwarded-For is trusted. `bytes`: the byte
-    /// budget of all clients together.
+    /// `trustedProxies`: networks (see Network) of the proxies whose X-Forwarded-For is trusted. `bytes`: the maximum
+    /// number of bytes held for all clients together (ByteBudget).
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
     /// Returns the account of the client at this address; creates the account if the client is not known. Once 65,536

@@ -51,9 +51,10 @@ class ConnectionRegistry {
     enum class AdmissionDecision { admitted, server_full, client_full };
     /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
     /// first, until there is room for the new one: those of this client if the client is at its limit, else those of
-    /// the client with the most connections. Returns the limit that is reached if that client has no idle connection.
-    /// `registered`: the number of registrations that the new connection itself already has (0 or 1); they are not
-    /// counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
+    /// the client with the most connections. If the client from which to evict has no idle connection, evicts none and
+    /// returns the limit that is reached. `registered`: the number of registrations that the new connection itself
+    /// already has (0 or 1); they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit
+    /// per client does not apply.
     AdmissionDecision admit(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.

@@ -66,13 +66,13 @@ bool isArray(int file) {
 }
 
 /// Returns whether clients may use this name: one path component, in UTF-8, that does not begin with a dot.
-bool isName(const std::string& name) {
+bool isAllowedName(const std::string& name) {
     return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
            name.find('\0') == std::string::npos && text::isUtf8(name);
 }
 
 /// Returns a cache key made from everything that determines the result of reading `load`.
-std::string keyOf(const session::LoadObject& load, const std::string& version) {
+std::string cacheKeyOf(const session::LoadObject& load, const std::string& version) {
     std::string key =
         load.dataName + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
     key += load.secondFormula + '\0' + load.secondVariable + '\0';
@@ -80,10 +80,11 @@ std::string keyOf(const session::LoadObject& load, const std::string& version) {
     return key + '\0' + version;
 }
 
-/// Returns a copy of the loaded field in which Field::shared is true: sessions then do not count its memory, because
-/// the data folder counts it. If the samples are in a mapped file, sets Field::source. Returns an error if the object
-/// is not an array.
-Result<session::ObjectWithWarnings> shared(session::ObjectWithWarnings loaded, const session::LoadObject& load) {
+/// Returns a copy of the loaded field in which Field::shared is true: its memory does not count against the sessions
+/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, sets Field::source. Returns
+/// an error if the object is not an array.
+Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings loaded,
+                                                     const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
     if (field == nullptr || !field->array) return Error{ErrorCode::bad_field, "the file is not an array"};
     auto copy = std::make_shared<fields::Field>(*field);
@@ -100,8 +101,10 @@ Result<session::ObjectWithWarnings> shared(session::ObjectWithWarnings loaded, c
 
 }  // namespace
 
-DataFolder::DataFolder(const std::string& folder, std::size_t bytes, SampleFiles& sampleFiles)
-    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)), maxBytes_(bytes), sampleFiles_(sampleFiles) {
+DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles)
+    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)),
+      maxBytes_(bytes),
+      fieldCacheFiles_(fieldCacheFiles) {
     std::error_code fault;
     if (!folder_.empty() && fs::directory_iterator(folder_, fault) == fs::directory_iterator())
         if (fault) throw std::runtime_error("the data folder cannot be read: " + fault.message());
@@ -131,7 +134,7 @@ std::vector<std::string> DataFolder::list() const {
         const std::string name = entry->path().filename().string();
         std::error_code unknown;
         const auto type = entry->symlink_status(unknown).type();
-        if (!isName(name) || (type != fs::file_type::regular && type != fs::file_type::directory)) continue;
+        if (!isAllowedName(name) || (type != fs::file_type::regular && type != fs::file_type::directory)) continue;
         if (type == fs::file_type::directory) {
             const auto files = fields::seriesFiles(entry->path());
             if (!isZarr(entry->path()) && (!files || files->empty())) continue;
@@ -147,14 +150,14 @@ std::vector<std::string> DataFolder::list() const {
 }
 
 /// Opens the file, the Zarr folder, or the files of the series with this name.
-Result<DataFolder::Opened> DataFolder::open(const std::string& name) const {
+Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const {
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
     if (folder_.empty()) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
-    if (!isName(name)) return missing;
+    if (!isAllowedName(name)) return missing;
     const fields::FileHandle root(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY));
     auto file = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, 0));
     if (file->descriptor() < 0) return missing;
-    Opened opened;
+    OpenedEntry opened;
     opened.version = versionOf(file->descriptor());
     if (!opened.version.empty()) {
         opened.files.push_back(std::move(file));
@@ -182,7 +185,7 @@ Result<DataFolder::Opened> DataFolder::open(const std::string& name) const {
     return opened;
 }
 
-std::string DataFolder::currentVersion(const Opened& opened) {
+std::string DataFolder::currentVersion(const OpenedEntry& opened) {
     if (opened.folder) return versionOfZarr(opened.folder->descriptor());
     std::string version;
     for (const auto& file : opened.files) version += net::versionOf(file->descriptor());
@@ -190,7 +193,7 @@ std::string DataFolder::currentVersion(const Opened& opened) {
 }
 
 /// Returns a field from the cache, and marks it as the most recently used one. Returns null if the cache does not have
-/// it, or if its file can no longer be read. Requires that mutex_ is held.
+/// the field, or if the field's file can no longer be read. Requires that mutex_ is held.
 const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
     const auto found = std::ranges::find(recent_, key, &CachedField::key);
     if (found == recent_.end()) return nullptr;
@@ -217,11 +220,12 @@ bool DataFolder::dropUnused(bool onDisk) {
 }
 
 /// Makes a file of this size in the field cache. If there is no room, first drops unused fields that have a file in the
-/// field cache. Errors: those of SampleFiles::make(); `too_many` if dropping all of these does not make enough room.
-Result<SampleFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
+/// field cache. Errors: those of FieldCacheFiles::make(); `too_many` if there is not enough room even after all unused
+/// fields are dropped.
+Result<FieldCacheFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
-        auto file = sampleFiles_.make(bytes);
+        auto file = fieldCacheFiles_.make(bytes);
         if (!file || *file) return file;
         if (!dropUnused(true)) {
             return Error{
@@ -254,7 +258,7 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
                                                      const Reader& reader) {
     auto opened = open(load.dataName);
     if (!opened) return opened.error();
-    const std::string key = keyOf(load, opened->version);
+    const std::string key = cacheKeyOf(load, opened->version);
     {
         std::unique_lock lock(mutex_);
         readEnded_.wait(lock, [&] { return !reading_.contains(key); });
@@ -274,7 +278,7 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
 }
 
 Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadObject& load,
-                                                            const session::Limits& limits, Opened opened,
+                                                            const session::Limits& limits, OpenedEntry opened,
                                                             const Reader& reader, const std::string& key) {
     session::LoadObject file = load;
     if (opened.folder) {
@@ -298,7 +302,7 @@ Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadO
     }
     if (!loaded) return loaded.error();
     if (onDisk && currentVersion(opened) != opened.version) return changed;
-    auto marked = shared(std::move(*loaded), load);
+    auto marked = copyMarkedShared(std::move(*loaded), load);
     if (!marked) return marked.error();
     return keep(key, std::move(*marked), onDisk);
 }

@@ -18,7 +18,7 @@
 #include "errors/error.hpp"
 #include "fields/array/mapped_file.hpp"
 #include "file_reading/file_reader_pool.hpp"
-#include "net/sample_files.hpp"
+#include "net/field_cache_files.hpp"
 #include "session/load.hpp"
 
 namespace oval4d::net {
@@ -27,13 +27,13 @@ namespace oval4d::net {
 /// of one array. Clients refer to entries by name; names that begin with a dot or lead outside the folder are refused,
 /// and symbolic links are not followed. Sessions that open the same file in the same way share one copy, until the file
 /// changes. Fields that are larger than session::Limits::maxFieldBytes are mapped into memory: from the file in the
-/// folder or, if its samples must be converted, from a file of the field cache. Thread-safe.
+/// folder or, if its samples must be converted, from a file of the field cache (see FieldCacheFiles). Thread-safe.
 class DataFolder {
   public:
     /// `folder`: empty if the server offers none. `bytes`: the maximum memory, in bytes, of the fields from the folder,
-    /// whether or not sessions use them. `sampleFiles` must outlive the fields. Throws std::runtime_error if the folder
-    /// cannot be read.
-    DataFolder(const std::string& folder, std::size_t bytes, SampleFiles& sampleFiles);
+    /// whether or not sessions use them. `fieldCacheFiles` must outlive the fields. Throws std::runtime_error if the
+    /// folder cannot be read.
+    DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles);
 
     /// Reads a file as FileReaderPool::read() does.
     using Reader = std::function<Result<session::ObjectWithWarnings>(
@@ -65,7 +65,7 @@ class DataFolder {
   private:
     using Clock = std::chrono::steady_clock;
     // A file, a Zarr folder or a series that open() has opened.
-    struct Opened {
+    struct OpenedEntry {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
         std::shared_ptr<const fields::FileHandle> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
@@ -80,23 +80,23 @@ class DataFolder {
     };
 
     std::vector<std::string> list() const;
-    Result<Opened> open(const std::string& name) const;
-    static std::string currentVersion(const Opened& opened);
+    Result<OpenedEntry> open(const std::string& name) const;
+    static std::string currentVersion(const OpenedEntry& opened);
     Result<session::ObjectWithWarnings> readAndKeep(const session::LoadObject& load, const session::Limits& limits,
-                                                    Opened opened, const Reader& reader, const std::string& key);
-    Result<SampleFiles::FilePtr> allocate(std::size_t bytes);
+                                                    OpenedEntry opened, const Reader& reader, const std::string& key);
+    Result<FieldCacheFiles::FilePtr> allocate(std::size_t bytes);
     bool dropUnused(bool onDisk);
     Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
     const session::ObjectWithWarnings* find(const std::string& key);
 
     const std::filesystem::path folder_;
     const std::size_t maxBytes_;
-    SampleFiles& sampleFiles_;
+    FieldCacheFiles& fieldCacheFiles_;
     mutable std::mutex namesMutex_;  // guards names_ and listed_
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
-    // Guards the members below. A thread may hold it while it allocates or frees gigabytes on the disk. Therefore
-    // knownNames() and bytes(), which the threads of the network call, do not lock it.
+    // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk.
+    // Therefore knownNames() and bytes(), which threads that serve sockets call, do not lock the mutex.
     std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first
     std::atomic<std::size_t> bytes_{0};  // total memory of the fields in `recent_`, in bytes

@@ -63,7 +63,7 @@ struct Options {
     std::size_t keptUndo = 100;                     ///< maximum number of undo steps stored with a session
     std::string data;                               ///< folder of arrays that clients may open; empty: none
     std::size_t dataCache = 1024U << 20U;           ///< maximum total memory of the fields from this folder
-    std::string fieldCacheFolder;                   ///< folder of the field cache (see SampleFiles); empty: /var/tmp
+    std::string fieldCacheFolder;  ///< folder of the field cache (see FieldCacheFiles); empty: /var/tmp
     std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of the files in the field cache
     std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of the polytopes that the cache keeps
     std::size_t criticalCache = 4U << 20U;            ///< maximum total size of cached critical values of w

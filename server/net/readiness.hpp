@@ -8,16 +8,16 @@
 
 namespace oval4d::net {
 
-/// Tracks whether the server is ready. It becomes ready when every picture worker has drawn a first picture, which is
-/// slow because it compiles the worker's shaders and builds the initial polytope. It remains ready until it begins to
-/// stop. Thread-safe.
+/// Tracks whether the server is ready. The server becomes ready when every picture worker has drawn its first picture.
+/// A first picture is slow, because the worker compiles its shaders and builds the initial polytope. The server remains
+/// ready until it begins to stop. Thread-safe.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}
 
     /// Draws a first picture. Each worker must call this once, with its own pipeline, before its other jobs. If the
-    /// picture cannot be drawn, logs the error and marks the server as broken: it never becomes ready, although it
-    /// still serves geometry.
+    /// picture cannot be drawn, logs the error and marks the server as broken: the server never becomes ready, although
+    /// it still sends slices, which clients draw.
     void warmUp(pipeline::Pipeline& pipeline);
 
     /// Returns whether every worker has drawn its first picture and the server is not stopping.

@@ -42,7 +42,8 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 20;
 constexpr auto kWorkerStopTimeout = 500ms;
-// Time for which an idle file reader process is kept: a client that has loaded a file may soon load another one.
+// The time after which file reader processes end if no file is read: until then, a client that loads another file need
+// not wait for a process to start.
 constexpr Seconds kReaderIdleTimeout{10};
 
 /// Raises the soft limit of open files to the hard limit, because each connection uses a file descriptor.
@@ -119,18 +120,18 @@ class Server {
     void run();
 
   private:
-    bool onLoopback() const;
+    bool listensOnlyOnLoopback() const;
     std::string requiredToken() const;
     void onRasterizerLost(const process::ProcessLoss& loss);
     void onReaderLost(const process::ProcessLoss& loss);
-    asio::awaitable<void> listen(tcp::acceptor& acceptor);
+    asio::awaitable<void> acceptConnections(tcp::acceptor& acceptor);
     asio::awaitable<void> stopOnSignal();
     void stopWorkers();
 
     Options options_;
     Clients clients_;
-    SampleFiles sampleFiles_;         // declared before io_, whose handlers may hold fields: it must outlive all fields
-    ConnectionRegistry connections_;  // declared before io_, whose coroutines hold registrations
+    FieldCacheFiles fieldCacheFiles_;  // outlives all fields; declared before io_, whose handlers may hold fields
+    ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines hold them
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
@@ -156,7 +157,7 @@ class Server {
 Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
-      sampleFiles_(options_.fieldCacheFolder, options_.fieldCache),
+      fieldCacheFiles_(options_.fieldCacheFolder, options_.fieldCache),
       connections_(options_.maxConnections, options_.client.connections),
       acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
@@ -173,7 +174,7 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                 [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
                 static_cast<std::size_t>(options_.loadWorkers)}),
       polytopes_(options_.polytopeCache),
-      data_(options_.data, options_.dataCache, sampleFiles_),
+      data_(options_.data, options_.dataCache, fieldCacheFiles_),
       critical_(options_.criticalCache),
       pictureWorkers_({.threads = workers_,
                        .limits = options_.jobs,
@@ -190,14 +191,14 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
-      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,     clients_,
-                loadWorkers_, readers_, polytopes_,      data_,          sampleFiles_, critical_},
+      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,         clients_,
+                loadWorkers_, readers_, polytopes_,      data_,          fieldCacheFiles_, critical_},
       sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
-      access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),
+      access_(options_.allowedHosts, options_.allowedOrigins, token_, listensOnlyOnLoopback()),
       routes_(services_, files_, readiness_, *sessions_) {}
 
-bool Server::onLoopback() const {
+bool Server::listensOnlyOnLoopback() const {
     return std::ranges::all_of(acceptors_,
                                [](const tcp::acceptor& each) { return each.local_endpoint().address().is_loopback(); });
 }
@@ -206,7 +207,7 @@ bool Server::onLoopback() const {
 /// other than loopback; empty if none is required.
 std::string Server::requiredToken() const {
     if (!options_.token.empty()) return options_.token;
-    return options_.open || onLoopback() ? std::string() : store::randomName(kTokenBytes);
+    return options_.open || listensOnlyOnLoopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
 void Server::onRasterizerLost(const process::ProcessLoss& loss) {
@@ -223,7 +224,7 @@ void Server::run() {
     const std::string query = token_.empty() ? "" : "?token=" + text::percentEncoded(token_);
     for (tcp::acceptor& acceptor : acceptors_) {
         spdlog::info("listening url={}{}", urlFor(acceptor.local_endpoint()), query);
-        asio::co_spawn(acceptor.get_executor(), listen(acceptor), asio::detached);
+        asio::co_spawn(acceptor.get_executor(), acceptConnections(acceptor), asio::detached);
     }
     if (!sandboxWarning_.empty()) spdlog::warn(sandboxWarning_);
     asio::co_spawn(acceptors_.front().get_executor(), stopOnSignal(), asio::detached);
@@ -255,14 +256,15 @@ void Server::stopWorkers() {
     watchdog.join();
 }
 
-asio::awaitable<void> Server::listen(tcp::acceptor& acceptor) {
+asio::awaitable<void> Server::acceptConnections(tcp::acceptor& acceptor) {
     const ServerContext context{services_, access_, routes_, sessions_, connections_};
     for (;;) {
         tcp::socket socket(asio::make_strand(io_));
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // The most likely reason is that no file descriptor is free. One becomes free when a connection ends.
+            // The most likely reason is that no file descriptor is free. A descriptor becomes free when a connection
+            // ends.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             asio::steady_timer pause(io_, 100ms);
             co_await pause.async_wait(kAsTuple);
@@ -310,7 +312,7 @@ void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk
-    std::signal(SIGCHLD, SIG_DFL);  // if it were ignored, the ids of ended children could be reused before waitpid()
+    std::signal(SIGCHLD, SIG_DFL);  // if ignored, the ids of ended children could be reused before waitpid()
     Server(std::move(options), forkJoin, heap).run();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The services that connections and sessions share, and the errors that both send to clients.
+// The services that connections and sessions share, and the errors that connections and sessions send to clients.
 
 #include <boost/asio/io_context.hpp>
 
@@ -7,9 +7,9 @@
 #include "file_reading/file_reader_pool.hpp"
 #include "net/clients.hpp"
 #include "net/data_folder.hpp"
+#include "net/field_cache_files.hpp"
 #include "net/metrics.hpp"
 #include "net/options.hpp"
-#include "net/sample_files.hpp"
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
@@ -43,11 +43,11 @@ struct Services {
     /// Threads for work that waits for files: reading uploads, reading and listing arrays of the data folder, and
     /// decoding stored sessions that refer to such arrays.
     parallel::WorkerPool& loadWorkers;
-    file_reading::FileReaderPool& readers;  ///< the file reader processes
-    polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
-    DataFolder& data;                       ///< the arrays that the server offers
-    const SampleFiles& sampleFiles;         ///< files with the converted samples of large arrays in `data`
-    slicing::CriticalCache& critical;       ///< cached critical values of w, the results of searches
+    file_reading::FileReaderPool& readers;   ///< the file reader processes
+    polytopes::PolytopeCache& polytopes;     ///< polytopes that were built from their names
+    DataFolder& data;                        ///< the arrays that the server offers
+    const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
+    slicing::CriticalCache& critical;        ///< cached critical values of w, the results of searches
 };
 
 }  // namespace oval4d::net

@@ -10,7 +10,7 @@
 namespace oval4d::net {
 
 /// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
-/// Without a minimum, a very slow client could make the server hold the data for hours. Each fragment must be
+/// Without a minimum rate, a very slow client could make the server hold the data for hours. Each fragment must be
 /// transferred within Options::writeTimeout. In addition, the fragment after the first n bytes must be transferred
 /// within n / Options::minReadRate plus two write timeouts from the start; a rate of 0 turns this second limit off.
 class TransferDeadline {

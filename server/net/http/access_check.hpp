@@ -20,8 +20,8 @@ std::string_view headerField(const HttpRequest& request, boost::beast::http::fie
 /// Returns the parsed target of a request; an empty optional if it is malformed.
 std::optional<RequestTarget> targetOf(const HttpRequest& request);
 
-/// Returns whether pages of other sites must not request this target: true for the API and for WebSockets, because they
-/// cause work or reveal data.
+/// Returns whether pages of other sites must not request this target: true for the API and for WebSockets, because
+/// answering them costs time or reveals data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
 /// Checks the access rules, and counts a wrong token against the client's rate limit. If the request is refused,
@@ -33,9 +33,9 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
 /// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", an empty optional for other paths.
 std::optional<std::string> sessionIn(const std::string& path);
 
-/// Checks a WebSocket handshake. `hasFurtherBytes`: whether the client has sent more than the handshake. If the
-/// handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets `session` to the session id
-/// in the path.
+/// Checks a WebSocket handshake. `hasFurtherBytes`: whether the client has already sent bytes after the handshake. If
+/// the handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets `session` to the session
+/// id in the path.
 std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
                                     bool hasFurtherBytes, std::string& session);
 

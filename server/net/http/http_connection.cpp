@@ -34,8 +34,8 @@ namespace {
 constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
 constexpr std::size_t kReadBufferBytes = 64U << 10U;
 
-// After a refusal, the server continues to read up to these limits: closing a socket with unread bytes would reset the
-// connection, and the client might not receive the reply.
+// After a refusal, the server continues to read up to these limits of bytes and of time: closing a socket with unread
+// bytes would reset the connection, and the client might not receive the reply.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
@@ -60,12 +60,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<Reply> answer(const HttpRequest& request);
     std::optional<Reply> refuseConnection() const;
     asio::awaitable<bool> serveUpload(HttpRequest request);
-    asio::awaitable<std::optional<Result<LiveSession::Applied>>> restoreState(
+    asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> restoreState(
         std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file);
     std::optional<Reply> checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const;
     asio::awaitable<SessionManager::JoinResult> joinSession(std::string session, std::string token);
     std::function<void(SessionManager::JoinHandler)> sessionJoiner(std::string session, std::string token) const;
-    Reply replyTo(const Result<LiveSession::Applied>& applied);
+    Reply replyTo(const Result<LiveSession::CommandResult>& applied);
     asio::awaitable<std::optional<Reply>> receiveBody(const HttpRequest& request, UploadedBody& body);
     asio::awaitable<bool> write(const HttpRequest& request, Reply reply);
     asio::awaitable<void> refuse(const HttpRequest& request, Reply reply);
@@ -245,7 +245,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     }
     if (!stream_.socket().is_open()) co_return false;
     const auto file = body.finish();
-    std::optional<Result<LiveSession::Applied>> applied;
+    std::optional<Result<LiveSession::CommandResult>> applied;
     if (upload.load) {
         upload.load->file = file;
         applied = co_await session->apply(client_, std::move(*upload.load));
@@ -257,7 +257,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
 }
 
 /// Restores the state in an uploaded file. A worker parses the file, because that may take long.
-asio::awaitable<std::optional<Result<LiveSession::Applied>>> HttpConnection::restoreState(
+asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> HttpConnection::restoreState(
     std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file) {
     constexpr parallel::WorkerPool::Seconds kRoughCost{0.1};
     try {
@@ -271,7 +271,7 @@ asio::awaitable<std::optional<Result<LiveSession::Applied>>> HttpConnection::res
     }
 }
 
-Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {
+Reply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& applied) {
     if (applied) return jsonReply(wire::answerMessage(wire::Done{applied->revision, applied->warnings}, {}));
     context_.services.metrics.countError(applied.error().code);
     return uploadErrorReply(applied.error());

@@ -27,12 +27,12 @@ unsigned statusFor(ErrorCode code) {
 
 }  // namespace
 
-Reply revalidatedReply(std::string type, SharedBytes body, unsigned status) {
+Reply noCacheReply(std::string type, SharedBytes body, unsigned status) {
     return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
 }
 
 Reply textReply(std::string type, std::string body, unsigned status) {
-    return revalidatedReply(std::move(type), SharedBytes(std::move(body)), status);
+    return noCacheReply(std::move(type), SharedBytes(std::move(body)), status);
 }
 
 Reply jsonReply(std::string message) { return textReply(kJson, std::move(message)); }

@@ -20,9 +20,9 @@ struct Reply {
 };
 
 /// Returns a reply that caches must not use again without asking the server (Cache-Control: no-cache).
-Reply revalidatedReply(std::string type, SharedBytes body, unsigned status = 200);
+Reply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
 
-/// Like revalidatedReply(), with a text as the body. `type`: its media type.
+/// Like noCacheReply(), with a text as the body. `type`: its media type.
 Reply textReply(std::string type, std::string body, unsigned status = 200);
 
 /// Like textReply(), with a JSON message of the oval4d protocol as the body.
@@ -35,11 +35,12 @@ Reply errorReply(const Error& error, unsigned status = 0);
 /// Returns a reply with a plain text and empty `headers`, for requests that are refused before a route answers them.
 Reply refusalReply(unsigned status, std::string text);
 
-/// Like the function above, with the status and the reason of a fault in the request's header. If the status is
-/// kUpgradeRequired, the header fields of the reply name the WebSocket protocol.
+/// Returns the plain-text reply to a request whose header has this fault, with the status and the reason of the fault.
+/// If the status is kUpgradeRequired, the header fields of the reply name the WebSocket protocol.
 Reply refusalReply(const HttpError& fault);
 
-/// Like refusalReply(), with status 429 and a header field that tells the client to wait for ten seconds.
+/// Like refusalReply(), with status 429 and the header field Retry-After, which tells the client to wait for ten
+/// seconds.
 Reply tooManyReply(std::string text);
 
 }  // namespace oval4d::net

@@ -35,7 +35,7 @@ Error notFound(const std::string& path) {
 }
 
 /// Parses a number of pixels. `name`: the name of the query parameter, for the error message.
-Result<int> pixels(const std::string& name, const std::string& text) {
+Result<int> parsePixels(const std::string& name, const std::string& text) {
     int value = 0;
     const std::string_view number = text::trimmed(text);
     const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), value);
@@ -59,7 +59,7 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
         if (name == "width" || name == "height") {
-            const auto parsed = pixels(name, value);
+            const auto parsed = parsePixels(name, value);
             if (!parsed) return parsed.error();
             (name == "width" ? viewport.width : viewport.height) = *parsed;
         } else {
@@ -205,7 +205,7 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAcco
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
             pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
         if (!png) co_return countedError(kTooManyBytes);
-        co_return revalidatedReply("image/png", std::move(*png));
+        co_return noCacheReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
         co_return countedError(kTooManyJobs);
     } catch (const slicing::TooManySliceEdges& fault) {
@@ -228,7 +228,7 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
             pipeline::exportCost(*requested, *exported));
         if (!*made) co_return countedError(made->error());
         const FinishedFile& finished = **made;
-        Reply answer = revalidatedReply(format.mediaType, finished.bytes);
+        Reply answer = noCacheReply(format.mediaType, finished.bytes);
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back("Content-Disposition",
@@ -274,7 +274,7 @@ Reply Routes::metrics() {
     shown.clients.Set(static_cast<double>(services_.clients.size()));
     shown.polytopes.Set(static_cast<double>(services_.polytopes.bytes()));
     shown.dataFields.Set(static_cast<double>(services_.data.bytes()));
-    shown.fieldFiles.Set(static_cast<double>(services_.sampleFiles.bytes()));
+    shown.fieldFiles.Set(static_cast<double>(services_.fieldCacheFiles.bytes()));
     shown.critical.Set(static_cast<double>(services_.critical.bytes()));
     return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }

@@ -98,7 +98,8 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     }
     load.name = rest;
     if (auto error = setMembers(load, target.query)) return std::move(*error);
-    // checkLoad() would accept other formats here: it requires an array only once `load.file` is set.
+    // checkLoad() would accept other formats here: it requires an array format only if `load.file` is set, and the file
+    // is not received yet.
     const bool array = load.format.empty() || session::isArrayFormat(load.format);
     if (!array)
         return Error{

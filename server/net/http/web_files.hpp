@@ -24,7 +24,7 @@ struct WebFile {
     std::vector<Representation> representations;
 
     /// Returns the representation that an Accept-Encoding field prefers (RFC 9110, section 12.5.3), or the smallest of
-    /// several equally preferred ones. Returns the uncompressed one if the field accepts none.
+    /// several equally preferred ones. Returns the uncompressed representation if the field accepts none of them.
     const Representation& negotiate(std::string_view acceptEncoding) const;
 };
 

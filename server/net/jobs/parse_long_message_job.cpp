@@ -10,8 +10,8 @@ Error messageTooLong(const Options& options) {
                                       std::to_string(options.maxLoadMessageBytes)};
 }
 
-std::function<Parsed(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options) {
-    return [text, &options](std::size_t /*worker*/) -> Parsed {
+std::function<ParseResult(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options) {
+    return [text, &options](std::size_t /*worker*/) -> ParseResult {
         const auto seen = wire::peekRequest(text);
         if (!seen.type || *seen.type != "load") return wire::BadRequest{seen.id, messageTooLong(options)};
         return wire::parseRequest(text, options.maxDepth);

@@ -13,7 +13,7 @@
 namespace oval4d::net {
 
 /// The result of parsing a message.
-using Parsed = std::variant<wire::Request, wire::BadRequest>;
+using ParseResult = std::variant<wire::Request, wire::BadRequest>;
 
 /// Returns the error for a message that is longer than messages of its type may be. The error states the maximum
 /// lengths.
@@ -21,6 +21,6 @@ Error messageTooLong(const Options& options);
 
 /// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
 /// message may be long. `text` and `options` must outlive the job.
-std::function<Parsed(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options);
+std::function<ParseResult(std::size_t worker)> parseLongMessageJob(std::string_view text, const Options& options);
 
 }  // namespace oval4d::net

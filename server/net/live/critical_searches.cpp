@@ -20,7 +20,7 @@ std::shared_ptr<CriticalSearchHandle> CriticalSearches::add(const std::shared_pt
 
 void CriticalSearches::stop(const std::shared_ptr<Peer>& by) {
     for (const auto& search : running()) {
-        if (search->isBy(by)) search->stop();
+        if (search->isRequestedBy(by)) search->stop();
     }
 }
 

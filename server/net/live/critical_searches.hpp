@@ -15,10 +15,10 @@ namespace oval4d::net {
 class CriticalSearchHandle {
   public:
     /// `by`: the connection that requested the search; null if no connection did (LiveSession::apply()). `workersStop`:
-    /// the stop token of the workers; the search also stops if a stop of the workers is requested.
+    /// the stop token of the workers; the search stops, too, when the workers are stopped.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
-    bool isBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
+    bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
     /// Returns the arguments that determine the result of the search.
     const session::CriticalArguments& arguments() const { return arguments_; }
     std::stop_token stopToken() const { return stop_.get_token(); }

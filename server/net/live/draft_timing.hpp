@@ -18,20 +18,20 @@ class DraftTiming {
     explicit DraftTiming(Clock::time_point opened) : changed_(opened) {}
 
     /// Records that the session has reached a new revision.
-    void change(Clock::time_point now) {
+    void recordChange(Clock::time_point now) {
         isQuick_ = changedBefore_ && now - changed_ < kBurst;
         changedBefore_ = true;
         changed_ = now;
     }
-    /// Begins a period of quick changes, even if the last change was not quick. This period ends as any other does.
+    /// Begins a period of quick changes, even if the last change was not quick.
     void begin() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has rested for kRest.
-    void rest(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
+    void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
 
     bool isQuick() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point changed() const { return changed_; }
-    /// Returns the time from which rest() ends a period of quick changes, if the session does not change before.
+    /// Returns the time from which endIfRested() ends a period of quick changes, if the session does not change before.
     Clock::time_point restEnds() const { return changed_ + kRest; }
 
   private:

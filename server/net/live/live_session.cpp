@@ -43,8 +43,8 @@ Message textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
     return textMessage(wire::answerMessage(answer, id));
 }
 
-/// The completion handler of a session's coroutine. It keeps the session alive until the coroutine has ended.
-struct KeepAlive {
+/// The completion handler of a coroutine, which keeps the session alive until the coroutine has ended.
+struct KeepSessionAlive {
     std::shared_ptr<LiveSession> session;
     void operator()(const std::exception_ptr& /*failure*/) const {}
 };
@@ -82,8 +82,8 @@ asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Req
     return asio::co_spawn(strand_, executeOnStrand(std::move(peer), std::move(request)), asio::use_awaitable);
 }
 
-asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::apply(AddressAccountPtr client,
-                                                                                session::Command command) {
+asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::apply(AddressAccountPtr client,
+                                                                                      session::Command command) {
     return asio::co_spawn(strand_, applyOnStrand(std::move(client), std::move(command)), asio::use_awaitable);
 }
 
@@ -190,7 +190,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*
 
 template <>
 asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Command command, RequestId id) {
-    const auto applied = co_await perform(peer->client(), peer, command, id.has_value());
+    const auto applied = co_await applyCommand(peer->client(), peer, command, id.has_value());
     if (!applied) {
         sendError(*peer, services_.metrics, applied.error(), id);
         co_return;
@@ -200,10 +200,10 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Comm
     streams_->update();
 }
 
-asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyOnStrand(AddressAccountPtr by,
-                                                                                        session::Command command) {
-    const auto applied = co_await perform(std::move(by), nullptr, command, true);
-    if (applied && !applied->owned) co_return Result<Applied>(kInternalError);
+asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::applyOnStrand(
+    AddressAccountPtr by, session::Command command) {
+    const auto applied = co_await applyCommand(std::move(by), nullptr, command, true);
+    if (applied && !applied->owned) co_return Result<CommandResult>(kInternalError);
     streams_->update();
     co_return applied;
 }
@@ -219,8 +219,10 @@ std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
 /// clients. If several servers share the store and `awaitStore` is true, this function returns only when the result is
 /// in the store, because a command must not be acknowledged earlier.
-asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
-                                                                   const session::Command& command, bool awaitStore) {
+asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(AddressAccountPtr by,
+                                                                              std::shared_ptr<Peer> peer,
+                                                                              const session::Command& command,
+                                                                              bool awaitStore) {
     const auto loader = makeLoader();
     Result<std::monostate> done = kInternalError;
     std::uint64_t before = 0;
@@ -237,8 +239,8 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
             std::shared_ptr<CriticalSearchHandle> search;
             if (loader->isSearchPending()) {
                 search = registerSearch(peer);
-                // Without this call, the connection would read nothing for some time, because the client's next message
-                // waits for this command; it would notice too late that the client has left.
+                // Without this call, the connection would not read for some time while this command runs, and would
+                // notice too late that the client has left.
                 if (peer) peer->watchWhileExecuting();
             }
             if (auto refused = co_await completePending(by, loader, std::move(search))) {
@@ -254,13 +256,14 @@ asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(AddressAccoun
         done = kInternalError;
     }
     if (!done) co_return done.error();
-    Applied applied{revision(), loader->warnings(), true};
+    CommandResult applied{revision(), loader->warnings(), true};
     // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(Clock::now());
     searches_.stopOthers(session_.current);
-    // If a field is larger than memory, its draft comes much sooner than its first complete picture.
+    // Begin a new field that is larger than memory with a draft, because its first picture of full quality takes much
+    // longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) streams_->beginDrafts();
     scheduleSave();
@@ -284,8 +287,9 @@ std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::sha
     return searches_.add(peer, session_.current, services_.exportWorkers.stopToken());
 }
 
-/// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it; `search` is then
-/// its registration, otherwise null. Returns an error if there is no room for the result, else an empty optional.
+/// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it. `search`: the
+/// registration of the pending search; null if no search is pending. Returns an error if there is no room for the
+/// result, else an empty optional.
 asio::awaitable<std::optional<Error>> LiveSession::completePending(AddressAccountPtr by,
                                                                    std::shared_ptr<session::ObjectLoader> loader,
                                                                    std::shared_ptr<CriticalSearchHandle> search) {
@@ -346,8 +350,8 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
             co_await answerWithFile(peer, get.file, id);
             break;
         case wire::GetTarget::critical:
-            // The search may take long: the client's further messages do not wait for this answer.
-            asio::co_spawn(strand_, answerWithCritical(peer, id), KeepAlive{shared_from_this()});
+            // The search may take long, so the client's further messages do not wait for this answer.
+            asio::co_spawn(strand_, answerWithCritical(peer, id), KeepSessionAlive{shared_from_this()});
             break;
     }
 }
@@ -452,7 +456,7 @@ std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const Stre
     };
 }
 
-// The last function, because the specializations of run() must be declared before it.
+// This function is last in the file, because the specializations of run() must be declared before it.
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
     co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);

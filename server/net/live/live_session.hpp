@@ -28,16 +28,16 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value, applies commands, answers requests, and saves the session. Every
-/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. The
-/// data is used only on the session's strand. Public functions may be called from any thread.
+/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. Its
+/// members are used only on the session's strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
     /// Returns a session in use. `client`: the client that opened the session; the session's memory counts against this
-    /// client's byte account. `value`: the session, new or read from the store. `fence`: with which it was created or
-    /// fetched.
+    /// client's byte account. `value`: the session, new or read from the store. `fence`: the fence with which the
+    /// session was created in the store or fetched from it (see store::Fence).
     static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
                                                store::SessionCredentials credentials, store::Fence fence,
                                                AddressAccountPtr client, session::Session value);
@@ -51,20 +51,22 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// and a picture follow. If another server has taken over the session, closes the client's connection instead.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
-    /// Executes a request of a client that was added with welcome(), and returns once the request is answered; if it
-    /// asks for critical values of w, returns at once, and the answer follows.
+    /// Executes a request of a client that was added with welcome(), and returns when the request is answered. However,
+    /// if the request asks for critical values of w, returns at once and answers later.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
     /// The result of a command.
-    struct Applied {
+    struct CommandResult {
         std::uint64_t revision = 0;
         std::vector<std::string> warnings;  ///< about the file that was loaded
         bool owned = true;                  ///< false if another server has taken over the session in the meantime
     };
     /// Applies a command for a client that need not be connected to the session. Connected clients see the change.
     /// Errors: those of session::apply(); `too_many` if a limit on bytes or jobs is reached; `internal` if another
-    /// server has taken over the session. The awaited optional is never empty.
-    boost::asio::awaitable<std::optional<Result<Applied>>> apply(AddressAccountPtr client, session::Command command);
+    /// server has taken over the session. The awaited optional is never empty; it is needed because Asio requires a
+    /// default-constructible result.
+    boost::asio::awaitable<std::optional<Result<CommandResult>>> apply(AddressAccountPtr client,
+                                                                       session::Command command);
 
     /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
     /// the session's strand. `left` must return whether the session has no clients left. If `left` returns true, this
@@ -106,10 +108,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
-    boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(AddressAccountPtr by,
-                                                                         session::Command command);
-    boost::asio::awaitable<Result<Applied>> perform(AddressAccountPtr by, std::shared_ptr<Peer> peer,
-                                                    const session::Command& command, bool awaitStore);
+    boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(AddressAccountPtr by,
+                                                                               session::Command command);
+    boost::asio::awaitable<Result<CommandResult>> applyCommand(AddressAccountPtr by, std::shared_ptr<Peer> peer,
+                                                               const session::Command& command, bool awaitStore);
     std::shared_ptr<session::ObjectLoader> makeLoader() const;
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
                                                                  std::shared_ptr<session::ObjectLoader> loader,
@@ -123,7 +125,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::uint64_t revision() const { return session_.revision; }
 
     // Constant after construction.
-    const Services services_;  // declared first: other members are initialized from it
+    const Services services_;  // declared first, because other members are initialized from it
     store::WriteBehindStore& writeBehind_;
     const store::SessionCredentials credentials_;
     const store::Fence fence_;

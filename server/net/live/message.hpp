@@ -1,5 +1,5 @@
 #pragma once
-// The messages of a WebSocket.
+// Messages from the server to clients over WebSockets.
 
 #include <string>
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace oval4d::net {
 
-/// A WebSocket message.
+/// A message to send over a WebSocket.
 struct Message {
     SharedBytes bytes;
     bool binary = false;  ///< whether this is a binary message; otherwise it is a text message

@@ -15,7 +15,7 @@ namespace oval4d::net {
 class PictureJobs {
   public:
     /// A picture that has been drawn and is being encoded.
-    struct Encoding {
+    struct PictureBeingEncoded {
         std::uint64_t job = 0, revision = 0;
         slicing::Quality quality = slicing::Quality::full;
         StreamKey streamKey;
@@ -23,29 +23,30 @@ class PictureJobs {
 
     /// Returns whether a job is queued or being drawn.
     bool isDrawing() const { return drawing_ != 0; }
-    /// Returns the number of the job that is queued or being drawn, or else that of the next one. The first is 1.
+    /// Returns the number of the job that is queued or being drawn; if there is none, the number of the next job. Jobs
+    /// are numbered from 1.
     std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
     /// Records that the job with the number job() was queued. The caller must ensure that no other job is queued or
     /// being drawn.
     void recordQueued() { drawing_ = ++jobs_; }
     /// Records that the last picture of a job has been drawn and is being encoded.
-    void recordDrawn(const Encoding& picture) {
+    void recordDrawn(const PictureBeingEncoded& picture) {
         if (drawing_ == picture.job) drawing_ = 0;
         encoding_.push_back(picture);
     }
     /// Records that a job is done.
     void recordDone(std::uint64_t job) {
         if (drawing_ == job) drawing_ = 0;
-        std::erase_if(encoding_, [&](const Encoding& each) { return each.job == job; });
+        std::erase_if(encoding_, [&](const PictureBeingEncoded& each) { return each.job == job; });
     }
 
     /// Returns the number of pictures for this key that are being encoded.
     std::size_t countEncoding(const StreamKey& key) const {
-        return static_cast<std::size_t>(std::ranges::count(encoding_, key, &Encoding::streamKey));
+        return static_cast<std::size_t>(std::ranges::count(encoding_, key, &PictureBeingEncoded::streamKey));
     }
     /// Returns whether a picture of this revision for this key, of at least this quality, is being encoded.
     bool isEncoding(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
-        return std::ranges::any_of(encoding_, [&](const Encoding& each) {
+        return std::ranges::any_of(encoding_, [&](const PictureBeingEncoded& each) {
             return each.streamKey == key && each.revision == revision && each.quality >= atLeast;
         });
     }
@@ -53,7 +54,7 @@ class PictureJobs {
   private:
     std::uint64_t jobs_ = 0;     // the number of jobs so far
     std::uint64_t drawing_ = 0;  // the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<Encoding> encoding_;
+    std::vector<PictureBeingEncoded> encoding_;
 };
 
 }  // namespace oval4d::net

@@ -104,13 +104,13 @@ slicing::Quality PictureStreams::wantedQuality() const {
     return session_.current.isMoving() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the time when the session has rested. Until the timer expires,
-/// wantedQuality() remains `draft`: otherwise a busy server, which comes to the draft only after that time, would skip
-/// the draft.
+/// Schedules pictures of full quality for the time when the period of quick changes ends (DraftTiming::restEnds()).
+/// Until the timer expires, wantedQuality() remains `draft`, so that even a server that is too busy to make the draft
+/// before that time does not skip it.
 void PictureStreams::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
-        streams.draftTiming_.rest(Clock::now());
+        streams.draftTiming_.endIfRested(Clock::now());
         streams.update();
     });
 }
@@ -135,7 +135,7 @@ void PictureStreams::advanceMotion() {
     const std::uint64_t before = revision();
     session::advance(session_, Seconds(*passed).count());
     if (revision() == before) return;  // the object turns by the angle 0: nothing changes until the next command
-    draftTiming_.change(now);
+    draftTiming_.recordChange(now);
     moved_();
 }
 
@@ -214,14 +214,14 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
     });
 }
 
-/// Called on a worker when the last picture of a job is drawn, but not yet encoded. From then on, the next job may be
-/// queued.
+/// Called on a worker when the last picture of a job is drawn, but not yet encoded. The next job may be queued as soon
+/// as this function has been called.
 void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
-    asio::post(strand_,
-               [self = shared_from_this(), drawn = PictureJobs::Encoding{job.number, job.revision, job.quality, key}] {
-                   self->inProgress_.recordDrawn(drawn);
-                   self->update();
-               });
+    asio::post(strand_, [self = shared_from_this(),
+                         drawn = PictureJobs::PictureBeingEncoded{job.number, job.revision, job.quality, key}] {
+        self->inProgress_.recordDrawn(drawn);
+        self->update();
+    });
 }
 
 /// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still
@@ -301,8 +301,8 @@ void PictureStreams::sendState(Subscriber& subscriber) {
     });
 }
 
-/// Starts a timer that calls expirePictures(). This function counts as shown the pictures that clients have not
-/// acknowledged in time.
+/// Starts a timer that calls expirePictures(), which counts pictures as shown that clients have not acknowledged in
+/// time.
 void PictureStreams::schedulePacing() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {

@@ -29,11 +29,11 @@
 
 namespace oval4d::net {
 
-/// The clients of a session, and what each of them is sent. Each client is sent pictures of the newest state as fast as
-/// workers make them and the client shows them. To this end, a session has at most one picture job that is queued or
-/// being drawn. A newer state replaces the state of a queued job. While one picture is encoded, the next one may be
-/// drawn. The picture of a revision is made once and shared by all clients with the same StreamKey. While the object
-/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
+/// Sends states and pictures to the clients of a session. Each client is sent pictures of the newest state as fast as
+/// workers make them and the client shows them. A session has at most one picture job that is queued or being drawn. A
+/// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
+/// of a revision is made once and shared by all clients with the same StreamKey. While the object moves, it makes a
+/// step whenever a client can receive the next picture. Every function runs on the session's strand.
 class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
@@ -63,7 +63,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     void closeAll(std::uint16_t code, const std::string& reason);
 
     /// Notes that the session has reached a new revision.
-    void sessionChanged(Clock::time_point now) { draftTiming_.change(now); }
+    void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
     /// Makes the next pictures of a field drafts, as if the session changed in quick succession.
     void beginDrafts() { draftTiming_.begin(); }
     /// Notes that a client shows the picture of this revision, and sends the next one.
@@ -133,7 +133,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     void onDrawn(const PictureJob& job, const StreamKey& key);
 
     // Constant after construction.
-    const Services services_;  // declared first: other members are initialized from it
+    const Services services_;  // declared first, because other members are initialized from it
     const Strand strand_;
     const std::string sessionId_;
     std::function<void()> moved_;

@@ -154,7 +154,8 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
                            WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
 }
 
-/// Runs on the thread of the write-behind store. A worker decodes the record, because this thread must not be blocked.
+/// Runs on the thread of the write-behind store. A worker decodes the record, because decoding would block the thread
+/// of the write-behind store.
 void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
@@ -205,9 +206,9 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     }
 }
 
-/// Passes the session, or the error, to the client that asked first; an error, too, if another server has taken over
-/// the session in the meantime, because it may have changed it. Then calls join() again for the other waiting
-/// clients. `fence`: with which the session was fetched, if there is no error.
+/// Passes the session, or the error, to the client that asked first. If another server has taken over the session in
+/// the meantime, passes kTakenOver, because that server may have changed the session. Then calls join() again for the
+/// other waiting clients. `fence`: the fence with which the session was fetched; 0 if `value` is an error.
 void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
@@ -216,8 +217,8 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         const std::lock_guard lock(mutex_);
         others = std::move(opening_[id]);
         opening_.erase(id);
-        // Another server may have claimed the session while its record was decoded. If one claims it from now on,
-        // dropTakenSession(), which locks mutex_, finds it in live_.
+        // Another server may have claimed the session while its record was decoded. If a server claims the session from
+        // now on, dropTakenSession(), which locks mutex_, finds it in live_.
         if (value && !writeBehind_.owns(id, fence)) value = kTakenOver;
         if (value) session = activate(pending.credentials, fence, pending.client, std::move(*value));
     }

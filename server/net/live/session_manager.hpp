@@ -30,7 +30,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// `internal` if the store does not answer or another server takes over the session.
     void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
     /// Removes the client `peer` from a session, and closes the session if that was its last client. `peer`: null if
-    /// the client was never welcomed, as for an upload. Must be called once for each successful create() and join().
+    /// the client was never welcomed, as for an upload. Must be called exactly once for each successful call of
+    /// create() or join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed

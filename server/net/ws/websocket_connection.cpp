@@ -57,8 +57,9 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     co_await readLoop();
     services_.metrics.webSockets.Decrement();
     ended_ = true;
-    // A client that sends no more may not read either. Closing the socket ends a pending write; its handler releases
-    // the message that is being written, from whose bytes the socket sends until then.
+    // A client that no longer sends may no longer read, so a pending write might never end. Closing the socket ends a
+    // pending write; its handler releases the message that is being written, from whose bytes the socket sends until
+    // then.
     beast::get_lowest_layer(stream_).close();
     if (!writing_) outbox_.clear();
     deadline_.cancel();
@@ -127,8 +128,8 @@ void WebSocketConnection::startHandling(Incoming incoming) {
 }
 
 /// Reads the next message. Waits until the current one has been executed, so that a client that closes the connection
-/// right after a request still receives the answer. In a session, does not wait longer than until the client's pong may
-/// be due, or until watchWhileExecuting() is called, as it is for long searches.
+/// right after a request still receives the answer. Once the client has joined a session, waits at most until its pong
+/// may be due, or until watchWhileExecuting() is called, as it is for long searches.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -153,7 +154,7 @@ asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     } else if (incoming.refusal) {
         sendError(*incoming.refusal, incoming.id);
     } else {
-        co_await handle({static_cast<const char*>(message_.cdata().data()), message_.size()});
+        co_await parseAndExecute({static_cast<const char*>(message_.cdata().data()), message_.size()});
     }
 }
 
@@ -212,7 +213,7 @@ asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed
     }
 }
 
-asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
+asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text) {
     RequestId id;
     try {
         if (const auto verdict = rate_.take(RateLimit::Clock::now()); verdict != RateLimit::Verdict::allowed) {
@@ -240,12 +241,13 @@ asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
 }
 
 /// Parses a message. If it has more than Options::maxRequestBytes bytes, a worker parses it.
-asio::awaitable<Parsed> WebSocketConnection::parse(std::string_view text) {
+asio::awaitable<ParseResult> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
     auto work = parseLongMessageJob(text, services_.options);
-    co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->pictureLane(),
-                                         Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
+    co_return co_await runOnPool<ParseResult>(services_.pictureWorkers.workers(), std::move(work),
+                                              client_->pictureLane(),
+                                              Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
 
 asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {

@@ -83,7 +83,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     void checkLongMessage(Incoming& incoming);
     boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
     boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
-    boost::asio::awaitable<void> handle(std::string_view text);
+    boost::asio::awaitable<void> parseAndExecute(std::string_view text);
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);
     boost::asio::awaitable<void> handleHello(wire::Hello hello, RequestId id);
@@ -105,17 +105,19 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;
     std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
-    bool joining_ = false;                  // whether the session is being opened that a hello requests
+    bool joining_ = false;                  // whether the session that a hello requests is being opened
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed
-    // Whether message_ is being handled; whether watchWhileExecuting() was called in the meantime.
+    // executing_: whether message_ is being handled. watching_: whether watchWhileExecuting() was called while message_
+    // is being handled.
     bool executing_ = false, watching_ = false;
 
     std::deque<Outgoing> outbox_;
     std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
     bool writing_ = false, ended_ = false;
-    std::uint64_t writes_ = 0;  // number of completed writes; tells deadline_ whether its write has completed
+    std::uint64_t writes_ =
+        0;  // number of completed writes, by which the handler of deadline_ tells whether its write has completed
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
     std::optional<TransferDeadline> transferDeadline_;  // gives the timeouts of the message that is being written
     // The deadlines of the current write and of the hello, and two timers that are canceled to wake waiting coroutines:

@@ -49,37 +49,37 @@ TEST(MotionTiming, NothingJumpsAfterAPause) {
 TEST(DraftTiming, OneChangeIsNotQuick) {
     DraftTiming timing(kOpened);
     EXPECT_FALSE(timing.isQuick());
-    timing.change(kOpened + 1ms);
+    timing.recordChange(kOpened + 1ms);
     EXPECT_FALSE(timing.isQuick());
     EXPECT_EQ(timing.changed(), kOpened + 1ms);
 }
 
 TEST(DraftTiming, ChangesThatFollowEachOtherAreQuickUntilTheSessionRests) {
     DraftTiming timing(kOpened);
-    timing.change(kOpened);
-    timing.change(kOpened + 299ms);
+    timing.recordChange(kOpened);
+    timing.recordChange(kOpened + 299ms);
     EXPECT_TRUE(timing.isQuick());
     EXPECT_EQ(timing.restEnds(), kOpened + 499ms);
-    timing.rest(kOpened + 498ms);
+    timing.endIfRested(kOpened + 498ms);
     EXPECT_TRUE(timing.isQuick());
-    timing.rest(kOpened + 499ms);
+    timing.endIfRested(kOpened + 499ms);
     EXPECT_FALSE(timing.isQuick());
 }
 
 TEST(DraftTiming, ALaterChangeIsNotQuick) {
     DraftTiming timing(kOpened);
-    timing.change(kOpened);
-    timing.change(kOpened + 100ms);
-    timing.change(kOpened + 400ms);
+    timing.recordChange(kOpened);
+    timing.recordChange(kOpened + 100ms);
+    timing.recordChange(kOpened + 400ms);
     EXPECT_FALSE(timing.isQuick());
 }
 
 TEST(DraftTiming, APeriodOfQuickChangesMayBegin) {
     DraftTiming timing(kOpened);
-    timing.change(kOpened);
+    timing.recordChange(kOpened);
     timing.begin();
     EXPECT_TRUE(timing.isQuick());
-    timing.rest(kOpened + 200ms);
+    timing.endIfRested(kOpened + 200ms);
     EXPECT_FALSE(timing.isQuick());
 }
 

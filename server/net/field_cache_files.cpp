@@ -1,4 +1,4 @@
-#include "net/sample_files.hpp"
+#include "net/field_cache_files.hpp"
 
 #include <fcntl.h>
 #include <sys/statvfs.h>
@@ -29,10 +29,10 @@ int allocate(int file, std::size_t bytes) {
 
 }  // namespace
 
-SampleFiles::SampleFiles(const std::string& folder, std::size_t bytes)
+FieldCacheFiles::FieldCacheFiles(const std::string& folder, std::size_t bytes)
     : folder_(folder.empty() ? "/var/tmp" : folder), maxBytes_(bytes) {}
 
-Result<SampleFiles::FilePtr> SampleFiles::make(std::size_t bytes) {
+Result<FieldCacheFiles::FilePtr> FieldCacheFiles::make(std::size_t bytes) {
     if (bytes > maxBytes_) {
         return Error{ErrorCode::too_large, "the samples of this field take " + std::to_string(bytes) +
                                                " bytes on the disk, but the server has " + std::to_string(maxBytes_) +

@@ -14,11 +14,11 @@ namespace oval4d::net {
 
 /// The field cache on the disk (--field-cache): unnamed files, with a limit on their total size. The system deletes
 /// each file when the last reference to it is gone, at the latest when the server ends, even by a crash. Thread-safe.
-class SampleFiles {
+class FieldCacheFiles {
   public:
     /// `folder`: empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes`: the maximum total size
     /// of the files.
-    SampleFiles(const std::string& folder, std::size_t bytes);
+    FieldCacheFiles(const std::string& folder, std::size_t bytes);
 
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
