@@ -7,9 +7,9 @@
 
 namespace oval4d::store {
 
-/// Exponential backoff with jitter: each pause is a random part, from a half to the whole, of a time limit. The limit
-/// is 0.1 s at first, and doubles after each failure, up to 5 s. Because of the jitter, the servers that share a store
-/// do not all try at the same time.
+/// Exponential backoff with jitter: each pause is a random time from half of a limit to the whole limit. The limit is
+/// 0.1 s at first, and doubles after each failure, up to 5 s. Because of the randomness, the servers that share a store
+/// do not all retry at the same time.
 class Backoff {
   public:
     using Milliseconds = std::chrono::milliseconds;
@@ -27,7 +27,7 @@ class Backoff {
     void reset() { failures_ = 0; }
 
   private:
-    int failures_ = 0;  // since the last reset
+    int failures_ = 0;  // number of calls of next() since the last reset()
     std::minstd_rand random_;
 };
 

@@ -83,7 +83,8 @@ std::optional<std::string> CachedSessions::takeQueued() {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
         CachedSession* const cached = find(id);
-        // The session was removed after it had been queued, and may have been added again since, without changes.
+        // Skip a session that was removed after it had been queued. It may have been added again since, without
+        // changes.
         if (cached == nullptr || !cached->queued) continue;
         cached->queued = false;
         cached->inFlight = true;

@@ -17,32 +17,32 @@
 
 namespace oval4d::store {
 
-/// A callback for the end of a save. Its argument is `true` if the changes are stored, or if they wait in memory
-/// because the store is unavailable; `false` if they will not be stored.
-using Written = std::function<void(bool)>;
+/// A callback that is called when changes have been saved. Its argument is `true` if the changes are stored, or if they
+/// wait in memory because the store is unavailable; `false` if the changes will never be stored.
+using SaveCallback = std::function<void(bool)>;
 
 /// Changes of a session that are not yet in the store. `head`: the session if its current state must be written, else
 /// null. `whole`: the session if it must be written as a whole, else null.
 struct PendingChanges {
     std::shared_ptr<const session::Session> head, whole;
-    std::vector<Written> waiting;  ///< callbacks to call when these changes are written
+    std::vector<SaveCallback> waiting;  ///< callbacks to call when these changes are written
 
-    /// Adds older changes: takes `head` and `whole` from them only where this object has none, and adds their
-    /// callbacks.
+    /// Adds older changes: takes `head` and `whole` from `older` only where this object has none, and adds the
+    /// callbacks of `older`.
     void addOlder(PendingChanges older);
 };
 
 /// What a write-behind store knows of a session in memory: its credentials, its changes that are not yet in the store,
-/// and how far it has been written.
+/// and whether it is queued, being written or closed.
 struct CachedSession {
     using Clock = std::chrono::steady_clock;
 
     SessionCredentials credentials;
     Fence fence = kFirstFence;
     PendingChanges pending;
-    bool changed = false;        ///< whether the session has changes that will soon be pending
+    bool changed = false;        ///< whether the session has changes that are not in `pending` yet, but soon will be
     bool everSaved = false;      ///< whether the session has ever been in the store
-    bool queued = false;         ///< whether the session is in the queue
+    bool queued = false;         ///< whether the session is in the queue of CachedSessions
     bool inFlight = false;       ///< whether the session is being written
     bool closed = false;         ///< whether no client has the session open; a closed session is dropped once written
     Clock::time_point closedAt;  ///< the time at which the session was closed, if `closed`

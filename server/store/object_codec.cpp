@@ -106,7 +106,7 @@ json encoded(const fields::FileSource& source) {
                         box ? encoded(std::vector{box->min, box->max}) : json()});
 }
 
-// Reads any box of finite numbers; the functions that make fields check how far a box may reach.
+// Reads any box of finite numbers. The functions that make fields from the box check that its bounds are not too large.
 fields::Box boxIn(const json& value) {
     const std::vector<glm::dvec4> corners = verticesIn(value, std::numeric_limits<double>::max());
     if (corners.size() != 2) throwUnreadable("a box does not have two corners");

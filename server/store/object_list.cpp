@@ -60,16 +60,17 @@ const slicing::Object& ObjectListDecoder::at(const json& index) const {
 slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
     if (frame == geometry::ReferenceFrame{}) return source;
     const auto known = std::ranges::find_if(
-        images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
-    if (known != images_.end()) return known->image;
-    // An image counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its share of
-    // the other elements: a record may list few vertices, but many 2-faces.
+        transformed_, [&](const TransformedObject& image) { return image.source == source && image.frame == frame; });
+    if (known != transformed_.end()) return known->image;
+    // A transformed object counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its
+    // share of the other elements, because a record may list few vertices, but many 2-faces. The samples of an array do
+    // not count, because all transformed objects share them.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
     vertexBudget_ -= vertices;
-    images_.push_back({source, frame, slicing::transformedTo(source, frame)});
-    return images_.back().image;
+    transformed_.push_back({source, frame, slicing::transformedTo(source, frame)});
+    return transformed_.back().image;
 }
 
 /// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from

@@ -54,7 +54,7 @@ class ObjectListDecoder {
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
-    struct Image {
+    struct TransformedObject {
         slicing::Object source;
         geometry::ReferenceFrame frame;
         slicing::Object image;
@@ -65,7 +65,7 @@ class ObjectListDecoder {
     // large objects.
     std::size_t vertexBudget_;
     std::vector<slicing::Object> objects_;
-    std::vector<Image> images_;
+    std::vector<TransformedObject> transformed_;
 };
 
 }  // namespace oval4d::store

@@ -36,8 +36,8 @@ return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 // milliseconds, the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the
 // head, the whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the
 // key and the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers
-// have equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head
-// alone does not restart the expiry period, because a save of the whole session follows within a second.
+// can have equal fences only if Redis has lost writes; in that case, only the save of the owner is accepted. A save of
+// the head alone does not restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -296,7 +296,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // if true, also delete tokens in plain text
+    const bool hashed = !alsoStoresPlainTokens();  // if true, only hashes may stay: also delete tokens in plain text
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

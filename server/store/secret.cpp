@@ -13,12 +13,12 @@ namespace oval4d::store {
 namespace {
 
 /// Initializes libsodium, which then uses its fastest implementation for this processor.
-void makeReady() {
+void initializeLibsodium() {
     if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be used");
 }
 
 std::vector<std::uint8_t> randomBytes(std::size_t count) {
-    makeReady();
+    initializeLibsodium();
     std::vector<std::uint8_t> bytes(count);
     randombytes_buf(bytes.data(), bytes.size());
     return bytes;
@@ -42,7 +42,7 @@ std::string randomName(std::size_t bytes) {
 }
 
 std::string hashToken(std::string_view token) {
-    makeReady();
+    initializeLibsodium();
     std::array<unsigned char, crypto_generichash_BYTES> hash{};
     crypto_generichash(hash.data(), hash.size(), bytesIn(token), token.size(), nullptr, 0);
     std::string text(2 * hash.size() + 1, '\0');  // with the terminating zero
@@ -52,7 +52,7 @@ std::string hashToken(std::string_view token) {
 }
 
 std::string recordDigest(std::span<const std::string_view> parts) {
-    makeReady();
+    initializeLibsodium();
     crypto_generichash_state state{};
     std::string digest(crypto_generichash_BYTES_MIN, '\0');
     crypto_generichash_init(&state, nullptr, 0, digest.size());

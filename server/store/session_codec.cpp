@@ -57,8 +57,8 @@ std::string encodeWhole(const Session& session, std::size_t maxUndo, const Objec
                        std::move(own), pendingKey});
 }
 
-Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
-               polytopes::PolytopeCache& cache) {
+Session decodeSession(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
+                      polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
         const json value = parseRecord(whole);
         ObjectListDecoder objects(value.at(2), objectOf, cache);

@@ -29,7 +29,7 @@ std::string encodeWhole(const session::Session& session, std::size_t maxUndo, co
 /// the state in `head` becomes the current one, the state in `whole` becomes the latest undo step, and the redo steps
 /// are dropped. Otherwise, `head` is ignored; it may be empty. Objects that can be rebuilt from their names come from
 /// `cache`, all others from `objectOf`. Throws UnreadableRecord if a record is invalid or an object is missing.
-session::Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
-                        polytopes::PolytopeCache& cache);
+session::Session decodeSession(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
+                               polytopes::PolytopeCache& cache);
 
 }  // namespace oval4d::store

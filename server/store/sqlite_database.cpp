@@ -121,7 +121,7 @@ Statement& Statement::text(std::string_view value) {
 }
 
 Statement& Statement::blob(std::string_view value) {
-    // SQLite would bind a null pointer as NULL, not as an empty blob.
+    // For an empty view, data() may be a null pointer, which SQLite would bind as NULL, not as an empty blob.
     return bound(
         sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
 }

@@ -36,7 +36,8 @@ class Database {
     void run(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
     std::int64_t number(const char* sql);
-    /// Keeps the write-ahead log file when the connection closes. Call this before renaming a damaged file and its log.
+    /// Keeps the write-ahead log file when the connection closes. Must be called before a damaged file and its log are
+    /// renamed.
     void keepWriteAheadLog();
 
   private:

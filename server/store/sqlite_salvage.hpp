@@ -39,7 +39,7 @@ inline constexpr std::size_t kApplicationIdAt = 68;
 struct SalvageResult {
     std::size_t saved = 0;       ///< number of sessions copied
     std::set<std::string> lost;  ///< ids of sessions whose record is damaged
-    bool complete = true;        ///< false if there may be further sessions whose ids were not found
+    bool complete = true;        ///< whether all ids were found; if false, there may be further sessions
 };
 
 /// Copies every intact session and its objects from a damaged file of schema version 1 or 2 into `to`, which must have

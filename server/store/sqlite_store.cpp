@@ -21,11 +21,11 @@ constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a 
 
 // Returns the maximum number of pages of the database file: three quarters of the quota. The rest is for the
 // write-ahead log, which may contain the pages that trigger a checkpoint and, in addition, those of one transaction.
-std::int64_t pagesOf(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
+std::int64_t maxPagesFor(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
 /// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
 /// and long values have pages of their own.
-std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
+std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
     std::size_t pages = 8;  // interior pages of tables and indices
     std::size_t small = 0;
     for (const RecordUpdate& update : updates) {
@@ -93,7 +93,7 @@ void renameIfExists(const std::string& from, const std::string& to) {
 }  // namespace
 
 SqliteStore::SqliteStore(std::string path, std::size_t quota, Now<Clock> now)
-    : path_(std::move(path)), maxPages_(pagesOf(quota)), now_(std::move(now)) {
+    : path_(std::move(path)), maxPages_(maxPagesFor(quota)), now_(std::move(now)) {
     open();
     spdlog::info("store opened store={} sessions={}", name(), size_);
 }
@@ -227,13 +227,14 @@ void SqliteStore::repair(const std::string& why) {
     renameIfExists(path_ + "-wal", aside + "-wal");
     renameIfExists(path_, aside);
     renameIfExists(fresh, path_);
-    database_.reset();  // releases the lock on the damaged file only after the renames
+    database_.reset();  // the lock on the damaged file is held until the renames are done
     spdlog::error("store salvaged store={} saved={} lost={}{} lost_sessions={} set_aside={}", name(), salvaged.saved,
                   salvaged.complete ? "" : "at least ", salvaged.lost.size(), listed(salvaged.lost), aside);
     damage_.clear();
     database_ = std::make_unique<Database>(path_);
     try {
-        // A server that started at the same time may have locked the new file; it gives up when it notices the renames.
+        // Another server that started at the same time may have locked the new file. That server gives up when it
+        // notices the renames, so wait for the lock.
         database_->run("PRAGMA busy_timeout = 30000");
         setUp();
         database_->run("PRAGMA busy_timeout = 2000");
@@ -243,8 +244,8 @@ void SqliteStore::repair(const std::string& why) {
     }
 }
 
-/// Logs the sessions whose records do not match their digests. The integrity check of the pages does not detect bit
-/// errors within a record. The damaged records are kept for inspection.
+/// Logs the sessions whose records do not match their digests. check() does not detect these, because the integrity
+/// check of the pages does not detect bit errors within a record. The damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
     Statement statement(
@@ -297,7 +298,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(nowMilliseconds()).text(id).step();
         } catch (const NotWritable&) {
-            // The record can still be read. It does not need the new fence, because no other server uses this file.
+            // The record can still be read. Its fence need not be incremented, because no other server uses this file.
         }
         Statement statement(*database_,
                             "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
@@ -318,7 +319,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
 
 std::vector<SaveResult> SqliteStore::save(std::span<const RecordUpdate> updates) {
     return afterPendingRepair([&] {
-        if (usedPages() + pagesFor(updates) > maxPages_) {
+        if (usedPages() + pagesNeededFor(updates) > maxPages_) {
             throw NotWritable(path_ + ": open sessions use up the quota (--store-quota)");
         }
         std::vector<SaveResult> results;
@@ -374,7 +375,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
 }
 
 std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
-    return afterPendingRepair([&] { return evictSessionsUntilFits(pagesFor(updates), isPinned); });
+    return afterPendingRepair([&] { return evictSessionsUntilFits(pagesNeededFor(updates), isPinned); });
 }
 
 std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {

@@ -42,15 +42,15 @@ struct Record {
     /// The session's objects that cannot be rebuilt from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
     Fence fence = 0;
-    std::string damage;  ///< says which part of the record does not match its digest; empty if it is intact
+    std::string damage;  ///< says which part of the record does not match its digest; empty if the record is intact
 };
 
 /// A change to the record of a session.
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;                                          ///< as in Record; not empty if `whole` is empty
-    std::string whole;                                         ///< empty if unchanged; else `head` is saved in any case
+    std::string head;   ///< as in Record; not empty if `whole` is empty
+    std::string whole;  ///< empty if unchanged; otherwise, even an empty `head` is saved
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore
@@ -142,7 +142,8 @@ class Store {
     virtual std::size_t expire(Milliseconds age) = 0;
 
     /// Updates size(), and returns the sessions that other servers have claimed from this one since the last call. If
-    /// this server has claimed one of them back in the meantime, its fence is that of this server's own claim.
+    /// this server has claimed such a session back in the meantime, LostSession::fence is the fence of this server's
+    /// own claim.
     virtual std::vector<LostSession> pollLostSessions() = 0;
 
     /// Returns the approximate number of stored sessions, as of the last pollLostSessions().

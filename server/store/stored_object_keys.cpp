@@ -43,8 +43,8 @@ std::vector<std::uint64_t> StoredObjectKeys::encode(const std::string& session, 
     return added;
 }
 
-void StoredObjectKeys::saved(const std::string& session, const std::vector<std::uint64_t>& added,
-                             const RecordUpdate& update) {
+void StoredObjectKeys::recordSaved(const std::string& session, const std::vector<std::uint64_t>& added,
+                                   const RecordUpdate& update) {
     ObjectKeyStates& objects = sessions_[session];
     for (const std::uint64_t serial : added) objects[serial].stored = true;
     std::erase_if(objects, [&](const auto& entry) {

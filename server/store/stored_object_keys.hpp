@@ -30,7 +30,7 @@ class StoredObjectKeys {
                                       RecordUpdate& update);
 
     /// Records that the store has saved `update`, which encode() had filled in. `added`: the result of encode().
-    void saved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
+    void recordSaved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
 
     /// These functions record that the store has lost the objects of this session, or of all sessions. The next updates
     /// then contain the objects again.

@@ -48,7 +48,8 @@ void WriteBehindStore::stop(Milliseconds limit) {
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
-    // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
+    // The callbacks may own large objects, so destroy the callbacks before this function returns, but without holding
+    // the lock.
     CachedSessions cached;
     decltype(tasks_) tasks;
     {
@@ -85,7 +86,8 @@ void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     const std::lock_guard lock(mutex_);
     tasks_.emplace_back([this, id, keys = std::move(keys)] {
         const std::lock_guard inner(mutex_);
-        if (cached_.contains(id)) objects_.setStored(id, keys);  // else another server has claimed it since
+        // A session that is no longer in memory has been claimed by another server since it was fetched.
+        if (cached_.contains(id)) objects_.setStored(id, keys);
     });
 }
 
@@ -95,7 +97,7 @@ void WriteBehindStore::noteChange(const std::string& id, Fence fence) {
         cached->changed = true;
 }
 
-void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, Written written) {
+void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, SaveCallback written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
@@ -132,7 +134,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
     if (!evicted.empty())
         spdlog::warn("sessions evicted from memory while the store is unavailable count={}", evicted.size());
     for (const auto& [other, session] : evicted) {
-        for (const Written& written : session.pending.waiting) written(false);
+        for (const SaveCallback& written : session.pending.waiting) written(false);
     }
     wake_.notify_one();
 }
@@ -151,7 +153,7 @@ void WriteBehindStore::remove(const std::string& id) {
                 removals_.insert(id);
             }
             if (!removed) return;
-            for (const Written& written : removed->pending.waiting) written(false);
+            for (const SaveCallback& written : removed->pending.waiting) written(false);
         });
     }
     wake_.notify_one();
@@ -305,8 +307,8 @@ void WriteBehindStore::write() {
     if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeWorked();
 }
 
-/// Saves the updates. If the store is full, evicts closed sessions from it. If an update does not fit even then, its
-/// result is an empty optional and storeFailed() is called; the other updates are saved.
+/// Saves the updates. If the store is full, evicts closed sessions from it. If updates do not fit even then, their
+/// results are empty optionals, and storeFailed() is called; the other updates are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
@@ -334,7 +336,8 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // these were reopened
+        // Do not remove sessions that were reopened in the meantime.
+        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });
         ids.assign(removals_.begin(), removals_.end());
     }
     if (ids.empty()) return;
@@ -351,7 +354,7 @@ void WriteBehindStore::writeRemovals() {
 
 void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
     if (result == SaveResult::saved) {
-        objects_.saved(job.id, job.added, update);
+        objects_.recordSaved(job.id, job.added, update);
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(job.id)) {
             cached->inFlight = false;
@@ -370,13 +373,13 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     } else {
         dropClaimed(job.id, update.fence + 1);
     }
-    for (const Written& written : job.changes.waiting) written(result == SaveResult::saved);
+    for (const SaveCallback& written : job.changes.waiting) written(result == SaveResult::saved);
 }
 
 /// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store is
 /// unavailable, also queues the session and calls the waiting callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(Job& job) {
-    std::vector<Written> released;
+    std::vector<SaveCallback> released;
     {
         const std::lock_guard lock(mutex_);
         CachedSession* const cached = cached_.find(job.id);
@@ -388,7 +391,7 @@ void WriteBehindStore::requeue(Job& job) {
             released = std::exchange(cached->pending.waiting, {});
         }
     }
-    for (const Written& written : released) written(true);
+    for (const SaveCallback& written : released) written(true);
 }
 
 /// Drops a session that another server has claimed with the fence `fence` or a later one, unless this server has
@@ -402,7 +405,7 @@ void WriteBehindStore::dropClaimed(const std::string& id, Fence fence) {
     }
     if (!dropped) return;
     objects_.forget(id);
-    for (const Written& written : dropped->pending.waiting) written(false);
+    for (const SaveCallback& written : dropped->pending.waiting) written(false);
     if (!dropped->closed) listener_.claimed(id);
 }
 
@@ -467,7 +470,8 @@ WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredent
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(credentials.id)) {
             if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
-            if (!cached->pending.whole) return kNoAnswer;  // another client is opening it, or it is being written
+            if (!cached->pending.whole)
+                return kNoAnswer;  // another client is opening the session, or it is being written
             cached->closed = false;
             Fetched found{*cached->pending.whole, {}};
             found.record.fence = cached->fence;

@@ -32,7 +32,8 @@ namespace oval4d::store {
 /// are evicted from it. If the store is unavailable and the closed sessions in memory take more than `Settings::quota`,
 /// some of them are evicted from memory. An open session is never evicted.
 ///
-/// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or during a call on the caller's thread.
+/// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or on the thread that calls a function
+/// of this class.
 class WriteBehindStore {
   public:
     struct Settings {
@@ -91,16 +92,16 @@ class WriteBehindStore {
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
-    /// Makes unsaved() count a session until it is passed to save() or close(): it has changes that will soon be saved.
-    /// Does nothing if this server does not own the session with this fence.
+    /// Records that a session has changes that will soon be saved: unsaved() counts the session until it is passed to
+    /// save() or close(). Does nothing if this server does not own the session with this fence.
     void noteChange(const std::string& id, Fence fence);
 
     /// Queues the whole session for writing, or only its current state (SaveScope::head). `fence`: the fence with which
     /// the caller has created or fetched the session. Calls `written(true)` when the session is stored, or at once if
-    /// the store is unavailable, so that clients need not wait. Calls `written(false)` if the session will not be
-    /// stored, because another server has taken it over, even if this one has fetched it again since, or because it was
-    /// removed or evicted.
-    void save(const std::string& id, Fence fence, session::Session value, SaveScope scope, Written written = {});
+    /// the store is unavailable, so that clients need not wait. Calls `written(false)` if the session will never be
+    /// stored: because it was removed or evicted, or because another server has taken it over, even if this server has
+    /// fetched it again since.
+    void save(const std::string& id, Fence fence, session::Session value, SaveScope scope, SaveCallback written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
     /// written.
@@ -133,7 +134,7 @@ class WriteBehindStore {
         std::vector<std::uint64_t> added;  // ObjectInfo::serial of the objects that this write adds to the store
     };
 
-    // These run on the cache's thread.
+    // The following functions run on the cache's thread.
     void run();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
@@ -173,10 +174,10 @@ class WriteBehindStore {
     std::size_t storedCount_ = 0;              // number of sessions in the store, as of the last poll
     std::size_t neverSaved_ = 0;               // number of sessions that have never been in the store
     std::string lastError_;
-    Clock::time_point retryAt_, pollAt_;  // earliest time of the next write; time of the next poll
+    Clock::time_point retryAt_, pollAt_;  // retryAt_: earliest time of the next write; pollAt_: time of the next poll()
     Clock::time_point readAt_;            // earliest time of the next read
     bool stopping_ = false;
-    Clock::time_point stopAt_;  // if stopping_: the time to end even if changes are pending
+    Clock::time_point stopAt_;  // if `stopping_`: the time at which the thread ends even if changes are pending
 
     // Used only by the cache's thread.
     StoredObjectKeys objects_;

@@ -69,12 +69,12 @@ OVAL4D_FUZZER(record) {
     try {
         const store::ObjectLookup objectOf = [&](const std::string&) { return own; };
         const store::ObjectKeyLookup keyOf = [](const slicing::Object&) { return "key"; };
-        const session::Session session = store::decode(whole, head, objectOf, fuzz::cache());
+        const session::Session session = store::decodeSession(whole, head, objectOf, fuzz::cache());
         requireUsable(session);
         const std::string bytes = store::encodeWhole(session, 1'000'000, keyOf);
-        require(store::decode(bytes, "", objectOf, fuzz::cache()) == session, "a session survives being kept");
+        require(store::decodeSession(bytes, "", objectOf, fuzz::cache()) == session, "a session survives being kept");
         const std::string present = store::encodeHead(session, keyOf);
-        require(store::decode(bytes, present, objectOf, fuzz::cache()) == session,
+        require(store::decodeSession(bytes, present, objectOf, fuzz::cache()) == session,
                 "a head that is no newer changes nothing");
     } catch (const store::UnreadableRecord& fault) {
         require(*fault.what() != 0, "what is unreadable says why");

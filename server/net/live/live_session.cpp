@@ -112,7 +112,7 @@ void LiveSession::disconnectAll() {
     });
 }
 
-void LiveSession::saveNow(store::Written written) {
+void LiveSession::saveNow(store::SaveCallback written) {
     assertOnStrand();
     if (!detached_)
         writeBehind_.save(credentials_.id, fence_, session_, store::WriteBehindStore::SaveScope::whole,

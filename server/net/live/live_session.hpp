@@ -120,7 +120,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void scheduleSave();
     /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If `detached_` is
     /// true, saves nothing and destroys `written` without calling it.
-    void saveNow(store::Written written = {});
+    void saveNow(store::SaveCallback written = {});
 
     std::uint64_t revision() const { return session_.revision; }
 

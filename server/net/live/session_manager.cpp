@@ -186,7 +186,7 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
             fileIsMissing = true;
             return loaded.error();
         });
-        auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
+        auto value = store::decodeSession(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value), record.fence);

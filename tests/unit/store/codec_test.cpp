@@ -53,7 +53,8 @@ TEST(Codec, DecodesWhatItEncodes) {
         Session session;
         wander(session, random, round);
         ObjectTable table;
-        const Session back = decode(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
+        const Session back =
+            decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
         EXPECT_TRUE(same(session, back)) << "round " << round;
         own += table.size();
     }
@@ -64,7 +65,7 @@ TEST(Codec, LosesNoSetting) {
     for (const session::SettingValue& setting : session::settingValues()) {
         const Session session = sessionWith(setting);
         ObjectTable table;
-        const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
+        const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
         EXPECT_TRUE(setting.isIn(back.current)) << setting.name;
     }
 }
@@ -78,7 +79,7 @@ TEST(Codec, AppliesTheHead) {
         const std::string whole = encodeWhole(session, 1000, table.keyOf);
         const Session before = session;
         wander(session, random, round % 5);
-        const Session back = decode(whole, encodeHead(session, table.keyOf), table.objectOf, support::cache());
+        const Session back = decodeSession(whole, encodeHead(session, table.keyOf), table.objectOf, support::cache());
         EXPECT_EQ(back.revision, session.revision);
         if (session.revision == before.revision) {
             EXPECT_TRUE(same(before, back));
@@ -115,7 +116,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     shorten(look, 6);                // no projection and no thickness,
     shorten(record.at(3).at(4), 3);  // no offset,
     shorten(record.at(3), 8);        // no turn toward an element and no frame of reference
-    const Session back = decode(encodeCbor(record), "", table.objectOf, support::cache());
+    const Session back = decodeSession(encodeCbor(record), "", table.objectOf, support::cache());
     EXPECT_FALSE(back.current.look.parts.bars);
     EXPECT_TRUE(back.current.look.parts.faces && back.current.look.parts.labels && back.current.look.parts.back);
     EXPECT_FALSE(back.current.look.parts.projectionFaces || back.current.look.parts.allSections);
@@ -132,7 +133,7 @@ TEST(Codec, MakesTheImageOfAnObjectOnce) {
     for (const char* text : {"polytope 24-cell", "boost x 0.6", "set spacing=0.1", "focus 3", "boost x 0.5", "focus 4"})
         session::line(session, text);
     ObjectTable table;
-    const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
+    const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
     ASSERT_TRUE(same(session, back));
     ASSERT_EQ(back.undoSteps.size(), 6U);
     EXPECT_EQ(back.undoSteps[2].object, back.undoSteps[4].object);
@@ -152,7 +153,7 @@ TEST(Codec, BuildsComposedPolytopesFromTheirNames) {
         session::line(session, text);
     ObjectTable table;
     polytopes::PolytopeCache cache;  // which has none of them
-    const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, cache);
+    const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, cache);
     EXPECT_EQ(table.size(), 0U) << "their names suffice";
     ASSERT_EQ(back.undoSteps.size(), session.undoSteps.size());
     const auto expectSame = [](const slicing::Object& one, const slicing::Object& other) {
@@ -168,7 +169,9 @@ TEST(Codec, KeepsTheFogOfAField) {
     Session session;
     for (const char* text : {"formula x^2+y^2 < w", "fog -1:0.5,0:1:ff8000,2:0"}) session::line(session, text);
     ObjectTable table;
-    const auto decoded = [&](const std::string& bytes) { return decode(bytes, "", table.objectOf, support::cache()); };
+    const auto decoded = [&](const std::string& bytes) {
+        return decodeSession(bytes, "", table.objectOf, support::cache());
+    };
     const std::string bytes = encodeWhole(session, 10, table.keyOf);
     EXPECT_EQ(decoded(bytes).current.look, session.current.look);
     EXPECT_TRUE(decoded(bytes).undoSteps.back().look.field.fog.empty());
@@ -194,7 +197,9 @@ TEST(Codec, KeepsTheBackground) {
     session::line(session, "set background=white");
     session::line(session, "set background=transparent");
     ObjectTable table;
-    const auto decoded = [&](const std::string& bytes) { return decode(bytes, "", table.objectOf, support::cache()); };
+    const auto decoded = [&](const std::string& bytes) {
+        return decodeSession(bytes, "", table.objectOf, support::cache());
+    };
     const std::string bytes = encodeWhole(session, 10, table.keyOf);
     EXPECT_EQ(decoded(bytes).current.look.background, scene::Background::transparent);
     EXPECT_EQ(decoded(bytes).undoSteps.back().look.background, scene::Background::white);
@@ -212,7 +217,7 @@ TEST(Codec, LimitsUndoSteps) {
     Session session;
     wander(session, random, 200);
     ObjectTable table;
-    const Session back = decode(encodeWhole(session, 7, table.keyOf), "", table.objectOf, support::cache());
+    const Session back = decodeSession(encodeWhole(session, 7, table.keyOf), "", table.objectOf, support::cache());
     ASSERT_EQ(back.undoSteps.size(), 7U);
     session.undoSteps.erase(session.undoSteps.begin(), session.undoSteps.end() - 7);
     EXPECT_TRUE(same(session, back));
@@ -225,13 +230,13 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
     ASSERT_EQ(bytes[1], 1) << "the version";
     bytes[1] = 2;
     try {
-        decode(bytes, "", none, support::cache());
+        decodeSession(bytes, "", none, support::cache());
         FAIL() << "a later version was read";
     } catch (const UnreadableRecord& fault) {
         EXPECT_NE(std::string(fault.what()).find("version 2"), std::string::npos) << fault.what();
     }
     for (const std::string other : {"", "x", "\x80", "\xa0", "\x81\x01", "{\"a\":1}"}) {
-        EXPECT_THROW(decode(other, "", none, support::cache()), UnreadableRecord) << other;
+        EXPECT_THROW(decodeSession(other, "", none, support::cache()), UnreadableRecord) << other;
         EXPECT_THROW(decodeObjectRecord(other), UnreadableRecord) << other;
     }
 }
@@ -244,10 +249,10 @@ TEST(Codec, RefusesInvalidValues) {
     const auto refused = [&](auto change) {
         Session other = session;
         change(other.current);
-        EXPECT_THROW(decode(encodeWhole(other, 10, table.keyOf), "", table.objectOf, support::cache()),
+        EXPECT_THROW(decodeSession(encodeWhole(other, 10, table.keyOf), "", table.objectOf, support::cache()),
                      UnreadableRecord);
     };
-    ASSERT_NO_THROW(decode(encodeWhole(session, 10, table.keyOf), "", none, support::cache()));
+    ASSERT_NO_THROW(decodeSession(encodeWhole(session, 10, table.keyOf), "", none, support::cache()));
     using session::State;
     refused([](State& state) { state.step = 0; });
     refused([](State& state) { state.alpha = 7; });
@@ -287,7 +292,7 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
         many += "\x81\x70" + std::to_string(1000 - i) + "," + std::to_string(900 + i) + "-duoprism";
     inputs.push_back(many + std::string("\x80\x80\x80\x80\x60", 5));
     for (const std::string& input : inputs) {
-        EXPECT_THROW(decode(input, "", none, support::cache()), UnreadableRecord);
+        EXPECT_THROW(decodeSession(input, "", none, support::cache()), UnreadableRecord);
         EXPECT_THROW(decodeObjectRecord(input), UnreadableRecord);
     }
 }
@@ -331,7 +336,7 @@ TEST(Codec, SurvivesDamage) {
             if (round % 2 == 1) {
                 decodeObjectRecord(damaged);
             } else {
-                const Session read = decode(damaged, "", table.objectOf, support::cache());
+                const Session read = decodeSession(damaged, "", table.objectOf, support::cache());
                 EXPECT_GT(read.current.hyperplanes().count, 0);
                 for (const std::uint32_t kind : read.current.look.cellTypes.hidden)
                     EXPECT_LT(kind, slicing::infoOf(read.current.object).cellTypes.size());
@@ -410,7 +415,7 @@ TEST(Codec, FieldsKeepTheirSecondFunction) {
 // Returns the session after it was stored and read again.
 Session readAgain(const Session& session) {
     ObjectTable table;
-    return decode(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
+    return decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
 }
 
 // Makes a field of an array.

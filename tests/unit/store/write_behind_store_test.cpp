@@ -115,7 +115,7 @@ class WriteBehindStoreTest : public testing::Test {
         const std::lock_guard lock(control->mutex);
         const auto record = control->kept.claim(id);
         return record
-                   ? decode(
+                   ? decodeSession(
                          record->whole, record->head, [](const std::string&) { return std::nullopt; }, support::cache())
                          .revision
                    : 0;
