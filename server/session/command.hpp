@@ -39,13 +39,15 @@ BOOST_DESCRIBE_STRUCT(Key, (), (key, shift, ctrl))
 struct Rotate {
     static constexpr std::string_view kMessageType = "rotate";
     geometry::Turn turn;
-    bool continues = false;  ///< whether this belongs to the undo step of the previous command, as within a gesture
+    /// Whether the rotation belongs to the undo step of the previous command, as within a gesture.
+    bool continues = false;
 };
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
     static constexpr std::string_view kMessageType = "toward";
     slicing::ElementKind element = slicing::ElementKind::cell;  ///< the kind of the element
-    /// slicing::Element::index. If it is absent, turnToward() (settings.hpp) chooses an element.
+    /// The index of the element (slicing::Element::index). If it is absent, turnToward() (settings.hpp) chooses an
+    /// element.
     std::optional<std::size_t> number;
     bool immediately = false;  ///< whether to turn the object at once, without a continuous motion
 };
@@ -57,9 +59,9 @@ struct LoadObject {
     std::string name;    ///< the name to give to the object
     std::string format;  ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
     std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
-    /// Whether this belongs to the undo step of the previous command, as while a formula is edited. If so, and if a
-    /// field replaces a field, FieldSettings stay the same; if both fields also have the same circumradius,
-    /// SliceSettings and the focus point stay the same, too.
+    /// Whether the command belongs to the undo step of the previous command, as while a user edits a formula. If it
+    /// does, and if a field replaces a field, FieldSettings stay the same; if both fields also have the same
+    /// circumradius, SliceSettings and the focus point stay the same, too.
     bool continues = false;
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().
@@ -109,7 +111,7 @@ class PlainSettings {
 /// Changes the settings that are present; the others keep their values.
 struct Set {
     static constexpr std::string_view kMessageType = "set";
-    bool continues = false;                   ///< whether this belongs to the undo step of the previous command
+    bool continues = false;                   ///< whether the change belongs to the undo step of the previous command
     std::optional<std::string> object;        ///< the name of the object to show; see findObject()
     std::optional<LoadObject> formula;        ///< how to make the field called `object` from a formula; the field is
                                               ///< loaded first, unless the session already has the same one
@@ -130,7 +132,7 @@ struct Set {
     std::optional<std::vector<slicing::FogPoint>> fog;        ///< FieldSettings::fog; for fields only
     std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< indices of cell types, in any order
     /// The element that is drawn in another color. The outer optional is empty if the highlight stays the same; the
-    /// inner one is empty if there is to be no highlight.
+    /// inner optional is empty if the command removes the highlight.
     std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
     PlainSettings plain;                     ///< all other settings

@@ -69,7 +69,7 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
 Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty())
         return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
-    // A formula cannot contain this separator: in a formula, no word directly follows a word, except the units deg and
+    // A formula cannot contain " colored by ": in a formula, no word directly follows a word, except the units deg and
     // rad.
     constexpr std::string_view kColoredBy = " colored by ";
     const std::size_t end = rest.find(kColoredBy);

@@ -12,8 +12,8 @@ namespace oval4d::session {
 /// Evaluates an expression that is not an angle. It may contain + − * / ^, parentheses, decimal numbers with or without
 /// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). The
 /// arguments of these functions may be angles with units. Error: `bad_expression` if the value is not finite, or if
-/// there is a syntax error or a unit outside the argument of a function; for these two, the message states the
-/// position.
+/// there is a syntax error or a unit outside the argument of a function; for a syntax error and for a unit, the message
+/// states the position.
 Result<double> evaluate(std::string_view text);
 
 /// Evaluates one or more expressions that are not angles, with commas between them. Errors: those of evaluate().

@@ -11,8 +11,9 @@ namespace oval4d::session {
 // The functions of this file keep these rules:
 //   - A function that changes the current state increases the revision by one. A function that does not change it, or
 //     returns an error, leaves the whole session as it was.
-//   - Undo, repeated until it fails, leads to the oldest state in the history. This is the first state of the session,
-//     unless the limits have removed it. The same number of redos leads back. Undo and redo do not move the camera.
+//   - Undo, repeated until it fails, leads to the oldest state in the history: the first state of the session, unless
+//     that was removed to keep the history within its limits. The same number of redos leads back. Undo and redo do not
+//     move the camera.
 //   - Undo followed by redo restores the current state, and so does redo followed by undo.
 
 /// Makes `next` the current state and increases the revision. Adds an undo step and removes all redo steps, unless

@@ -52,7 +52,7 @@ void toggleView(State& state, scene::View view) {
     state.look.view = state.look.view == view ? scene::View::oval : view;
 }
 
-// Converts a function that cannot fail and returns void to one that returns success.
+// Calls `act`, which returns void because it cannot fail, and returns success.
 template <auto act>
 Done always(ActionContext& c) {
     act(c);

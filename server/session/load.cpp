@@ -195,8 +195,8 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
     return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
 }
 
-// Returns an error if the box has no extent along an axis with several samples, or if its ends along any axis are in
-// the wrong order.
+// Returns an error if the box has no extent along an axis with several samples, or if the ends of the box along any
+// axis are in the wrong order.
 std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
     for (int axis = 0; axis < 4; ++axis) {
         if (box.min[axis] > box.max[axis]) {
@@ -210,7 +210,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
     return {};
 }
 
-// Makes an object from the array that `read` returns for these options, and sets its second function.
+// Makes a field from the array that `read` returns for these options, and sets the field's second function.
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
                                       const SecondSource& second) {
@@ -237,8 +237,8 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
     return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
 
-// Returns the box of an array after its number of time steps has grown from `before` to `after`. `box` is the box
-// before.
+// Returns the box of an array after its number of time steps has grown from `before` to `after`. `box`: the box with
+// `before` time steps.
 fields::Box boxWithTimeSteps(fields::Box box, std::size_t before, std::size_t after) {
     const double step = before > 1 ? (box.max.w - box.min.w) / static_cast<double>(before - 1) : 1;
     box.max.w = box.min.w + step * static_cast<double>(after - 1);

@@ -44,7 +44,8 @@ struct SecondSource {
 
 /// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
 /// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
-/// options has no extent along an axis with several samples, or if its ends along any axis are in the wrong order.
+/// options has no extent along an axis with several samples, or if the ends of the box along any axis are in the wrong
+/// order.
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
                                      const fields::ReadOptions& options = {}, const SecondSource& second = {});
 
@@ -63,10 +64,10 @@ Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> file
                                       const fields::ReadOptions& options);
 
 /// Returns `field`, which is an array, extended at the end of w by the time steps of another array, `added`. The time
-/// steps of `field` keep their values of w; the added ones are as far apart as these, or 1 apart if `field` has only
-/// one. Computes anew the initial level, and which side of it is inside. Errors: `bad_field` if one of the objects is
-/// not an array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that `field`
-/// has; `too_large` if the samples exceed `limits.maxFieldBytes`.
+/// steps of `field` keep their values of w; the added time steps follow at the same distance, or at the distance 1 if
+/// `field` has only one time step. The initial level, and which side of it is inside, are computed anew. Errors:
+/// `bad_field` if one of the objects is not an array, if the numbers of samples along x, y and z differ, or if `added`
+/// lacks the second array that `field` has; `too_large` if the samples exceed `limits.maxFieldBytes`.
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
                                         const Limits& limits);
 

@@ -89,7 +89,7 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
 Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalArguments& arguments, std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
-        // Another search may have found the sections while this one waited for a worker.
+        // Another search may have found the critical sections while this search waited for a worker.
         if (auto known = search_.cache->find(object, orientation, settings)) return known;
     }
     auto found = slicing::findCriticalSections(object, orientation, settings, {search_.time, std::move(stop)});
@@ -144,8 +144,8 @@ std::size_t ObjectLoader::bytesNeeded() const {
     }
     if (const auto* extension = std::get_if<Extension>(&pending_))
         return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
-    // The memory of the critical values, which is small for a field. The memory of the search itself, which takes as
-    // much as drawing a picture, is not counted.
+    // Counts the memory of the critical values, which is small for a field, but not the memory of the search itself,
+    // which is as much as that of drawing a picture.
     if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;

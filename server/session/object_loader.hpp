@@ -1,6 +1,6 @@
 #pragma once
-// Builds polytopes and reads files for commands. These are the slow parts of commands, so they can be deferred to
-// another thread.
+// Builds polytopes and reads files for commands. Building and reading are the slow parts of commands, so another thread
+// can do them.
 
 #include <chrono>
 #include <cstddef>
@@ -37,7 +37,7 @@ struct CriticalSearchOptions {
 struct CriticalArguments {
     slicing::Object object;
     geometry::Rotation orientation;
-    slicing::FieldSettings settings;  ///< `levels` and `inside` of a field; all else has its default value
+    slicing::FieldSettings settings;  ///< `levels` and `inside` of a field; all other members have their default values
     bool operator==(const CriticalArguments&) const = default;
 };
 /// Returns the arguments that determine the critical values of w of the object that the state shows.
@@ -115,7 +115,7 @@ class ObjectLoader {
     Mode mode_;
     FileReader reader_;
     CriticalSearchOptions search_;
-    // `field`: an array. `added`: the array whose time steps are added to it.
+    // Time steps to append: those of the array `added`, at the end of the array `field`.
     struct Extension {
         slicing::Object field, added;
     };

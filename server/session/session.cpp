@@ -43,7 +43,8 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
     slicing::Object object = image->second;
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
     const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
-    // The second time step of an array makes the domain longer along w by a greater factor than the circumradius.
+    // Clamp, because the second time step of an array enlarges the domain along w by a greater factor than the
+    // circumradius.
     state.slices.spacing = std::clamp(state.slices.spacing * ratio, kMinSpacing * radius, kMaxSpacing * radius);
     state.slices.offset = std::clamp(state.slices.offset * ratio, -reach, reach);
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
@@ -68,7 +69,7 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
     return whole.turn();
 }
 
-// Returns whether a parameter of a query belongs to the connection or to a picture, not to the view.
+// Returns whether a parameter of a query describes the connection or the size of a picture, not the view.
 bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
 // Applies each command to a copy of the state, which becomes the current state only on success.

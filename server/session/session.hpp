@@ -97,7 +97,7 @@ struct State {
     bool operator==(const State&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& visit) {
-    // `object` is not stored, because it is `source` in `frame`.
+    // `object` is not stored, because it can be computed from `source` and `frame`.
     auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
     visit.object(0, source);
     visit.rotation(1, orientation);

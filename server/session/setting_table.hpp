@@ -50,11 +50,11 @@ struct CheckedByApplySet {};
 /// motion.
 struct NotInState {};
 
-/// What sets a setting back to its initial value.
+/// The occasions on which a setting is set back to its initial value.
 enum class ResetOccasion : std::uint8_t {
-    never,                       ///< nothing; only the spacing changes, in proportion to the size of a new object
-    by_another_object,           ///< the replacement of the object, because the value belongs to the object
-    by_reset_or_another_object,  ///< the replacement of the object, and the command `reset`
+    never,                       ///< never; but the spacing changes in proportion to the size of a new object
+    by_another_object,           ///< when another object replaces the object, because the value belongs to the object
+    by_reset_or_another_object,  ///< when another object replaces the object, and at the command `reset`
 };
 
 /// A setting. `ofSet` returns a reference to the setting's value in a Set, a std::optional. `ofState` returns the

@@ -99,7 +99,8 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
             const std::string name = std::string("the point's ") + "xyzw"[axis];
             if (auto done = put(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done) return done;
         }
-        // Far from the origin, the sum of the origin and the reach is rounded, perhaps to a number beyond the reach.
+        // For an object far from the origin of its file, the bounds in around() are rounded, so the point may be
+        // slightly beyond the reach.
         point = glm::clamp(point - origin, -reach, reach);
         state.look.focusPoint = glm::dvec3(point);
         if (!placed) moveFocusTo(state, point.w);
@@ -191,7 +192,8 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
     if (field != nullptr) {
-        // Few samples of an array may be far beyond all levels, such as a mark of missing samples.
+        // The initial level of an array is the middle between its least and its greatest sample, which may be a huge
+        // number that marks missing samples.
         const double level = std::clamp(field->initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
         initial.look.field = {{level}, field->initialInside};
     }
@@ -227,7 +229,7 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
     const double radius = slicing::infoOf(state.object).circumradius, reach = kMaxOffset * radius;
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
     if (spans) {
-        // The box of a field may be so thin along w that this spacing is below the least one.
+        // The box of a field may be so thin along w that spanningSpacing() is less than the minimum.
         state.slices.spacing =
             std::clamp(spanningSpacing(state.object, state.slices.count), kMinSpacing * radius, kMaxSpacing * radius);
         moveFocusTo(state, std::clamp(w, -reach, reach));
@@ -357,7 +359,8 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
 
 void moveFocusTo(State& state, double w) {
     const double spacing = state.slices.spacing;
-    const double limit = kMaxFocus;  // if the spacing is very small, not every w can be reached
+    // If the spacing is very small, w may lie beyond the slice kMaxFocus; the offset then covers the rest.
+    const double limit = kMaxFocus;
     state.slices.focus = static_cast<int>(std::clamp(std::round(w / spacing), -limit, limit));
     state.slices.offset = w - state.slices.focus * spacing;
 }
