@@ -64,7 +64,8 @@ class BinaryWriter {
     ~BinaryWriter() = default;
 
   private:
-    /// Begins a typed array whose numbers take `bytes` bytes. Returns where these are to be written, little-endian.
+    /// Begins a typed array whose numbers take `bytes` bytes. Returns the address at which the caller must write the
+    /// numbers, little-endian.
     virtual char* beginTypedArray(ArrayType type, std::size_t bytes) = 0;
 
     template <typename Number>

@@ -10,7 +10,8 @@
 namespace oval4d::wire {
 
 /// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
-/// were written. A string that is used again keeps its memory, so that it is not allocated and filled with zeros again.
+/// were written. A string that is overwritten again keeps its memory, which saves allocating it and filling it with
+/// zeros.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -22,7 +23,7 @@ class Buffer {
     void reserve(std::size_t size) {
         if (static_cast<std::size_t>(end_ - at_) < size) grow(size);
     }
-    /// Returns a pointer to the current end of the text. The reserved bytes can be written there directly.
+    /// Returns a pointer to the current end of the text, where the caller may write as many bytes as it has reserved.
     char* at() { return at_; }
     /// Sets the end of the text to `at`, after bytes were written directly.
     void moveTo(char* at) { at_ = at; }
@@ -36,7 +37,8 @@ class Buffer {
         reserve(text.size());
         at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, allows an empty text whose data() is null
     }
-    /// Appends `size` bytes without a value. Returns a pointer to the first one, which is valid until more is appended.
+    /// Appends `size` bytes with unspecified values. Returns a pointer to the first of them, which is valid until more
+    /// bytes are appended.
     char* append(std::size_t size) {
         reserve(size);
         at_ += size;

@@ -16,7 +16,7 @@ namespace oval4d::wire {
 class BinaryWriter;
 class JsonWriter;
 
-/// Writes fog. Reuses its memory from one call to the next.
+/// Writes the fog of slices. Keeps the memory of its arrays from one call to the next.
 class FogWriter {
   public:
     /// Writes the member `fog` of slice i, or nothing if the slice has no fog.

@@ -81,7 +81,7 @@ class Builder {
             refusal_ = "the message nests too deeply; at most " + std::to_string(maxDepth_) + " levels are allowed";
             return false;
         }
-        // The address stays valid: an array grows only while none of its elements is open.
+        // The address of the new value stays valid, because an array grows only while none of its elements is open.
         json* placed = place(std::move(empty));
         if (placed) open_.push_back(placed);
         return placed != nullptr;
@@ -227,7 +227,7 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
     result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
-    // Nevertheless, parse the whole text, so that the answer can have the message's id.
+    // Although the message is refused, parse the whole text, so that the answer can contain the message's id.
     const std::string repaired = withNulls(characters);
     Builder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);

@@ -49,7 +49,7 @@ class JsonWriter {
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
     void null();
-    /// Appends a value that is JSON text already.
+    /// Appends a value that is already encoded as JSON.
     void raw(std::string_view text);
     /// Appends the members of `object`, a complete object with at least one member that another JsonWriter has written,
     /// to the object that is being written.

@@ -285,13 +285,13 @@ template <typename... T>
 constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
     return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
 }
-// mp_flatten replaces session::Command, a variant, by its alternatives, the commands.
+// mp_flatten replaces session::Command, a variant in Body, by its alternatives, the types of commands.
 constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<Body>>{});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.
-class Peek : public nlohmann::json_sax<json> {
+class TypeAndIdListener : public nlohmann::json_sax<json> {
   public:
-    explicit Peek(RequestPeek& seen) : seen_(seen) {}
+    explicit TypeAndIdListener(RequestPeek& seen) : seen_(seen) {}
 
     bool null() override { return true; }
     bool boolean(bool /*value*/) override { return true; }
@@ -390,8 +390,8 @@ std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDep
 
 RequestPeek peekRequest(std::string_view beginning) {
     RequestPeek seen;
-    Peek peek(seen);
-    json::sax_parse(beginning.begin(), beginning.end(), &peek);
+    TypeAndIdListener listener(seen);
+    json::sax_parse(beginning.begin(), beginning.end(), &listener);
     return seen;
 }
 

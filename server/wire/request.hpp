@@ -34,12 +34,13 @@ enum class Stream : std::uint8_t {
 inline constexpr auto kStreams = std::to_array<text::Choice<Stream>>(
     {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
 
-/// Begins a connection, or changes its settings.
+/// The first message of a connection, which joins or creates a session. A later `hello` changes the stream of the
+/// connection.
 struct Hello {
     static constexpr std::string_view kMessageType = "hello";
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
-    std::optional<scene::Viewport> viewport;     ///< absent if the server chooses the size
+    std::optional<scene::Viewport> viewport;     ///< the size of the pictures; if absent, the server chooses it
     scene::Scheme scheme = scene::Scheme::dark;  ///< for pictures with scene::Background::automatic
     std::optional<std::string> token;            ///< the token of the session that the connection joins
 };
@@ -107,7 +108,7 @@ BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
 struct Done {
     static constexpr std::string_view kMessageType = "done";
     std::uint64_t revision = 0;
-    std::vector<std::string> warnings = {};  ///< from reading a file, or what an exported file lacks
+    std::vector<std::string> warnings = {};  ///< about a file that was read, or what an exported file lacks
 };
 BOOST_DESCRIBE_STRUCT(Done, (), (revision, warnings))
 

@@ -96,7 +96,7 @@ struct FillTriangles {
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 
-// Adds the triangles of one slice, except hidden ones.
+// Adds the triangles of one slice, except those of hidden faces.
 void addFill(const Scene& scene, std::size_t slice, FillTriangles& fill) {
     const slicing::FilledFaces& from = scene.fill;
     const std::size_t begin = fill.points.size();

@@ -19,7 +19,8 @@ namespace oval4d::wire {
 
 class JsonWriter;
 
-/// The texts of placements in one encoding. They often stay the same from one list to the next. Each text is an object.
+/// Cached texts of the placements of slices, in one encoding. Placements often stay the same from one message to the
+/// next. Each text is one encoded object.
 struct PlacementTexts {
     std::vector<CachedText<scene::SlicePlacement>> perSlice;     ///< in JSON
     CachedText<std::vector<scene::SlicePlacement>> ofAllSlices;  ///< in a binary encoding
@@ -38,13 +39,13 @@ class SliceListWriter {
         writeColumns(w, placements, scene);
     }
     /// Writes the projection of the whole object: each ProjectionPartLook with its vertices, edges and faces. In binary
-    /// encodings, as with slices, one array per property has the vertices, edges and faces of all parts.
+    /// encodings, as for slices, one array per property has the values of all parts.
     void writeProjection(JsonWriter& w, const scene::Scene& scene);
     void writeProjection(BinaryWriter& w, const scene::Scene& scene);
 
   private:
     static void writePlacements(BinaryWriter& w, const std::vector<scene::SlicePlacement>& placements);
-    // Writes all slices. `placements` is what writePlacements() has written.
+    // Writes all slices. `placements`: the object that writePlacements() has written.
     void writeColumns(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,

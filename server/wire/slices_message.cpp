@@ -185,7 +185,8 @@ void SlicesMessageWriter::writeMessage(W&& w, Texts& texts, const Scene& scene, 
     writeFogTable(w, scene.fog);
     w.endObject();
     if (scene.look.parts.coordinates) {
-        // A field shows histograms instead: its vertices are only the corners of its domain.
+        // A field shows histograms instead of parallel coordinates, because its vertices are only the corners of its
+        // domain.
         if (!scene.showsHistogram()) {
             w.key("coordinates");
             w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));

@@ -24,8 +24,8 @@ class SlicesMessageWriter {
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out, slicing::Quality quality = slicing::Quality::full);
 
-    /// The values of a scene that stay the same while the object turns. Does not include the placements: they stay the
-    /// same, too, but SliceListWriter caches them.
+    /// The values of a scene that stay the same while the object turns. Does not include the placements, which stay the
+    /// same, too, because SliceListWriter caches their texts.
     struct StaticScene {
         scene::View view{};
         scene::Parts shown;
@@ -39,7 +39,7 @@ class SlicesMessageWriter {
     };
 
   private:
-    // What stays the same from one message to the next, in one encoding.
+    // The cached texts of the parts that stay the same from one message to the next, in one encoding.
     struct Texts {
         CachedText<StaticScene> staticScene;  // an object whose members become members of `scene`
         PlacementTexts placements;

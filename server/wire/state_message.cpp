@@ -44,7 +44,7 @@ void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
     w.endArray();
 }
 
-void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
+void writeLastTurn(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.key("last");
     if (!turn) return w.null();
     w.beginObject();
@@ -157,7 +157,7 @@ void stateMessage(const session::State& state, const slicing::SectionNamePair& s
     w.member("turning", state.turning);
     w.member("moving", state.isMoving());
     writeSettings(w, state);
-    writeLast(w, state.lastTurn);
+    writeLastTurn(w, state.lastTurn);
     w.endObject();
 }
 

@@ -16,7 +16,7 @@ namespace oval4d::wire {
 class BinaryWriter;
 class JsonWriter;
 
-/// Writes surfaces. Reuses its memory from one call to the next.
+/// Writes the surfaces of slices. Keeps the memory of its arrays from one call to the next.
 class SurfaceWriter {
   public:
     /// Writes the member `surface` of slice i, or nothing if the slice has no surface.
@@ -49,8 +49,9 @@ class SurfaceWriter {
 
     std::vector<glm::vec3> points_, normals_;
     std::vector<Triple> triangles_;
-    std::vector<std::uint32_t> level_, cap_, colors_, capColors_;  // level and cap per triangle, colors per point
-    std::vector<std::uint32_t> pointCounts_, triangleCounts_;      // per slice
+    // level_, cap_: one number for each triangle. colors_, capColors_: one number for each point.
+    std::vector<std::uint32_t> level_, cap_, colors_, capColors_;
+    std::vector<std::uint32_t> pointCounts_, triangleCounts_;  // of each slice
 };
 
 }  // namespace oval4d::wire
