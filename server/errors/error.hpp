@@ -12,11 +12,11 @@ namespace oval4d {
 /// meanings; a test compares the names with this enum.
 enum class ErrorCode {
     bad_json,            ///< the text is not JSON, is nested too deeply, or has too many values
-    bad_message,         ///< the JSON does not match the message's schema
+    bad_message,         ///< the message does not match its schema, or a request has a malformed or unexpected part
     unknown_type,        ///< the type of the message is unknown
     unknown_key,         ///< the key is not bound to an action
     unknown_polytope,    ///< the name of the polytope is unknown
-    unknown_command,     ///< the page's command line names an unknown command or setting
+    unknown_command,     ///< the page's command line or a query names an unknown command or setting
     bad_expression,      ///< a value on the page's command line or in a query, such as an angle, cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
@@ -30,7 +30,7 @@ enum class ErrorCode {
     not_found,           ///< the session or resource does not exist
     bad_token,           ///< the token does not open this session
     too_many,            ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
-    too_large,           ///< a message, frame, file or polytope is over its limit
+    too_large,           ///< a message, frame, file, polytope or field exceeds a limit on its size
     canceled,            ///< a search was stopped, because its result was no longer needed
     internal,            ///< an internal error of the server; the session is unchanged
 };
