@@ -130,8 +130,8 @@ class FairQueue {
     /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
     /// jobs is active.
     static constexpr Seconds kVeryLongJobThreshold{0.25};
-    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. A short job
-    /// that is queued in it within this time after a long job does not make it active.
+    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. Within this
+    /// time after a long job was queued in a lane, short jobs do not make the lane active.
     static constexpr std::chrono::seconds kActivePeriod{10};
 
     /// A job that pop() returned. The caller must run it at once and then call finished().
@@ -153,7 +153,8 @@ class FairQueue {
     [[nodiscard]] bool push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now);
 
     /// Removes and returns the job to start now. Returns std::nullopt if no job is waiting, or if only long jobs are
-    /// waiting and may not start yet.
+    /// waiting and they must wait longer: all threads that are not reserved run long jobs, and the next long job may
+    /// not start on a reserved thread.
     std::optional<DueJob> pop(Clock::time_point now);
 
     /// Records that the job ended. `took`: the measured running time.

@@ -1,6 +1,6 @@
 #pragma once
-// Assertions that an object is used only by the threads that may use it. They do nothing in builds with NDEBUG (release
-// builds).
+// Assertions that an object is used only by the threads that may use it. The assertions do nothing in builds with
+// NDEBUG (release builds).
 
 #include <atomic>
 #include <cassert>

@@ -50,7 +50,7 @@ void WorkerPool::cleanUpWhenIdle() {
 
 void WorkerPool::stop() {
     stopSource_.request_stop();
-    std::deque<Job> dropped;  // destroyed outside the lock, since a job may own much memory
+    std::deque<Job> dropped;  // destroyed without holding the lock, because a job may own much memory
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;

@@ -51,9 +51,9 @@ class WorkerPool {
     explicit WorkerPool(Options options);
     ~WorkerPool();
 
-    /// Queues a job whose estimated running time is `cost`. All jobs whose `lane` is null share one lane. A job must
-    /// not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is full. After stop(),
-    /// drops the job and returns true.
+    /// Queues a job whose estimated running time is `cost` in `lane`; all jobs whose `lane` is null share one lane. A
+    /// job must not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is full. After
+    /// stop(), drops the job and returns true.
     [[nodiscard]] bool post(Job job, LanePtr lane, Seconds cost);
 
     /// Makes one worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job since its last
