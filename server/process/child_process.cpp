@@ -55,8 +55,8 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// The time that a process has to exit after its channel was closed; after that, it is killed. Also the maximum time to
-// wait for the end of a killed process, which may be delayed, for example by a debugger.
+// The time after which a process whose channel was closed is killed if it has not exited. Also the maximum time to wait
+// for the end of a killed process, which may be delayed, for example by a debugger.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits for a process to exit; returns false after kExitTimeout.
@@ -151,7 +151,7 @@ void ChildProcess::converse(const Conversation& conversation, const std::stop_to
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
-            end(true);  // otherwise the next conversation could receive a late answer to this one
+            end(true);  // otherwise, the next conversation could receive a late reply of this conversation
             throw;
         }
         if (transfer == TransferResult::complete) return;

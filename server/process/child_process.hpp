@@ -31,7 +31,7 @@ struct ProcessLoss {
 struct ChildOptions {
     std::string command;                    ///< the subcommand of this program that the child runs
     std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or to converse counts as hung
+    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or for a conversation counts as hung
     bool repeatAfterHang = true;  ///< whether a conversation in which the child hung is repeated with a new child
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
@@ -70,8 +70,8 @@ class ChildProcess {
     void start();
 
     /// Starts the process if necessary, and calls `conversation` when the process is ready. If the process is lost,
-    /// repeats this once with a new process, unless the process hung during `conversation` and `repeatAfterHang` is
-    /// false. Throws:
+    /// starts a new process and repeats the conversation once, unless the process hung during `conversation` and
+    /// `repeatAfterHang` is false. Throws:
     /// - Canceled if a stop is requested,
     /// - ProcessLost if the new process is lost, too, or if the conversation is not repeated,
     /// - std::runtime_error if the process cannot be started, or reports that it failed to start,

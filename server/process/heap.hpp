@@ -2,8 +2,8 @@
 
 namespace oval4d::process {
 
-/// The memory that glibc's allocator has for this process. Construct one object, which configures the allocator, in
-/// main(), before the program allocates much memory.
+/// The heap of this process, which glibc's allocator manages. The constructor configures the allocator: construct one
+/// object in main(), before the program allocates much memory.
 class Heap {
   public:
     Heap();

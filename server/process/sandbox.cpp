@@ -202,7 +202,8 @@ void filterSystemCalls(Role role) {
     const auto own = static_cast<std::uint64_t>(getpid());
     for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, own)});
     filter.add(SCMP_ACT_ALLOW, "fcntl", {is(1, F_GETFL)});
-    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});  // reads own limits: the new limit is null
+    // Lets the process read its own resource limits, but not change them: the new limit must be a null pointer.
+    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});
     // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
     // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
