@@ -63,8 +63,8 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
     return bytes;
 }
 
-// Encodes or decodes the members that need no special treatment. encodeReadRequest() and decodeReadRequest() share this
-// code, so that they always agree.
+// Encodes or decodes most members of a request. encodeReadRequest() and decodeReadRequest() share this code, so that
+// they always agree on these members.
 template <typename Archive, typename Load, typename Limits>
 void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);

@@ -33,7 +33,7 @@ FileReaderPool::FileReaderPool(FileReaderOptions options)
 FileReaderPool::~FileReaderPool() {
     replacing_.request_stop();
     replacing_.join();
-    for (const Process& process : waiting_) process->kill();  // it reads no file, so there is nothing to finish
+    for (const Process& process : waiting_) process->kill();  // waiting processes have no file to finish
 }
 
 FileReaderPool::Process FileReaderPool::acquire() {
@@ -124,7 +124,7 @@ class Conversation {
         return transfer;
     }
 
-    // Maps the files to which the outcome refers.
+    // Maps the files to which the outcome refers: the loaded file and the new files.
     Result<slicing::MappedFiles> map() const {
         slicing::MappedFiles mapped;
         if (!allocate_) return mapped;
@@ -138,7 +138,8 @@ class Conversation {
         return mapped;
     }
 
-    std::string outcome;           // the body of the message received last; after run(), the outcome
+    // The body of the newest message from the process; after run(), the body of the `outcome` message.
+    std::string outcome;
     std::optional<Error> refused;  // why a new file was refused; empty if none was
 
   private:

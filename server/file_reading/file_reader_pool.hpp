@@ -23,7 +23,7 @@ namespace oval4d::file_reading {
 /// The options of FileReaderPool.
 struct FileReaderOptions {
     std::chrono::duration<double> timeout;  ///< the time allowed for reading one file
-    std::chrono::duration<double> idle;     ///< the time without a file after which waiting processes end
+    std::chrono::duration<double> idle;     ///< the time after which waiting processes end if no file is read
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called when a process is lost, on any thread
     std::vector<std::string> environment;                     ///< see process::ChildOptions
     std::size_t maxWaiting;                                   ///< the maximum number of processes that wait for a file

@@ -36,7 +36,7 @@ int receiveDescriptor(const Channel& channel) {
 // Receives and maps the files of a series. Closes each file after it is mapped, because a process may open only a few.
 Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, std::size_t count) {
     std::vector<fields::FileContents> files;
-    std::optional<Error> fault;  // the other files must be received, too
+    std::optional<Error> fault;  // the first error; the other files must be received, too
     while (count-- > 0) {
         const fields::FileHandle part(receiveDescriptor(channel));
         auto file = fields::FileContents::map(part.descriptor());
@@ -50,9 +50,10 @@ Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, 
 const Error kLost{ErrorCode::bad_field, "the file was shortened, or cannot be read any more, while it was being read"};
 
 // Reads the file, the series or the folder of one request. Gets further files from the server.
-class Reading {
+class RequestedObjectReader {
   public:
-    Reading(const Channel& channel, ReadRequest request) : channel_(channel), request_(std::move(request)) {}
+    RequestedObjectReader(const Channel& channel, ReadRequest request)
+        : channel_(channel), request_(std::move(request)) {}
 
     // Writes the outcome to `body`.
     void run(std::string& body) {
@@ -113,15 +114,15 @@ class Reading {
     slicing::MappedFiles mapped_;  // in the order in which FileReaderPool::read() maps the same files
 };
 
-// Replaces `body`, the body of a `file` message, with the body of the `outcome` message. `descriptor`: the open file
-// that came with the message, or kNoFile.
-void outcomeOf(const Channel& channel, std::string& body, int descriptor) {
+// Reads the file that `body`, the body of a `file` message, requests, and replaces `body` by the body of the `outcome`
+// message. `descriptor`: the open file that came with the message, or kNoFile.
+void replaceByOutcome(const Channel& channel, std::string& body, int descriptor) {
     try {
         ReadRequest request;
         decodeReadRequest(body, request);
         body = {};
         if (descriptor != Channel::kNoFile) request.load.file = std::make_shared<const fields::FileHandle>(descriptor);
-        Reading(channel, std::move(request)).run(body);
+        RequestedObjectReader(channel, std::move(request)).run(body);
         return;
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
@@ -145,7 +146,7 @@ void runFileReader(int socket, const process::Confinement& confinement) {
     std::string body;
     int descriptor = Channel::kNoFile;
     if (channel.receive(type, body, &descriptor) != TransferResult::complete) return;
-    outcomeOf(channel, body, descriptor);
+    replaceByOutcome(channel, body, descriptor);
     channel.send(MessageType::outcome, body);
 }
 
