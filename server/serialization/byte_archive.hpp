@@ -15,12 +15,13 @@
 
 namespace oval4d::serialization {
 
-/// Types whose values are copied byte by byte. Classes of this kind must not contain pointers or references; the
-/// concept cannot check this.
+/// Types whose values are copied byte by byte. Classes among these types must not contain pointers or references, which
+/// the concept cannot check.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Other aggregates (structs without constructors). Their members are written and read one by one.
+/// Aggregates (structs without constructors) that are not BytewiseCopyable. Their members are written and read one by
+/// one.
 template <typename T>
 concept Memberwise = std::is_aggregate_v<T> && !BytewiseCopyable<T>;
 

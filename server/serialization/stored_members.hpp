@@ -17,7 +17,8 @@
 //
 // - member(number, value) or member(number, value, range): a member, and the range of a floating-point number or of all
 //   such numbers in a vector or list; a record with another number is refused
-// - addedMember(…): the same, for a member that records of earlier versions lack; it then keeps its value
+// - addedMember(…): like member(…), for a member that records of earlier versions lack; such records leave its value
+//   unchanged
 // - rotation(number, value): a rotation, as two quaternions with the numbers `number` and `number` + 1
 // - array(number, visitThem): an array of its own, whose members visitThem(visit) visits
 // - object(number, value): a 4-D object; only State has one
