@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as programs and people write them in text files.
+// Reads numbers in the forms in which programs and people write them in text files.
 
 #include <string>
 #include <string_view>
@@ -27,7 +27,8 @@ class CoordinateReader {
   public:
     /// Reads a word as a coordinate. Accepts a true minus sign (U+2212), the exponent letter D of Fortran, and numbers
     /// that are too small for a double, which become 0. A decimal point is always accepted, a decimal comma only if
-    /// `mark` says so, but never both in one number. The result's `text` remains valid until the next call.
+    /// `mark` is DecimalMark::comma, but never both in one number. The result's `text` remains valid until the next
+    /// call.
     ParsedCoordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
 
   private:

@@ -16,7 +16,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A kind of file that is refused. A file of this kind begins with `signature`.
+/// A kind of file that is refused, recognized by the bytes `signature` at its beginning. `description` completes the
+/// error message "the file …".
 struct RefusedFileKind {
     std::string_view signature, description;
 };
@@ -43,8 +44,8 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text files without rows of numbers. Their signatures are compared with the start of the text in lowercase.
-/// The first signature must be the longest, because plainText() compares only as many characters of the text.
+/// Kinds of text files that are refused. Their signatures are compared with the start of the text in lowercase. The
+/// first signature must be the longest, because plainText() compares only as many characters of the text.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},

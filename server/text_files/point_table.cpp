@@ -146,7 +146,7 @@ class PointReader {
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
         auto layout = findLayout(line.content, format_, row_, &Layout::hasAllCoordinates);
         if (!layout) layout = findLayout(line.content, format_, row_, [](const Layout&) { return true; });
-        if (!layout && likeNumbers) return false;  // readRow() says what is wrong
+        if (!layout && likeNumbers) return false;  // readRow() then reports the word that is no number
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
@@ -229,7 +229,7 @@ class PointReader {
     void splitRow(const TableLine& line) {
         std::string_view content = line.content;
         const std::size_t last = content.find_last_not_of(" \t");
-        // In MATLAB, a semicolon ends each row of a matrix.
+        // Drop a semicolon at the end of the row: in MATLAB, it ends each row of a matrix.
         if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);
         split(content, format_.separator, row_);
     }

@@ -114,8 +114,8 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         if (!isRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
-        tabs = tabs || between.filled >= kMinColumns;  // otherwise, tabs may stand among blanks
-        if (between.numbers >= kMinColumns) {          // then commas and semicolons elsewhere belong to texts
+        tabs = tabs || between.filled >= kMinColumns;  // if fewer columns are filled, tabs may be mere blanks
+        if (between.numbers >= kMinColumns) {          // tabs separate the columns: other separators are in texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }
@@ -143,7 +143,7 @@ std::optional<TableLine> TableLines::next() {
 
 TableFormat formatOf(TableLines lines) {
     // A row may begin with a text. Such a row must have as many numbers as a point, because a line with fewer numbers
-    // may be a title. Only if no line is a row, half as many are enough.
+    // may be a title. Only if no line is a row by this rule, half as many numbers are enough.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }
@@ -156,7 +156,7 @@ void split(std::string_view line, char separator, TableRow& row) {
     std::string_view rest = line.substr(0, line.find_last_not_of(separators) + 1);
     row.endsWithSeparator = separator != ' ' && line.find(separator, rest.size()) != std::string_view::npos;
     while (!rest.empty()) {
-        // The last character is neither a blank nor a separator, so each separator is followed by a further column.
+        // The last character of `rest` is neither a blank nor a separator, so a further column follows each separator.
         rest.remove_prefix(rest.find_first_not_of(separator == '\t' ? " " : " \t"));
         const std::size_t closingQuote = rest.starts_with('"') ? rest.find('"', 1) : std::string_view::npos;
         const bool inQuotes = closingQuote != std::string_view::npos;

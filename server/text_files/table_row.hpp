@@ -20,7 +20,7 @@ struct TableLine {
 /// The lines of a text file, one after the other.
 class TableLines {
   public:
-    /// The text must outlive the lines.
+    /// `text` must outlive this object and the lines that next() returns.
     explicit TableLines(std::string_view text) : rest_(text) {}
 
     /// Returns the next line; an empty optional at the end of the text.
