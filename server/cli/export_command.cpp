@@ -37,8 +37,8 @@ std::string alternativesOf(const Choices& choices) {
     return out;
 }
 
-/// Returns limits on triangles, bytes and time that are far above those of the server, because on this machine the user
-/// decides about time and memory. The limit on slices is the server's default.
+/// Returns limits on triangles, bytes and time that are far above those of the server, because the user of a command
+/// line decides how much time and memory to spend. The limit on slices is the server's default.
 exports::ExportLimits commandLineLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;

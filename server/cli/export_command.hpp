@@ -10,7 +10,7 @@ class App;
 
 namespace oval4d {
 
-/// The options of `oval4d export` that do not describe the state or the content of the file.
+/// The options of `oval4d export` that say where to write the file and in which format.
 struct ExportOutputOptions {
     std::string output = "slice.stl";  ///< "-" for standard output
     std::string format;                ///< name of the file format; if empty, the extension of `output` determines it

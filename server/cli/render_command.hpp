@@ -13,7 +13,7 @@ class App;
 
 namespace oval4d {
 
-/// The options of `oval4d render` that do not describe the state.
+/// The options of `oval4d render` that say where to write the picture and how large it is.
 struct RenderOptions {
     std::string output = "frame.png";  ///< "-" for standard output
     int width = 1280, height = 720;    ///< pixels

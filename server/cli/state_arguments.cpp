@@ -132,7 +132,7 @@ constexpr auto kReadingOptions = std::to_array<ReadingOption>({
 });
 
 /// Throws std::runtime_error if the query still contains an option that says how to read a file. Such an option is for
-/// files of another kind, because reading has removed those that apply.
+/// files of another kind, because readFile() has removed the options for files of this kind.
 void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
     for (const ReadingOption& option : kReadingOptions) {
         if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())

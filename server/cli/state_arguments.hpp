@@ -1,5 +1,5 @@
 #pragma once
-// Functions for the subcommands that write one file from a state given on the command line, without a server.
+// Functions for the subcommands `render` and `export`, which write one file from a state given on the command line.
 
 #include <span>
 #include <stdexcept>
@@ -22,7 +22,7 @@ session::QueryParameters queryOf(const std::vector<std::string>& words);
 /// the message or picture or, if there is none, the initial state. If the file is an array, "axes", "box", "variable",
 /// "values" and "values_variable" say how to read it; if it is a polytope, a surface or a list of points, "center" is
 /// the point about which it turns. Prints warnings about the file to standard error. `others` are the names of the
-/// caller's own options, for the list of allowed options in the error message about an unknown one. Throws
+/// caller's own options, for the list of allowed options in the error message about an unknown option. Throws
 /// std::runtime_error with a message for the user.
 session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
 
