@@ -7,9 +7,10 @@
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
 ../README.md specifies the messages and their members. request() sends any message; the other methods send some of them,
-and are shorter or convert values. Needs python3-websockets (10 or later), and python3-cbor2 for slices in CBOR. With
-python3-numpy, arrays can be shown as fields, and the surfaces in slices are numpy arrays. A separate thread handles the
-socket. Therefore any thread may call the client, and the connection stays open while a script is idle.
+and are shorter or convert values. Needs python3-websockets (10 or later), python3-cbor2 for slices in CBOR, and
+python3-msgpack (1.0 or later) for slices in MessagePack. With python3-numpy, arrays can be shown as fields, and the
+surfaces in slices are numpy arrays. A separate thread handles the socket. Therefore any thread may call the client, and
+the connection stays open while a script is idle.
 
 It is one file, although it is long, so that a project can copy it.
 """
@@ -37,12 +38,18 @@ try:
 except ImportError:
     cbor2 = None
 try:
+    import msgpack
+except ImportError:
+    msgpack = None
+try:
     import numpy
 except ImportError:
     numpy = None
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
+# The types of array.array, by the tags of typed arrays of RFC 8746. In MessagePack, these are types of extensions.
+ARRAY_TYPES = {64: "B", 69: "H", 70: "I", 85: "f", 86: "d"}
 # The numpy types of the arrays of a surface.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
@@ -648,9 +655,9 @@ def png_state(png):
 
 
 def decode(data):
-    """Returns a message from the server: text and slices as a dict, as from_json() and from_cbor() do, and the bytes of
-    frames and files unchanged. Raises ValueError if no kind of binary message begins with the first byte, or if the
-    bytes are not a message of their kind."""
+    """Returns a message from the server: text and slices as a dict, as from_json(), from_cbor() and from_msgpack() do,
+    and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins with the first
+    byte, or if the bytes are not a message of their kind."""
     if isinstance(data, str):
         return from_json(data)
     for first_bytes, read in BINARY_KINDS.values():
@@ -681,25 +688,42 @@ def from_cbor(data):
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
     def typed(_, tag):
-        kind = {85: "f", 86: "d", 64: "B", 69: "H", 70: "I"}.get(tag.tag)
+        kind = ARRAY_TYPES.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
+    return _with_rows("CBOR", lambda: cbor2.loads(data, tag_hook=typed), cbor2.CBORDecodeError)
+
+
+def from_msgpack(data):
+    """Decodes a slices message in MessagePack, with the same result as from_cbor()."""
+    if msgpack is None:
+        raise ImportError("decoding slices in MessagePack needs python3-msgpack")
+
+    def typed(code, content):
+        kind = ARRAY_TYPES.get(code)
+        return msgpack.ExtType(code, content) if kind is None else array.array(kind, content)
+
+    return _with_rows("MessagePack", lambda: msgpack.unpackb(data, ext_hook=typed), msgpack.UnpackException)
+
+
+def _with_rows(encoding, read, failure):
+    """Returns the slices message that read() decodes, with one dict per slice. Raises ValueError, which names the
+    encoding, if it is not such a message; `failure` is what read() then raises beside errors of Python."""
     try:
-        message = cbor2.loads(data, tag_hook=typed)
+        message = read()
         message["slices"] = _slices_of(message["slices"])
         if "projection" in message:
             parts = message["projection"]["parts"]
             message["projection"]["parts"] = [look | own for look, own in zip(parts["looks"], _elements_of(parts))]
-    except (cbor2.CBORDecodeError, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError,
-            TypeError) as fault:
-        raise ValueError(f"not a slices message in CBOR: {fault}") from fault
+    except (failure, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError, TypeError) as fault:
+        raise ValueError(f"not a slices message in {encoding}: {fault}") from fault
     return message
 
 
 # The kinds of binary messages, as ../README.md lists them ("Binary messages"): their first bytes, and the function that
 # decodes them. Each encoding of slices has a kind of its name.
 BINARY_KINDS = {"file": (range(0x21, 0x7F), bytes), "frame": (range(0x89, 0x8A), bytes),
-                "cbor": (range(0xA0, 0xC0), from_cbor)}
+                "cbor": (range(0xA0, 0xC0), from_cbor), "msgpack": (range(0xDF, 0xE0), from_msgpack)}
 
 
 def _rows(flat, sizes, width=1):

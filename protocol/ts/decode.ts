@@ -18,19 +18,27 @@ const { setSizeLimits } = cborX as unknown as {
 
 let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeBinary()
 
-/** Registers a decoder for little-endian typed arrays with this tag of RFC 8746. It copies only unaligned arrays. */
-function registerTypedArrayTag<T>(tag: number, arrayType: TypedArrayConstructor<T>): void {
+/** The classes of typed arrays, by their tags of RFC 8746. In MessagePack, these are types of extensions. */
+const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
+    [64, Uint8Array],
+    [69, Uint16Array],
+    [70, Uint32Array],
+    [85, Float32Array],
+    [86, Float64Array],
+]);
+
+/** Returns little-endian bytes as an array of numbers. Copies only unaligned arrays. */
+function typedArrayOf<T>(bytes: Uint8Array<ArrayBuffer>, arrayType: TypedArrayConstructor<T>): T {
     const size = arrayType.BYTES_PER_ELEMENT;
-    const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
-        bytes.byteOffset % size === 0
-            ? new arrayType(bytes.buffer, bytes.byteOffset, bytes.length / size)
-            : (arena?.copy(bytes, arrayType) ?? new arrayType(bytes.slice().buffer, 0, bytes.length / size));
+    return bytes.byteOffset % size === 0
+        ? new arrayType(bytes.buffer, bytes.byteOffset, bytes.length / size)
+        : (arena?.copy(bytes, arrayType) ?? new arrayType(bytes.slice().buffer, 0, bytes.length / size));
+}
+
+for (const [tag, arrayType] of kArrayTypes) {
+    const decode = (bytes: Uint8Array<ArrayBuffer>): unknown => typedArrayOf(bytes, arrayType);
     cborX.addExtension({ tag, decode } as Parameters<typeof cborX.addExtension>[0]);
 }
-registerTypedArrayTag(69, Uint16Array);
-registerTypedArrayTag(70, Uint32Array);
-registerTypedArrayTag(85, Float32Array);
-registerTypedArrayTag(86, Float64Array);
 
 /** Decodes CBOR. Throws an Error if the bytes are not CBOR. */
 function readCbor(bytes: Uint8Array): unknown {
@@ -38,6 +46,107 @@ function readCbor(bytes: Uint8Array): unknown {
     // more items than it has.
     setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
     return cbor.decode(bytes);
+}
+
+const strictUtf8 = new TextDecoder("utf-8", { fatal: true });
+
+/** Reads MessagePack. The functions of DataView read big-endian numbers, and throw a RangeError beyond the end. */
+class MsgpackReader {
+    private at = 0;
+    private readonly view: DataView;
+
+    constructor(private readonly bytes: Uint8Array<ArrayBuffer>) {
+        this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+    }
+
+    /** Returns the message. Throws an Error if the bytes are not exactly one value. */
+    message(): unknown {
+        const value = this.value();
+        if (this.at < this.bytes.length) throw new Error("there are bytes after the end of a message in MessagePack");
+        return value;
+    }
+
+    /** Returns the value at the current position. Its first byte is its format, and contains small values and sizes. */
+    private value(): unknown {
+        const format = this.view.getUint8(this.skip(1));
+        if (format < 0x80) return format;
+        if (format < 0x90) return this.map(format - 0x80);
+        if (format < 0xa0) return this.array(format - 0x90);
+        if (format < 0xc0) return this.text(format - 0xa0);
+        if (format >= 0xe0) return format - 0x100;
+        if (format >= 0xde) return this.map(this.unsigned(2 << (format - 0xde)));
+        if (format >= 0xdc) return this.array(this.unsigned(2 << (format - 0xdc)));
+        if (format >= 0xd9) return this.text(this.unsigned(1 << (format - 0xd9)));
+        if (format >= 0xd4) return this.extension(1 << (format - 0xd4));
+        if (format >= 0xd0) return this.signed(1 << (format - 0xd0));
+        if (format >= 0xcc) return this.unsigned(1 << (format - 0xcc));
+        if (format === 0xcb) return this.view.getFloat64(this.skip(8));
+        if (format === 0xca) return this.view.getFloat32(this.skip(4));
+        if (format >= 0xc7) return this.extension(this.unsigned(1 << (format - 0xc7)));
+        if (format >= 0xc4) return this.take(this.unsigned(1 << (format - 0xc4)));
+        if (format === 0xc1) throw new Error("MessagePack has no value that begins with the byte 0xc1");
+        return format === 0xc0 ? null : format === 0xc3;
+    }
+
+    /** Moves by some bytes. Returns the position before. */
+    private skip(count: number): number {
+        this.at += count;
+        return this.at - count;
+    }
+
+    private take(count: number): Uint8Array<ArrayBuffer> {
+        if (count > this.bytes.length - this.at) throw new RangeError("a message in MessagePack is cut off");
+        const begin = this.skip(count);
+        return this.bytes.subarray(begin, begin + count);
+    }
+
+    private unsigned(size: number): number {
+        const at = this.skip(size);
+        if (size === 1) return this.view.getUint8(at);
+        if (size === 2) return this.view.getUint16(at);
+        return size === 4 ? this.view.getUint32(at) : Number(this.view.getBigUint64(at));
+    }
+
+    private signed(size: number): number {
+        const at = this.skip(size);
+        if (size === 1) return this.view.getInt8(at);
+        if (size === 2) return this.view.getInt16(at);
+        return size === 4 ? this.view.getInt32(at) : Number(this.view.getBigInt64(at));
+    }
+
+    private text(size: number): string {
+        return strictUtf8.decode(this.take(size));
+    }
+
+    /** Returns a typed array, or the bytes of an extension of another type. */
+    private extension(size: number): unknown {
+        const arrayType = kArrayTypes.get(this.signed(1));
+        const bytes = this.take(size);
+        return arrayType ? typedArrayOf(bytes, arrayType) : bytes;
+    }
+
+    // Items are added one by one, because a damaged message may announce more than it has.
+
+    private array(count: number): unknown[] {
+        const items: unknown[] = [];
+        while (items.length < count) items.push(this.value());
+        return items;
+    }
+
+    private map(count: number): Record<string, unknown> {
+        const members: [string, unknown][] = [];
+        while (members.length < count) {
+            const name = this.value();
+            if (typeof name !== "string") throw new Error("the name of a member is not a text");
+            members.push([name, this.value()]);
+        }
+        return Object.fromEntries(members);
+    }
+}
+
+/** Decodes MessagePack. Throws an Error if the bytes are not MessagePack. */
+function readMsgpack(bytes: Uint8Array): unknown {
+    return new MsgpackReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
 /** A kind of binary message: its first byte is in the range `firstByte`. `read` decodes slices; other kinds lack it. */
@@ -51,6 +160,7 @@ export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, 
     file: { firstByte: [0x21, 0x7e] },
     frame: { firstByte: [0x89, 0x89] },
     cbor: { firstByte: [0xa0, 0xbf], read: readCbor },
+    msgpack: { firstByte: [0xdf, 0xdf], read: readMsgpack },
 };
 
 export function decodeText(text: string): Message {

@@ -23,7 +23,7 @@ export type Stream = "geometry" | "frames" | "none";
 /**
  * The encoding of slices messages. "json" if absent.
  */
-export type Encoding = "json" | "cbor";
+export type Encoding = "json" | "cbor" | "msgpack";
 /**
  * What this client sees if the background is auto: a dark or a light one. "dark" if absent.
  */

@@ -8,13 +8,14 @@
 #include "text/choice.hpp"
 #include "wire/cbor_writer.hpp"
 #include "wire/json_writer.hpp"
+#include "wire/msgpack_writer.hpp"
 
 namespace oval4d::wire {
 
 /// The encoding of `slices` messages.
-enum class Encoding : std::uint8_t { json, cbor };
-inline constexpr auto kEncodings =
-    std::to_array<text::Choice<Encoding>>({{"json", Encoding::json}, {"cbor", Encoding::cbor}});
+enum class Encoding : std::uint8_t { json, cbor, msgpack };
+inline constexpr auto kEncodings = std::to_array<text::Choice<Encoding>>(
+    {{"json", Encoding::json}, {"cbor", Encoding::cbor}, {"msgpack", Encoding::msgpack}});
 
 /// Calls `write` with the writer of the encoding, which overwrites `out`.
 template <typename Write>
@@ -24,6 +25,8 @@ void writeEncoded(Encoding encoding, std::string& out, const Write& write) {
             return write(JsonWriter(out));
         case Encoding::cbor:
             return write(CborWriter(out));
+        case Encoding::msgpack:
+            return write(MsgpackWriter(out));
     }
 }
 

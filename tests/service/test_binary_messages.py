@@ -56,9 +56,10 @@ def test_a_message_that_the_python_client_does_not_know_ends_the_connection(serv
         assert closed.value.code == 1003
 
 
-def test_a_missing_package_ends_the_connection(server, monkeypatch):
-    monkeypatch.setattr(oval4d_client, "cbor2", None)
+@pytest.mark.parametrize("encoding, package", [("cbor", "cbor2"), ("msgpack", "msgpack")])
+def test_a_missing_package_ends_the_connection(server, monkeypatch, encoding, package):
+    monkeypatch.setattr(oval4d_client, package, None)
     with connect(server.url, timeout=DEADLINE) as oval:
-        oval.hello(encoding="cbor")
-        with pytest.raises(Closed, match="needs python3-cbor2"):
+        oval.hello(encoding=encoding)
+        with pytest.raises(Closed, match=f"needs python3-{package}"):
             oval.slices()

@@ -105,7 +105,8 @@ async def test_the_python_client_reads_or_refuses_damaged_messages(server, messa
 @pytest.mark.parametrize("data", [b"", b"\x89PNG\r\n\x1a\n", b"\x81" * 100_000, b"\xa1" * 1000,
                                   b"\x9b" + b"\x7f" * 8, b"\xbb" + b"\x7f" * 8, b"\x5b" + b"\x7f" * 8, b"\xd8\x55\x43abc",
                                   b"\xc4\x82\x1b" + b"\x7f" * 8 + b"\x01", b"\xa1\x66slices\xa0",
-                                  b"\xa1\x66slices\xa1\x66counts\xf6"])
+                                  b"\xa1\x66slices\xa1\x66counts\xf6", b"\xdf" + b"\x7f" * 4, b"\xdd" * 1000,
+                                  b"\xc7\x03\x55abc", b"\xdf\0\0\0\x01\xa6slices\x80"])
 def test_the_python_client_refuses_invalid_data_with_value_error(data):
     for read in READERS.values():
         with pytest.raises(ValueError):

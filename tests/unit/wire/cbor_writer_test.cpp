@@ -4,21 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/wire/support.hpp"
 #include "wire/cbor_writer.hpp"
 #include "wire/json_writer.hpp"
+#include "wire/msgpack_writer.hpp"
 
 namespace oval4d::wire {
 namespace {
-
-template <typename W, typename Write>
-std::string written(Write write) {
-    std::string out = "what was there before";
-    {
-        W w(out);
-        write(w);
-    }
-    return out;
-}
 
 /// Returns an object of four members. `writeInner` writes two of them.
 template <typename W, typename WriteInner>
@@ -52,6 +44,7 @@ void expectMembersAsIfWrittenThere() {
 TEST(Writers, MembersOfAnObjectAreAsIfWrittenThere) {
     expectMembersAsIfWrittenThere<JsonWriter>();
     expectMembersAsIfWrittenThere<CborWriter>();
+    expectMembersAsIfWrittenThere<MsgpackWriter>();
 }
 
 // The bytes of RFC 8949 and RFC 8746.

@@ -19,6 +19,8 @@ inline nlohmann::json decoded(const std::string& message, Encoding encoding) {
             return json::parse(message);
         case Encoding::cbor:
             return json::from_cbor(message, true, true, json::cbor_tag_handler_t::store);
+        case Encoding::msgpack:
+            return json::from_msgpack(message);
     }
     throw std::logic_error("this encoding has no decoder in the tests");
 }

@@ -35,4 +35,15 @@ inline nlohmann::json fitting(std::string_view text) {
     return message;
 }
 
+/// Returns what `write` writes with a writer of the class W.
+template <typename W, typename Write>
+std::string written(Write write) {
+    std::string out = "what was there before";
+    {
+        W w(out);
+        write(w);
+    }
+    return out;
+}
+
 }  // namespace oval4d::wire

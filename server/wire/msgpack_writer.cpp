@@ -1,0 +1,118 @@
+#include "wire/msgpack_writer.hpp"
+
+#include <bit>
+#include <stdexcept>
+
+namespace oval4d::wire {
+
+namespace {
+
+constexpr std::size_t kContainerHead = 5;  // bytes: the format, and the size
+
+// Returns the least k for which an integer of 2^k bytes can be `number`.
+unsigned widthOf(std::uint64_t number) {
+    return number <= 0xFF ? 0 : number <= 0xFFFF ? 1 : number <= 0xFFFFFFFF ? 2 : 3;
+}
+
+// The same for the length of a text or a typed array.
+unsigned lengthWidthOf(std::size_t length) {
+    const unsigned k = widthOf(length);
+    if (k > 2) throw std::length_error("a text or an array is too long for MessagePack");
+    return k;
+}
+
+// Writes an integer of 2^k bytes, the most significant one first.
+void writeBigEndian(char* at, unsigned k, std::uint64_t integer) {
+    for (unsigned i = 1U << k; i-- > 0;) *at++ = static_cast<char>(integer >> (8U * i));
+}
+
+}  // namespace
+
+void MsgpackWriter::head(unsigned format, unsigned k, std::uint64_t integer) {
+    buffer_.put(static_cast<char>(format));
+    writeBigEndian(buffer_.append(std::size_t{1} << k), k, integer);
+}
+
+void MsgpackWriter::begin(char format) {
+    countItem();
+    buffer_.put(format);
+    const char* const size = buffer_.append(kContainerHead - 1);
+    open_.push_back({static_cast<std::size_t>(size - out_.data()), 0});
+}
+
+void MsgpackWriter::end(std::uint32_t itemsPerElement) {
+    writeBigEndian(out_.data() + open_.back().sizeAt, 2, open_.back().items / itemsPerElement);
+    open_.pop_back();
+}
+
+void MsgpackWriter::appendMembersOf(std::string_view object) {
+    std::uint32_t members = 0;
+    for (const char byte : object.substr(1, kContainerHead - 1))
+        members = (members << 8U) | static_cast<std::uint8_t>(byte);
+    open_.back().items += 2 * members;
+    buffer_.put(object.substr(kContainerHead));
+}
+
+void MsgpackWriter::value(double number) {
+    countItem();
+    const auto shorter = static_cast<float>(number);
+    if (shorter == number) {
+        head(0xCA, 2, std::bit_cast<std::uint32_t>(shorter));
+    } else {
+        head(0xCB, 3, std::bit_cast<std::uint64_t>(number));
+    }
+}
+
+void MsgpackWriter::value(std::uint64_t number) {
+    countItem();
+    if (number < 0x80) {
+        buffer_.put(static_cast<char>(number));
+    } else {
+        const unsigned k = widthOf(number);
+        head(0xCC + k, k, number);
+    }
+}
+
+void MsgpackWriter::value(std::int64_t number) {
+    const auto bits = static_cast<std::uint64_t>(number);
+    if (number >= 0) {
+        value(bits);
+    } else if (number >= -32) {
+        countItem();
+        buffer_.put(static_cast<char>(number));
+    } else {
+        countItem();
+        const unsigned k = widthOf(2 * ~bits);  // ~bits = −1 − number, and one more bit is the sign
+        head(0xD0 + k, k, bits);
+    }
+}
+
+void MsgpackWriter::value(bool flag) {
+    countItem();
+    buffer_.put(flag ? '\xC3' : '\xC2');
+}
+
+void MsgpackWriter::value(std::string_view text) {
+    countItem();
+    if (text.size() < 32) {
+        buffer_.put(static_cast<char>(0xA0 + text.size()));
+    } else {
+        const unsigned k = lengthWidthOf(text.size());
+        head(0xD9 + k, k, text.size());
+    }
+    buffer_.put(text);
+}
+
+char* MsgpackWriter::beginTypedArray(ArrayType type, std::size_t bytes) {
+    countItem();
+    if (bytes <= 16 && std::has_single_bit(bytes)) {
+        buffer_.put(static_cast<char>(0xD4 + std::countr_zero(bytes)));
+    } else {
+        const unsigned k = lengthWidthOf(bytes);
+        head(0xC7 + k, k, bytes);
+    }
+    buffer_.put(static_cast<char>(type));
+    return buffer_.append(bytes);
+}
+
+}  // namespace oval4d::wire

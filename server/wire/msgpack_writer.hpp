@@ -1,0 +1,60 @@
+#pragma once
+// Writes messages as MessagePack (https://github.com/msgpack/msgpack/blob/master/spec.md). Typed arrays are extensions,
+// whose types are the values of ArrayType.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wire/binary_writer.hpp"
+#include "wire/buffer.hpp"
+
+namespace oval4d::wire {
+
+/// Overwrites a string with MessagePack. The string is complete after the writer is destroyed. Functions throw
+/// std::length_error for a text or an array of 4 GiB or more, which MessagePack cannot contain.
+class MsgpackWriter final : public BinaryWriter {
+  public:
+    explicit MsgpackWriter(std::string& out) : out_(out), buffer_(out), open_(1) {}
+
+    // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at the end. So each size
+    // has 32 bits, however small it is, and is filled in last.
+    void beginObject() override { begin('\xDF'); }
+    void endObject() override { end(2); }
+    void beginArray() override { begin('\xDD'); }
+    void endArray() override { end(1); }
+    void key(std::string_view name) override { value(name); }
+
+    void value(double number) override;  ///< writes single precision if that is exact, else double precision
+    void value(std::uint64_t number) override;
+    void value(std::int64_t number) override;
+    void value(bool flag) override;
+    void value(std::string_view text) override;
+    using BinaryWriter::value;
+    // As in BinaryWriter, but without a virtual call for each number of a plain array.
+    void value(std::uint32_t number) { value(std::uint64_t{number}); }
+    void value(int number) { value(std::int64_t{number}); }
+    void appendMembersOf(std::string_view object) override;
+
+  private:
+    /// An object or an array that is being written.
+    struct Container {
+        std::size_t sizeAt;   ///< the position of its size in the message
+        std::uint32_t items;  ///< how many values it has; the name of a member is one, too
+    };
+
+    char* beginTypedArray(ArrayType type, std::size_t bytes) override;
+    void begin(char format);
+    void end(std::uint32_t itemsPerElement);
+    void countItem() { ++open_.back().items; }
+    /// Writes the first byte of a format, and an integer of 2^k bytes.
+    void head(unsigned format, unsigned k, std::uint64_t integer);
+
+    std::string& out_;
+    Buffer buffer_;
+    std::vector<Container> open_;  // from the outermost to the innermost; the first one stands for what is around all
+};
+
+}  // namespace oval4d::wire
