@@ -17,6 +17,8 @@ from wire import Client, Refused
     ("7x9 duoprism", "7,9-duoprism", (63, 126, 79, 16)),
     ("4-3 duoantiprism", "3,4-duoantiprism", (24, 96, 110, 38)),
     ("2,2-duoantiprism", "16-cell", (8, 24, 32, 16)),
+    ("7-cyclic polytope", "cyclic polytope C(7,4)", (7, 21, 28, 14)),
+    ("C(8, 4)", "cyclic polytope C(8,4)", (8, 28, 40, 20)),
     ("pentagonal antiprism prism", "pentagonal antiprism prism", (20, 50, 44, 14)),
     ("snub cube prism", "snub cubic prism", (48, 144, 136, 40)),
     ("pyramid of cube", "pyramid of cube", (9, 20, 18, 7)),
@@ -73,6 +75,7 @@ async def test_kinds_of_cells_have_names_and_colors(server):
     ("o5o3o3o", "ringed"),
     ("2,5-duoprism", "at least three sides"),
     ("5/2,5-duoantiprism", "are no stars"),
+    ("C(7, 3)", "from 5 to 448"),
     ("{6,3,3}", "finite"),
     ("cube", "is a polyhedron"),
     ("dual of cube", "is a polyhedron"),
@@ -101,7 +104,7 @@ async def test_unknown_names_are_explained(server, text, expected_text):
 async def test_too_many_vertices_are_refused(server):
     async with Client(server) as client:
         for text, most in (("1000,1000-duoprism", 100000), ("x999999o x999999o", 100000),
-                           ("300,300-duoantiprism", 100000),
+                           ("300,300-duoantiprism", 100000), ("cyclic polytope C(449, 4)", 448),
                            ("500000-gonal antiprism prism", 100000), ("pyramid of 500000-gonal prism", 100000),
                            ("truncation of omnitruncated 120-cell", 20000),
                            ("hull of omnitruncated 120-cell and omnitruncated 120-cell", 20000),

@@ -57,6 +57,7 @@ extern const Notation kDiagramNotation;                    // diagram_names.cpp
 extern const Notation kSnubPrismDiagramNotation;           // prism_names.cpp
 extern const Notation kDuoprismNotation;                   // prism_names.cpp
 extern const Notation kDuoantiprismNotation;               // duoantiprism.cpp
+extern const Notation kCyclicPolytopeNotation;             // cyclic_polytope.cpp
 extern const Notation kPrismNotation;                      // prism_names.cpp
 extern const Notation kOperationNotation;                  // diagram_names.cpp
 
@@ -72,6 +73,7 @@ inline constexpr auto kNotations = std::to_array<const Notation*>({
     &kSnubPrismDiagramNotation,
     &kDuoprismNotation,
     &kDuoantiprismNotation,
+    &kCyclicPolytopeNotation,
     &kPrismNotation,
     &kOperationNotation,
 });

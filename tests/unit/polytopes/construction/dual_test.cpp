@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Uniform, DualOf,
                          testing::Values("rectified 5-cell", "truncated tesseract", "bitruncated 16-cell",
                                          "omnitruncated 5-cell", "rectified 24-cell", "snub 24-cell", "grand antiprism",
                                          "5,7-duoprism", "3,3-duoprism", "truncated cubic prism",
-                                         "pentagonal antiprism prism", "rectified 600-cell"));
+                                         "pentagonal antiprism prism", "rectified 600-cell", "cyclic polytope C(9,4)"));
 
 TEST(Dual, ofTheDualIsThePolytopeItself) {
     // A dual that is not recognized by its name: reciprocate the built dual once more.

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "geometry/jagged_array.hpp"
+#include "polytopes/construction/convex_hull.hpp"
+#include "polytopes/construction/design.hpp"
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/notations.hpp"
+#include "polytopes/polytope.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+// Returns the number of cells of the cyclic polytope with n vertices.
+constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
+
+// The number of cells grows with the square of the number of vertices, so the general limit of vertices would allow
+// billions of cells. This limit allows as many as hulls may have.
+constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
+static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
+              cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
+
+/// A cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0): the convex hull of n points at
+/// equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t). Vertex k has t = 2πk/n;
+/// numbers of vertices are modulo n.
+///
+/// By Gale's evenness condition, the cells are the tetrahedra of two disjoint pairs of neighbors, {i, i + 1} and
+/// {j, j + 1}. Let a and b be the t halfway between the vertices of each pair. The function
+/// (cos(π/n) − cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no
+/// vertex lies between neighbors. It is a trigonometric polynomial of degree 2, that is, an affine function on the
+/// curve, so a hyperplane supports the polytope in the four vertices.
+class CyclicPolytope : public Recipe {
+  public:
+    /// n must be at least 6.
+    explicit CyclicPolytope(std::uint32_t n) : n_(n) {}
+
+    ElementCounts counts() const override {
+        const std::uint64_t n = n_;
+        return {n, n * (n - 1) / 2, n * (n - 3), cyclicCells(n)};
+    }
+    // The symmetries t → t + 2π/n and t → −t of the points on the curve generate a dihedral group of order 2n. For
+    // n = 6, the vertices with even and odd numbers are equal triangles in perpendicular planes. The symmetries of each
+    // triangle, and the exchange of both, are symmetries of the polytope.
+    std::uint64_t symmetryOrder() const override { return hasPerpendicularTriangles() ? 2U * 6 * 6 : 2 * n_; }
+
+    Polytope build(const std::string& name) const override {
+        const std::uint32_t n = n_;
+        const double step = 2 * std::numbers::pi / n;
+        // Gives the edges between neighbors the length 2. An edge between vertices that are k steps apart has the
+        // length 2r √(s + 4s(1 − s)), where s = sin²(kπ/n). The radicand is a concave function of s, so it is least for
+        // the least s, which neighbors have, or for s = 1, where it is 1; for neighbors, it is at most 1.
+        const double radius = 1 / std::hypot(std::sin(step / 2), std::sin(step));
+        std::vector<glm::dvec4> vertices;
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const double t = step * k;
+            vertices.push_back(radius * glm::dvec4(std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)));
+        }
+
+        // A 2-face contains a pair of neighbors: {i, i + 1, i + 2 + k} with 0 ≤ k < n − 3 has the index i (n − 3) + k.
+        geometry::JaggedArray faces;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (std::uint32_t k = 0; k < n - 3; ++k) faces.add(std::array{i, (i + 1) % n, (i + 2 + k) % n});
+        }
+        // Returns the index of {i, i + 1, j}. If j = i − 1, the 2-face is listed as {j, j + 1, j + 2}.
+        const auto face = [n](std::uint32_t i, std::uint32_t j) {
+            const std::uint32_t steps = (j + n - i) % n;
+            return steps == n - 1 ? (i + n - 1) % n * (n - 3) : i * (n - 3) + steps - 2;
+        };
+
+        geometry::JaggedArray cells;
+        std::vector<std::uint32_t> orbits;  // of the cells under the symmetry group
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (std::uint32_t j = i + 2; j < n; ++j) {
+                const std::uint32_t steps = j - i;
+                if (steps == n - 1) continue;  // j + 1 = i
+                cells.add(std::array{face(i, j), face(i, j + 1), face(j, i), face(j, i + 1)});
+                orbits.push_back(hasPerpendicularTriangles() ? 0U : std::min(steps, n - steps));
+            }
+        }
+        return makePolytope(name, std::move(vertices), std::move(faces), std::move(cells), std::move(orbits));
+    }
+
+  private:
+    bool hasPerpendicularTriangles() const { return n_ == 6; }
+
+    std::uint32_t n_;
+};
+
+// Returns n for the symbol "c(n,4)"; std::nullopt for other texts.
+std::optional<Branch> verticesInSymbol(std::string_view symbol) {
+    constexpr std::string_view kBegin = "c(", kEnd = ")";
+    if (!symbol.starts_with(kBegin) || !symbol.ends_with(kEnd)) return {};
+    symbol.remove_prefix(kBegin.size());
+    symbol.remove_suffix(kEnd.size());
+    const std::vector<std::string_view> numbers = text::splitAtCommas(symbol);
+    if (numbers.size() != 2 || text::trimmed(numbers[1]) != "4") return {};
+    return parseBranch(text::trimmed(numbers[0]));
+}
+
+// Parses the name of a cyclic polytope: "cyclic polytope C(7,4)", "C(7, 4)", "7-cyclic polytope". Returns an error if
+// the text begins or ends with "cyclic polytope" or begins with "C(", but names no number of vertices that is allowed;
+// std::nullopt for other texts. The design for five vertices is that of the 5-cell.
+std::optional<DesignOrError> cyclicPolytopeNamed(const NameWords& text) {
+    const std::vector<std::string>& words = text.words;
+    const auto isFamily = [&](std::size_t at) {
+        return at + 2 <= words.size() && words[at] == "cyclic" && words[at + 1] == "polytope";
+    };
+    std::optional<Branch> number;
+    if (words.size() > 2 && isFamily(words.size() - 2)) {
+        number = parseBranch(text::joined(words, 0, words.size() - 2));
+    } else {
+        const std::string symbol = text.joinedFrom(isFamily(0) ? 2 : 0);
+        if (!isFamily(0) && !symbol.starts_with("c(")) return {};
+        number = verticesInSymbol(symbol);
+    }
+    if (!number || number->denominator != 1 || number->numerator < kLeastCyclicVertices) {
+        return NameError::impossible("a cyclic polytope is named after the number of its vertices, from " +
+                                     std::to_string(kLeastCyclicVertices) + " to " +
+                                     std::to_string(kMostCyclicVertices) +
+                                     ", as in cyclic polytope C(7,4) or 7-cyclic polytope");
+    }
+    const int n = number->numerator;
+    if (n == 5) return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
+    const std::string name = "cyclic polytope C(" + std::to_string(n) + ",4)";
+    if (n > kMostCyclicVertices) {
+        return NameError{NameError::Reason::too_large, "the " + name + " has " + std::to_string(n) +
+                                                           " vertices; at most " + std::to_string(kMostCyclicVertices) +
+                                                           " are allowed"};
+    }
+    return Design{name, std::make_shared<CyclicPolytope>(static_cast<std::uint32_t>(n))};
+}
+
+}  // namespace
+
+constinit const Notation kCyclicPolytopeNotation{
+    .polytopes =
+        "a cyclic polytope C(n,4) with n from 5 to 448: the convex hull of n points at equal distances on the "
+        "trigonometric moment curve (cos t, sin t, cos 2t, sin 2t). Every two of its vertices are joined by an edge, "
+        "and its n(n − 3)/2 cells are tetrahedra",
+    .examples = "`cyclic polytope C(7,4)`, `C(8, 4)`, `9-cyclic polytope`",
+    .edges = "2 between neighbors on the curve; no other edge is shorter",
+    .parse = cyclicPolytopeNamed,
+};
+
+}  // namespace oval4d::polytopes
