@@ -190,8 +190,9 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                          "17 on the command line or highlight=cell:17 in a query"};
         }
     }
-    const bool showsSlices = drawing && (request.contents == exports::ExportContents::oval ||
-                                         request.contents == exports::ExportContents::focus);
+    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file shows what the user has chosen
+    const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContents::oval ||
+                                            request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
     if (isField && readsFieldSurfaces(request)) {
@@ -210,9 +211,9 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     }
     if (request.contents == exports::ExportContents::projection && !drawing) slices = projectionOf(state, slices);
     scene::Look look;
-    if (drawing) {
+    if (hasOwnLook) {
         look = state.look;
-        look.background = scene::Background::white;  // drawings are for white paper
+        if (drawing) look.background = scene::Background::white;  // drawings are for white paper
         if (request.contents == exports::ExportContents::matrix) {
             look.view = scene::View::matrix;
         } else if (request.contents != exports::ExportContents::oval) {
@@ -221,7 +222,8 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
             look.view = scene::View::oval;
         }
         if (showsSlices) {
-            look.projection.kind = scene::ProjectionKind::off;
+            const bool isPicture = !drawing && request.contents == exports::ExportContents::oval;
+            if (!isPicture) look.projection.kind = scene::ProjectionKind::off;
         } else if (look.projection.kind == scene::ProjectionKind::off) {
             look.projection.kind = scene::ProjectionKind::perspective;
         }
@@ -229,7 +231,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     look.coloring = state.look.coloring;
     look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
     look.field = state.look.field;
-    if (!drawing) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
+    if (!hasOwnLook) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(PictureWorkLimits().fillSteps);

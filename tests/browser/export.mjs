@@ -67,6 +67,7 @@ test("export: every format makes its file, with a descriptive name", async () =>
         x3d: /^<\?xml[^]*<X3D/,
         scad: /^\/\/ 24-cell, in millimeters, from oval4d\n/,
         vtp: /^<\?xml[^]*<PolyData/,
+        pov: /^\/\/ 24-cell, from oval4d: povray [^]*#version 3\.7;/,
     };
     const ofPolytopes = table.formats.filter(({ objects }) => objects !== "fields").map(({ name }) => name);
     assert.deepEqual(new Set(Object.keys(begins)), new Set(ofPolytopes), "begins has a row for each format");

@@ -13,6 +13,7 @@ import pytest
 from binary_kinds import FIRST_BYTES
 from exports import ROTATION, SVG, TABLE, csv_rows, export_refusal, fetch_file, fetch_file_to
 from harness import DEADLINE, run_oval4d
+from PIL import Image
 from wire import Client
 
 FORMATS = [row["name"] for row in TABLE if row.get("objects") != "fields"]
@@ -139,6 +140,33 @@ def test_openscad_modules_are_the_bodies_of_3mf_with_clockwise_faces(server):
     for (_, points, faces), (_, printed_points, triangles) in zip(modules, objects):
         meshes.assert_manifold(faces)
         assert meshes.volume(points, faces) == pytest.approx(-meshes.volume(printed_points, triangles), rel=1e-3)
+
+
+def test_pov_scenes_have_what_the_picture_shows(server):
+    def scene(query):
+        return fetch_file(server, "pov", "polytope=8-cell&slices=3&spacing=0.5" + query).decode()
+
+    def shapes(text):
+        return [text.count("\n" + shape) for shape in ("sphere {", "cylinder {", "mesh2 {", "Label(")]
+
+    assert shapes(scene("")) == [24, 36, 3, 3]
+    assert shapes(scene("&of=focus")) == [8, 12, 1, 1]
+    assert shapes(scene("&faces=off&labels=off")) == [24, 36, 0, 0]
+    assert shapes(scene("&projection=perspective"))[0] == 24 + 16 + 8, "and the tesseract with a section"
+    assert "background { rgbt <1, 1, 1, 0> }" in scene("&background=white")
+    right, turned = (re.search(r"Right = <(.*)>", scene(query))[1] for query in ("", "&azimuth=0.5"))
+    assert right != turned, "the camera is that of the picture"
+
+
+@pytest.mark.parametrize("query", ["polytope=8-cell&of=focus", "formula=x^2%2By^2%2Bz^2%2Bw^2%3C1&of=focus"])
+def test_povray_draws_the_scene(server, tmp_path, query):
+    (tmp_path / "scene.pov").write_bytes(fetch_file(server, "pov", query + "&background=white&labels=off"))
+    done = subprocess.run(["povray", "+Iscene.pov", "+Oscene.png", "+W64", "+H64", "+WT1", "-D"], cwd=tmp_path,
+                          capture_output=True, text=True, timeout=DEADLINE)
+    assert done.returncode == 0, done.stderr
+    pixels = numpy.array(Image.open(tmp_path / "scene.png").convert("RGB"))
+    assert (pixels[[0, 0, -1, -1], [0, -1, 0, -1]] == 255).all(), "the corners show the background"
+    assert 0.02 < (pixels != 255).any(axis=2).mean() < 0.9, "the slice is in the picture, and fits into it"
 
 
 def test_labels_are_engraved_or_separate_bodies(server, tmp_path):

@@ -61,6 +61,9 @@ struct Format {
     Objects objects = Objects::all;
     std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
     bool readsSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
+    /// background. Otherwise, the scene has the default look with the colors, levels and fog of the picture.
+    bool showsPicture = false;
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;

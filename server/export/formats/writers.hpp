@@ -62,6 +62,12 @@ std::string measurementsCsv(const SceneInput& source);
 /// the file of a point cloud has vertices only.
 std::string off(const SceneInput& source);
 
+/// Returns a scene of POV-Ray 3.7, whose image has the slices of the picture with their faces, bars, balls, surfaces
+/// and labels, the projection if the picture shows it, and the camera, light and background of the picture. Lengths are
+/// in world units; the coordinates are right-handed. Adds a warning if the picture has fog. Throws ExportRefused if a
+/// limit is exceeded or a stop is requested.
+std::string pov(const SceneInput& source);
+
 /// Returns a VTK XML file of the type ImageData: the values of a field in slice 0, on a regular lattice that fills the
 /// bounding box of the domain's slice, in the object's own units. The values of points outside the domain are NaN. The
 /// object must be a field, and the contents must be ExportContents::focus. Throws ExportRefused if the slice is empty,
@@ -91,28 +97,30 @@ std::string svg(const Drawing& drawing);
 // --- All of them.
 
 /// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
-/// null. `readsSurfaces` is Format::readsSurfaces.
+/// null. `readsSurfaces` and `showsPicture` are those of Format.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneInput&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
-    bool readsSurfaces = false;
+    bool readsSurfaces = false, showsPicture = false;
 };
 
 /// All writers. Each has a row of protocol/export_formats.json with the same name.
-inline constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
-                                                        {.name = "csv", .ofScene = measurementsCsv},
-                                                        {.name = "glb", .ofBodies = glb},
-                                                        {.name = "obj", .ofBodies = obj},
-                                                        {.name = "off", .ofScene = off},
-                                                        {.name = "pdf", .ofDrawing = pdf},
-                                                        {.name = "ply", .ofBodies = ply},
-                                                        {.name = "scad", .ofBodies = scad},
-                                                        {.name = "stl", .ofBodies = stl},
-                                                        {.name = "svg", .ofDrawing = svg},
-                                                        {.name = "vti", .ofScene = vti},
-                                                        {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
-                                                        {.name = "x3d", .ofBodies = x3d}});
+inline constexpr auto kWriters =
+    std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
+                           {.name = "csv", .ofScene = measurementsCsv},
+                           {.name = "glb", .ofBodies = glb},
+                           {.name = "obj", .ofBodies = obj},
+                           {.name = "off", .ofScene = off},
+                           {.name = "pdf", .ofDrawing = pdf},
+                           {.name = "ply", .ofBodies = ply},
+                           {.name = "pov", .ofScene = pov, .readsSurfaces = true, .showsPicture = true},
+                           {.name = "scad", .ofBodies = scad},
+                           {.name = "stl", .ofBodies = stl},
+                           {.name = "svg", .ofDrawing = svg},
+                           {.name = "vti", .ofScene = vti},
+                           {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
+                           {.name = "x3d", .ofBodies = x3d}});
 
 }  // namespace oval4d::exports

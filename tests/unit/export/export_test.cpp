@@ -57,7 +57,7 @@ TEST(File, ofAFieldIsBounded) {
     };
     std::stop_source stop;
     stop.request_stop();
-    for (const char* format : {"csv", "stl", "vtp"}) {
+    for (const char* format : {"csv", "pov", "stl", "vtp"}) {
         SCOPED_TRACE(format);
         EXPECT_EQ(refusal(format, kUnhurried), "none");
         EXPECT_NE(refusal(format, {.triangles = 1000, .time = kUnhurried.time}).find("1000"), std::string::npos);

@@ -1,0 +1,405 @@
+#include "export/formats/writers.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kShortestPovBar = 1e-6;  // in world units; POV-Ray refuses a cylinder without length
+constexpr std::uint32_t kNoPovPoint = std::numeric_limits<std::uint32_t>::max();
+constexpr std::string_view kMatte = "Matte", kShiny = "Shiny";  // the finishes that the file declares
+
+template <typename Number>
+std::string povNumber(Number number) {
+    std::string out;
+    append(out, number);
+    return out;
+}
+
+/// Returns "<x, y, z>". The commas are necessary: "<1 -2 3>" has two components.
+template <typename Vector>
+std::string povVector(const Vector& v) {
+    return "<" + povNumber(v.x) + ", " + povNumber(v.y) + ", " + povNumber(v.z) + ">";
+}
+
+/// Returns the sRGB channels of a color, 0 … 1, separated by commas.
+std::string povChannels(scene::Color color) {
+    std::string out;
+    for (const unsigned shift : {16U, 8U, 0U}) {
+        if (!out.empty()) out += ", ";
+        out += povNumber(static_cast<float>(color >> shift & 0xffU) / 255.0F);
+    }
+    return out;
+}
+
+/// Returns the text as a string literal, with hyphens in place of minus signs, which POV-Ray's fonts do not have.
+std::string povString(std::string_view text) {
+    constexpr std::string_view kMinus = "\u2212";
+    std::string out = "\"";
+    while (!text.empty()) {
+        const bool isMinus = text.starts_with(kMinus);
+        if (text.front() == '"' || text.front() == '\\') out += '\\';
+        out += isMinus ? '-' : text.front();
+        text.remove_prefix(isMinus ? kMinus.size() : 1);
+    }
+    return out + '"';
+}
+
+/// The textures of a file. Each of them is declared once, so that a user changes a color in one place.
+class PovTextures {
+  public:
+    /// Returns the number of the texture with this color, opacity (0 … 1) and finish. Declares it if it is new.
+    std::uint32_t numberOf(scene::Color color, double opacity, std::string_view finish) {
+        const auto next = static_cast<std::uint32_t>(numbers_.size());
+        const auto [found, isNew] = numbers_.try_emplace(std::tuple(color, opacity, finish), next);
+        if (isNew) {
+            declarations_ += "#declare " + nameOf(next) + " = texture { pigment { rgbt <" + povChannels(color) + ", " +
+                             povNumber(static_cast<float>(1 - opacity)) + "> } finish { ";
+            declarations_.append(finish).append(" } }\n");
+        }
+        return found->second;
+    }
+    static std::string nameOf(std::uint32_t number) { return "Texture" + std::to_string(number); }
+    const std::string& declarations() const { return declarations_; }
+
+  private:
+    std::map<std::tuple<scene::Color, double, std::string_view>, std::uint32_t> numbers_;
+    std::string declarations_;
+};
+
+/// A triangle mesh. Without normals, its triangles are flat.
+struct PovMesh {
+    std::vector<glm::vec3> points, normals;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::array<std::uint32_t, 3>> textures;  ///< per triangle: the numbers of its corners' textures
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t texture) {
+        triangles.push_back({a, b, c});
+        textures.push_back({texture, texture, texture});
+    }
+};
+
+void appendPovVectors(std::string& out, std::string_view name, const std::vector<glm::vec3>& vectors) {
+    out.append(name).append(" { ").append(std::to_string(vectors.size()));
+    for (const glm::vec3& v : vectors) out += ",\n" + povVector(v);
+    out += " }\n";
+}
+
+void appendPovMesh(std::string& out, const PovMesh& mesh) {
+    if (mesh.triangles.empty()) return;  // POV-Ray refuses empty lists
+    out += "mesh2 {\n";
+    appendPovVectors(out, "vertex_vectors", mesh.points);
+    if (!mesh.normals.empty()) appendPovVectors(out, "normal_vectors", mesh.normals);
+    std::map<std::uint32_t, std::size_t> places;  // of textures in the list of the mesh
+    for (const auto& corners : mesh.textures) {
+        for (const std::uint32_t texture : corners) places.try_emplace(texture, 0);
+    }
+    out += "texture_list { " + std::to_string(places.size());
+    std::size_t place = 0;
+    for (auto& entry : places) {
+        entry.second = place++;
+        out += ", texture { " + PovTextures::nameOf(entry.first) + " }";
+    }
+    out += " }\nface_indices { " + std::to_string(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        out += ",\n<" + std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(c) + ">";
+        for (const std::uint32_t texture : mesh.textures[t]) out += ", " + std::to_string(places.at(texture));
+    }
+    out += " }\n}\n";
+}
+
+/// Where a slice or a part of the projection stands, and how its balls and bars are drawn.
+struct PovPart {
+    glm::dvec3 position;
+    double scale;                  ///< world units per unit of the object
+    double ballRadius, barRadius;  ///< in world units; balls or bars with the radius 0 are not drawn
+    scene::Color ballColor, barColor;
+
+    glm::vec3 operator()(const glm::dvec3& p) const { return glm::vec3(position + scale * p); }
+};
+
+class PovWriter {
+  public:
+    explicit PovWriter(const SceneInput& source)
+        : source_(source),
+          scene_(source.scene),
+          set_(*scene_.slices),
+          style_(scene_.style()),
+          toView_(scene_.camera.view()),
+          axes_(glm::transpose(glm::dmat3(toView_))) {}
+
+    std::string write() {
+        for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
+            if (scene_.placements[i].drawn) addSlice(i);
+            checkBudget();
+        }
+        if (scene_.projectionPlacement.shown) addProjection();
+        if (slicing::fieldIn(source_.object) != nullptr && !scene_.look.field.fog.empty())
+            source_.warnings.emplace_back("the fog is left out");
+        addLabels();
+        return header() + textures_.declarations() + objects_;
+    }
+
+  private:
+    void checkBudget() const {
+        source_.budget.checkTime();
+        source_.budget.checkBytes(textures_.declarations().size() + objects_.size());
+    }
+
+    std::string header() const {
+        const bool isTransparent = style_.backgroundOpacity == 0;
+        std::string out = "// " + xmlCharacters(scene_.title) + ", from oval4d: povray +W" +
+                          std::to_string(scene_.viewport.width) + " +H" + std::to_string(scene_.viewport.height) +
+                          (isTransparent ? " +UA" : "") + " +A FILE.pov\n#version 3.7;\n";
+        out +=
+            "// Light and translucent colors are mixed as in the picture: as sRGB values.\n"
+            "global_settings { assumed_gamma srgb charset utf8 max_trace_level 256 }\n"
+            "background { rgbt <" +
+            povChannels(style_.background) + (isTransparent ? ", 1" : ", 0") + "> }\n\n";
+        appendCamera(out);
+        out += "// Without `shadowless`, the bodies cast shadows.\nlight_source { " +
+               povVector(scene_.camera.target + scene_.camera.far * (axes_ * style_.light)) +
+               " rgb 1 parallel point_at " + povVector(scene_.camera.target) + " shadowless }\n";
+        const std::string lighting =
+            " = finish { ambient " + povNumber(style_.ambient) + " diffuse " + povNumber(style_.diffuse);
+        out.append("#declare ").append(kMatte).append(lighting).append(" }\n");
+        out.append("#declare ").append(kShiny).append(lighting).append(" specular ");
+        return out + povNumber(style_.specular) + " roughness " + povNumber(1 / style_.shininess) + " }\n\n";
+    }
+
+    /// Appends the camera. POV-Ray looks from `location` through the points direction + x · right + y · up, where x and
+    /// y are −1/2 … 1/2. It does not ask whether these vectors are left-handed, as its own are, or right-handed. If the
+    /// image has another shape than the picture, the larger `right` or `up` shows more, and the picture is not cut off.
+    void appendCamera(std::string& out) const {
+        const scene::Camera& camera = scene_.camera;
+        const double aspect = static_cast<double>(scene_.viewport.width) / scene_.viewport.height;
+        const glm::dvec3 direction =
+            -camera.focalLength() * axes_[2] - camera.shiftX * aspect * axes_[0] - camera.shiftY * axes_[1];
+        out +=
+            "// All coordinates are right-handed: Right, Up and Back, which points to the viewer.\n"
+            "// The view axis is beside the middle of the picture, so POV-Ray warns that\n"
+            "// the vectors of the camera are not perpendicular.\n";
+        out += "#declare Right = " + povVector(axes_[0]) + ";\n#declare Up = " + povVector(axes_[1]) +
+               ";\n#declare Back = " + povVector(axes_[2]) + ";\n#declare Aspect = " + povNumber(aspect) +
+               ";\ncamera {\n  perspective\n  location " + povVector(camera.eye) + "\n  direction " +
+               povVector(direction) +
+               "\n  right Right * max(Aspect, image_width / image_height)"
+               "\n  up Up * max(1, Aspect * image_height / image_width)\n}\n";
+    }
+
+    void addSlice(std::size_t slice) {
+        const scene::SlicePlacement& placement = scene_.placements[slice];
+        objects_ += "\n// Slice " + std::to_string(placement.index) + "\n";
+        const PovPart part{placement.position,       scene_.scale,
+                           scene_.drawnBallRadius(), scene_.look.parts.bars ? scene_.barRadius : 0,
+                           scene_.drawnBallColor(),  style_.bar};
+        if (scene_.look.parts.faces && !scene_.needsDepthBuffer) {
+            addFaces(set_, slice, part, scene_.faceOpacity, [this](std::uint32_t f) { return scene_.cellOfFace(f); });
+        }
+        if (!scene_.fill.empty()) addPieces(slice, part);
+        if (!scene_.surfaces.empty()) addSurfaces(slice, part);
+        addBalls(set_, slice, part);
+        addBars(set_, slice, part);
+    }
+
+    void addProjection() {
+        const scene::ObjectProjection& projection = scene_.projection;
+        objects_ += "\n// Projection\n";
+        for (std::size_t i = 0; i < projection.parts.size(); ++i) {
+            const scene::ProjectionPartLook& look = projection.parts[i];
+            const PovPart part{scene_.projectionPlacement.position,
+                               projection.scale,
+                               look.ballRadius,
+                               look.barRadius,
+                               look.ballColor,
+                               look.barColor};
+            addFaces(projection.elements, i, part, look.faceOpacity,
+                     [&](std::uint32_t f) { return projection.faceCells[f]; });
+            addBalls(projection.elements, i, part);
+            addBars(projection.elements, i, part);
+            checkBudget();
+        }
+    }
+
+    /// Adds convex faces. `opacity` is that of fully visible faces; `cellOf` returns the cell that colors a face.
+    template <typename CellOf>
+    void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPart& part, double opacity, CellOf cellOf) {
+        PovMesh mesh;
+        for (std::uint32_t v = set.vertexBegin[slice]; v < set.vertexBegin[slice + 1]; ++v)
+            mesh.points.push_back(part(set.vertices[v]));
+        for (std::uint32_t f = set.faceBegin[slice]; f < set.faceBegin[slice + 1]; ++f) {
+            const double own = opacity * slicing::opacityOf(scene_.visibilities.face(set.faceSource[f]));
+            if (own == 0) continue;
+            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[cellOf(f)], own, kMatte);
+            const std::uint32_t first = set.cornerBegin[f];
+            for (std::uint32_t c = first + 2; c < set.cornerBegin[f + 1]; ++c)
+                mesh.add(set.corners[first], set.corners[c - 1], set.corners[c], texture);
+        }
+        appendPovMesh(objects_, mesh);
+    }
+
+    /// Adds the convex pieces of faces that may cross each other.
+    void addPieces(std::size_t slice, const PovPart& part) {
+        const slicing::FilledFaces& fill = scene_.fill;
+        PovMesh mesh;
+        for (std::uint32_t f = fill.faceBegin[slice]; f < fill.faceBegin[slice + 1]; ++f) {
+            const double own = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(fill.faces[f].source));
+            if (own == 0) continue;
+            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[scene_.fillCells[f]], own, kMatte);
+            for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
+                const auto first = static_cast<std::uint32_t>(mesh.points.size());
+                for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
+                    mesh.points.push_back(part(fill.corners[c]));
+                for (std::uint32_t c = first + 2; c < mesh.points.size(); ++c) mesh.add(first, c - 1, c, texture);
+            }
+        }
+        appendPovMesh(objects_, mesh);
+    }
+
+    void addSurfaces(std::size_t slice, const PovPart& part) {
+        const slicing::SliceSurface& surface = set_.surfaces[slice];
+        triangles_ += surface.triangles.size();
+        source_.budget.checkTrianglesAndMemory(triangles_);
+        for (const scene::SurfaceLook::Level& level : scene_.surfaces.levels) {
+            addSurface(slice, part, level, false);
+            if (level.caps) addSurface(slice, part, level, true);
+        }
+    }
+
+    /// Adds the smooth level set of a level, or its flat caps. Each is a mesh of its own, because the points where they
+    /// meet have the normals and the colors of the level set in the one, and those of the caps in the other.
+    void addSurface(std::size_t slice, const PovPart& part, const scene::SurfaceLook::Level& level, bool ofCaps) {
+        const slicing::SliceSurface& surface = set_.surfaces[slice];
+        PovMesh mesh;
+        std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);  // of the points in the mesh
+        std::vector<std::uint32_t> textureOf;                                    // per point of the mesh
+        for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+            if (surface.levelIndex(t) != level.index || surface.isCap(t) != ofCaps) continue;
+            auto& corners = mesh.triangles.emplace_back();
+            auto& textures = mesh.textures.emplace_back();
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t point = surface.triangles[t][i];
+                if (numbers[point] == kNoPovPoint) {
+                    numbers[point] = static_cast<std::uint32_t>(mesh.points.size());
+                    mesh.points.push_back(part(glm::dvec3(surface.points[point])));
+                    if (!ofCaps) mesh.normals.push_back(surface.normals[point]);
+                    textureOf.push_back(
+                        textures_.numberOf(colorOf(slice, level, ofCaps, point), level.opacity, kShiny));
+                }
+                corners[i] = numbers[point];
+                textures[i] = textureOf[numbers[point]];
+            }
+        }
+        appendPovMesh(objects_, mesh);
+    }
+
+    scene::Color colorOf(std::size_t slice, const scene::SurfaceLook::Level& level, bool ofCaps,
+                         std::uint32_t point) const {
+        const scene::SurfaceLook& look = scene_.surfaces;
+        if (ofCaps && look.colorsCapPoints()) return look.capPointColor(set_.surfaces[slice], point);
+        if (!ofCaps && look.colorsPoints()) return look.pointColor(set_.surfaces[slice], point);
+        return look.color(level, slice);
+    }
+
+    void addBalls(const slicing::SliceSet& set, std::size_t slice, const PovPart& part) {
+        for (std::uint32_t v = set.vertexBegin[slice]; part.ballRadius > 0 && v < set.vertexBegin[slice + 1]; ++v) {
+            const std::uint32_t source = set.vertexSource[v];
+            const double own = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
+            const double opacity = own * slicing::opacityOf(scene_.visibilities.vertex(source));
+            if (opacity == 0) continue;
+            const auto radius = static_cast<float>(part.ballRadius * (set.ballScale.empty() ? 1 : set.ballScale[v]));
+            objects_ += "sphere { " + povVector(part(set.vertices[v])) + ", " + povNumber(radius);
+            endShape(scene_.highlight.hasVertex(source) ? style_.highlight : part.ballColor, opacity);
+        }
+    }
+
+    void addBars(const slicing::SliceSet& set, std::size_t slice, const PovPart& part) {
+        const std::uint32_t first = set.vertexBegin[slice];
+        for (std::uint32_t e = set.edgeBegin[slice]; part.barRadius > 0 && e < set.edgeBegin[slice + 1]; ++e) {
+            const std::uint32_t source = set.edgeSource[e];
+            const double opacity = slicing::opacityOf(scene_.visibilities.edge(source));
+            const glm::vec3 a = part(set.vertices[first + set.edges[e][0]]),
+                            b = part(set.vertices[first + set.edges[e][1]]);
+            if (opacity == 0 || glm::distance(a, b) < kShortestPovBar) continue;
+            objects_ += "cylinder { " + povVector(a) + ", " + povVector(b) + ", " +
+                        povNumber(static_cast<float>(part.barRadius));
+            endShape(scene_.highlight.hasEdge(source) ? style_.highlight : part.barColor, opacity);
+        }
+    }
+
+    /// Ends a ball or bar. A ray of sight crosses its surface twice, and each crossing lets the square root of the
+    /// light pass, so that both together have the opacity.
+    void endShape(scene::Color color, double opacity) {
+        const std::uint32_t texture = textures_.numberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
+        objects_ += " texture { " + PovTextures::nameOf(texture) + " } }\n";
+    }
+
+    /// Adds the labels, each as a text that is parallel to the picture.
+    void addLabels() {
+        bool isFirst = true;
+        for (const scene::SlicePlacement& placement : scene_.placements) {
+            const double depth = -(toView_ * glm::dvec4(placement.labelAt, 1)).z;
+            if (!placement.drawn || placement.label.empty() || depth <= 0) continue;
+            if (isFirst) objects_ += kLabelMacro;
+            isFirst = false;
+            const double size = style_.textHeight * placement.labelSize * depth / scene_.camera.focalLength();
+            objects_ += "Label(" + povString(placement.label) + ", " + povVector(placement.labelAt) + ", " +
+                        povNumber(size) + ", <" + povChannels(placement.focus ? style_.focusText : style_.text) +
+                        ">)\n";
+        }
+    }
+
+    // Font 2 of POV-Ray is a sans-serif; its digits are 0.73 high.
+    static constexpr std::string_view kLabelMacro = R"(
+// Top: the center of the label's top edge.
+#macro Label(Text, Top, Size, Color)
+  #local Letters = text { internal 2 Text 0.01, 0 }
+  object {
+    Letters
+    translate <-(min_extent(Letters).x + max_extent(Letters).x) / 2, -0.73, 0>
+    scale Size
+    matrix <Right.x, Right.y, Right.z, Up.x, Up.y, Up.z, Back.x, Back.y, Back.z, 0, 0, 0>
+    translate Top
+    pigment { rgb Color }
+    finish { ambient 1 diffuse 0 }
+    no_shadow
+  }
+#end
+)";
+
+    const SceneInput& source_;
+    const scene::Scene& scene_;
+    const slicing::SliceSet& set_;
+    const scene::Style& style_;
+    const glm::dmat4 toView_;
+    const glm::dmat3 axes_;  // the right, up and backward directions of the camera
+    PovTextures textures_;
+    std::string objects_;
+    std::size_t triangles_ = 0;  // of surfaces
+};
+
+}  // namespace
+
+std::string pov(const SceneInput& source) { return PovWriter(source).write(); }
+
+}  // namespace oval4d::exports
