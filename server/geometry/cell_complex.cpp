@@ -26,7 +26,7 @@ bool isConvexLoop(const CellComplex& complex, std::span<const std::uint32_t> loo
         const double inner = glm::dot(a, b);
         turning += std::acos(std::clamp(inner / (glm::length(a) * glm::length(b)), -1.0, 1.0));
     }
-    // The absolute values of the exterior angles add up to 2π for convex loops only.
+    // The absolute values of the exterior angles add up to 2π if the loop is convex, else to more.
     return turning < 2 * std::numbers::pi + 1e-6;
 }
 

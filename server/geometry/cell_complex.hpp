@@ -20,8 +20,8 @@ struct CellComplex : ObjectInfo {
     std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
     std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
     JaggedArray faces;                                    ///< the vertex loop of each 2-face
-    JaggedArray faceEdges;                                ///< the edges of each 2-face; edge i joins the vertices
-                                                          ///< i and i + 1 of its loop
+    JaggedArray faceEdges;                                ///< the edges of each 2-face; entry i of a row joins
+                                                          ///< corners i and i + 1 of the vertex loop
     JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
     std::vector<std::int8_t> cellSigns;                   ///< per entry of cells.items: +1 if the vertex loop of the
                                                           ///< 2-face is counterclockwise seen from outside the cell,
@@ -39,10 +39,10 @@ void findEdges(CellComplex& complex);
 /// Returns whether every 2-face is a convex polygon. A 2-face that is not flat is not convex.
 bool hasConvexFaces(const CellComplex& complex);
 
-/// Returns the memory that the rows occupy, in bytes, without the array object itself.
+/// Returns the memory that the rows of `array` occupy, in bytes, without sizeof(JaggedArray).
 std::size_t memoryOfRows(const JaggedArray& array);
 
-/// Returns the memory that the elements occupy, in bytes, without the object itself and its names.
+/// Returns the memory that the elements of `complex` occupy, in bytes, without sizeof(CellComplex) and its strings.
 std::size_t memoryOfElements(const CellComplex& complex);
 
 }  // namespace oval4d::geometry

@@ -24,9 +24,9 @@ struct Centering {
 };
 
 /// Returns the point that becomes the origin of an object with these vertices or points, in the coordinates of the
-/// file. The center of the object is the mean of the points, rounded to about 11 digits of the object's size. The
-/// object is far from the origin of the file if the distance of its center from this origin is more than three times
-/// the largest distance of a point from the center, and this largest distance is not 0. If there are no points, returns
+/// file. The center of the object is the mean of the points, rounded to a multiple of about 10⁻¹¹ of the object's
+/// extent. The extent is the largest distance of a point from the center. The object is far from the origin of the file
+/// if its extent is not 0 and its center is more than three extents from this origin. If there are no points, returns
 /// the zero vector for every choice.
 glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> points);
 

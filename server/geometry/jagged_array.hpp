@@ -19,7 +19,7 @@ struct JaggedArray {
     std::span<const std::uint32_t> operator[](std::size_t i) const {
         return {items.data() + begin[i], begin[i + 1] - begin[i]};
     }
-    /// Appends a row. `row` must not be a part of `items` of this array, which may be reallocated.
+    /// Appends a row. `row` must not point into `items` of this array, because appending may reallocate `items`.
     void add(std::span<const std::uint32_t> row) {
         items.insert(items.end(), row.begin(), row.end());
         begin.push_back(static_cast<std::uint32_t>(items.size()));

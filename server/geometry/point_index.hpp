@@ -22,8 +22,8 @@ class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
 
-    /// Finds a point that equals p in `points`; if there is none, appends p. Returns the index of the point, and true
-    /// if p was appended. All calls must pass the same vector `points`.
+    /// Finds a point in `points` that equals p; appends p if there is no such point. Returns the index of the point,
+    /// and true if p was appended. All calls must pass the same vector `points`.
     std::pair<std::uint32_t, bool> findOrAdd(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
             const auto known = cells_.find(key(p, corner));

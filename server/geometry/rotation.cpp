@@ -92,12 +92,12 @@ Turn operator+(const Turn& a, const Turn& b) {
 Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
     : left_(glm::normalize(left)), right_(glm::normalize(right)) {}
 
-// Multiplication by exp(uθ) from the left, with an imaginary unit u, rotates the plane of the other two imaginary units
-// by θ, and the plane (w, u) by θ from w toward u; multiplication from the right rotates the first plane by −θ and the
-// second by θ. So for the rotation by A in the plane without w (counted i→j, j→k, k→i) and by B from u toward w, θ is
-// (A − B) / 2 on the left and −(A + B) / 2 on the right. Multiplications from the left commute with those from the
-// right, so the exponential of the sum over all planes is l times r, where the logarithms of l and of r are the sums of
-// u θ over the three units u.
+// Let u be one of the imaginary units i, j and k. Multiplication by exp(uθ) from the left rotates the plane of the
+// other two imaginary units by θ, and the plane (w, u) by θ from w toward u. Multiplication by exp(uθ) from the right
+// rotates the plane of the other two units by −θ, and the plane (w, u) by θ. So for the rotation by A in the plane
+// without w (counted i→j, j→k, k→i) and by B from u toward w, θ is (A − B) / 2 on the left and −(A + B) / 2 on the
+// right. Multiplications from the left commute with those from the right, so the exponential of the sum over all planes
+// is l times r, where the logarithms of l and of r are the sums of u θ over the three units u.
 Rotation::Rotation(const Turn& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {
@@ -135,8 +135,9 @@ std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const 
     return found;
 }
 
-// A simple rotation that takes a to b is v ↦ (m ā) v (ā m), where m = (a + b) / |a + b| is half way between them: a
-// becomes m ā a ā m = m ā m, which is a reflected in the line of m, that is b.
+// A simple rotation that takes the unit vector a to the unit vector b is v ↦ (m ā) v (ā m). Here, ā is the conjugate of
+// a, and m = (a + b) / |a + b| is half way between a and b. This rotation takes a to m ā a ā m = m ā m. That is the
+// reflection of a in the line of m, which is b.
 Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
     const glm::dquat a = asQuaternion(glm::normalize(from));
     const glm::dquat b = asQuaternion(glm::normalize(to));
@@ -153,9 +154,9 @@ Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
 
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
 
-// The half angles λ and ρ of the unit quaternions l and r are those with l = exp(u λ) and r = exp(u' ρ) for imaginary
-// units u and u'; the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) give the same rotation; choose the pair
-// with l.w + r.w ≥ 0, which has the smaller angles.
+// Let l = exp(u λ) and r = exp(u' ρ) for imaginary unit quaternions u and u'. The angles of the rotation in its two
+// invariant planes are λ + ρ and λ − ρ. The pairs (l, r) and (−l, −r) give the same rotation; the pair with l.w + r.w ≥
+// 0 has the smaller angles.
 Rotation Rotation::power(double fraction) const {
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};
@@ -180,8 +181,8 @@ glm::dmat4 Rotation::matrix() const {
 }
 
 // The sixteen maps v ↦ e_i·v·e_j, where e_0 … e_3 are 1, i, j and k, form an orthogonal basis of the 4×4 matrices, each
-// with the squared norm 4. In this basis a rotation has the coordinates l_i r_j, which form a matrix of rank one.
-// Therefore a column of this matrix is a multiple of l, and a row is a multiple of r.
+// with the squared norm 4. In this basis, the rotation v ↦ l·v·r has the coordinates l_i r_j, which form a matrix of
+// rank one. Therefore a column of this matrix is a multiple of l, and a row is a multiple of r.
 std::optional<Rotation> Rotation::fromMatrix(const glm::dmat4& matrix, double tolerance) {
     const std::array<glm::dquat, 4> units{glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0), glm::dquat(0, 0, 1, 0),
                                           glm::dquat(0, 0, 0, 1)};

@@ -91,11 +91,11 @@ class Rotation {
     /// from −π to π. Exception: the planes of the rotation v ↦ −v are not determined, so every `fraction`, even 0,
     /// gives v ↦ −v.
     Rotation power(double fraction) const;
-    /// Returns the larger of the angles in the two invariant planes, without signs: in radians, from 0 to π.
+    /// Returns the larger of the absolute values of the angles in the two invariant planes, in radians: from 0 to π.
     double angle() const;
-    /// Returns the turn with the smallest angles that gives this rotation. It has no angle in planes whose angle would
-    /// be 0 except for rounding errors; for the identity, it has none at all. Several turns give the rotation v ↦ −v;
-    /// returns one of them.
+    /// Returns the turn with the smallest angles that gives this rotation. It has no angle in a plane whose angle
+    /// differs from 0 only by rounding errors; for the identity, it has no angles. Several turns give the rotation v ↦
+    /// −v; returns one of them.
     Turn turn() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;

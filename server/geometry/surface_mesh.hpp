@@ -28,7 +28,7 @@ class InvalidSurface : public std::invalid_argument {
     /// wrong; what() returns it.
     InvalidSurface(std::uint32_t number, const std::string& fault) : std::invalid_argument(fault), face(number) {}
 
-    std::uint32_t face;  ///< the constructor's `number`
+    std::uint32_t face;  ///< the index of the invalid 2-face, or kNone
 };
 
 /// Makes a surface from its vertices and the vertex loops of its 2-faces; computes its edges. Throws InvalidSurface if
