@@ -106,7 +106,7 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
     archive(OutcomeKind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);
-    slicing::writeParts(outcome->object, archive, files, maxInMemory);
+    slicing::writeObjectContent(outcome->object, archive, files, maxInMemory);
 }
 
 Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
@@ -124,7 +124,7 @@ Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const 
     std::vector<std::string> warnings;
     while (warnings.size() < count) warnings.push_back(textFrom(archive));
     try {
-        return session::ObjectWithWarnings{slicing::readParts(archive, name, limits.maxVertices, files),
+        return session::ObjectWithWarnings{slicing::readObjectContent(archive, name, limits.maxVertices, files),
                                            std::move(warnings)};
     } catch (const std::runtime_error& fault) {
         reject(fault.what());

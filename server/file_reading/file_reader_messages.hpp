@@ -27,7 +27,7 @@ void encodeReadRequest(const session::LoadObject& load, const session::Limits& l
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
 /// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
-/// `files` and `maxInMemory`: see slicing::writeParts(). Overwrites `out`.
+/// `files` and `maxInMemory`: see slicing::writeObjectContent(). Overwrites `out`.
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
                    slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 

@@ -196,7 +196,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
     if (isField && readsFieldSurfaces(request)) {
-        slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
+        slicing::setUniformDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
     }
     if (element) {

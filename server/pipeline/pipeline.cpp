@@ -26,8 +26,8 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
         const geometry::Hyperplanes planes = state.hyperplanes();
         slicing::checkSliceEdges(state.object, state.orientation, planes, limits_.sliceEdges);
         const double circumradius = slicing::infoOf(state.object).circumradius;
-        slicing::setEvenDetail(circumradius, planes, quality, workspace_.detail);
-        slicing::addEvenFog(circumradius, planes, workspace_.detail);
+        slicing::setUniformDetail(circumradius, planes, quality, workspace_.detail);
+        slicing::addUniformFog(circumradius, planes, workspace_.detail);
         workspace_.detail.secondValues = scene::colorsByValue(state.look);
         workspace_.slicer.slice(state.object, state.orientation, planes, state.look.field, workspace_.detail, out);
     });

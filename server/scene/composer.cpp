@@ -54,9 +54,9 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
     const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
-    // On a lattice that is coarser than the one for messages (evenStep()), thin bodies in small slices would fall
+    // On a lattice that is coarser than the one for messages (uniformStep()), thin bodies in small slices would fall
     // apart.
-    const double coarsest = quality == slicing::Quality::full ? slicing::evenStep(scene.circumradius, quality)
+    const double coarsest = quality == slicing::Quality::full ? slicing::uniformStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {
         const double depth = glm::dot(forward, placement.position - scene.camera.eye);
@@ -115,7 +115,7 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
         highlight_ = element;
         highlightSources_.clear();
         if (element && element->index < slicing::elementCount(object, element->kind))
-            slicing::findSourcesShowing(object, *element, highlightSources_);
+            slicing::findPartsShowing(object, *element, highlightSources_);
     }
     out.highlight = highlightSources_;
     if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell) {

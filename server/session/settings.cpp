@@ -342,7 +342,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
         const auto& lit = state.look.highlight;
         element = slicing::elementToTurnTo(state.object, command.element, state.orientation, lit).value_or(element);
     }
-    const geometry::Rotation way = slicing::wayToW(state.object, element, state.orientation);
+    const geometry::Rotation way = slicing::rotationToW(state.object, element, state.orientation);
     const geometry::Rotation goal = way * state.orientation;
     state.turning = false;
     state.ongoingTurnToward.reset();

@@ -10,9 +10,9 @@
 namespace oval4d::slicing {
 
 /// Steps through parallel hyperplanes, and lists which edges of a polytope (or which 2-faces, or which cells) the
-/// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w; an element is cut by the hyperplanes
-/// with the indices in [from, to). Call clear(), then add() for each element, then sort() once, then advance() for the
-/// hyperplanes in ascending order. Reuses its memory.
+/// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w. The indices of the hyperplanes that cut
+/// an element are a range [from, to). Call clear(), then add() for each element, then sort() once, then advance() for
+/// the hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
 /// take longer than the work that the branch avoids.
@@ -20,7 +20,7 @@ class ActiveList {
   public:
     struct Entry {
         std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
-        std::int32_t to;       ///< the index of the first hyperplane above the element
+        std::int32_t to;       ///< the end of the range [from, to) of the hyperplanes that cut the element
     };
 
     /// Removes all elements. Makes room for up to `elements` new ones, and for the hyperplanes 0 … `planes` − 1.
@@ -42,8 +42,8 @@ class ActiveList {
     /// hyperplane of every element.
     void sort(std::span<const int> steps);
 
-    /// Makes the hyperplane with the index `step` the current one. Must be called for the steps that were passed to
-    /// sort(), in this order. Returns the elements that become active: those whose first hyperplane is `step`.
+    /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
+    /// sort(), in ascending order. Returns the elements that become active: those whose first hyperplane is `step`.
     std::span<const Entry> advance(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Entry> active() const { return {active_.data(), activeCount_}; }
@@ -61,8 +61,8 @@ class ActiveList {
 
     std::vector<UnsortedEntry> unsorted_;
     std::vector<Entry> sorted_, active_;
-    // Per hyperplane: before sort(), the number of elements whose first hyperplane it is; afterward, the end of the
-    // range of these elements in sorted_.
+    // Per hyperplane: the elements whose range begins at this hyperplane. Before sort(), their number; afterward, the
+    // index in sorted_ at which they end.
     std::vector<std::uint32_t> end_;
     // The numbers of elements that were added, that are active, and that have become active since sort().
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;

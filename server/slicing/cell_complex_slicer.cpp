@@ -1,4 +1,5 @@
-// One class in one file, although it is long: its stages fill the same buffers, which no other code may see incomplete.
+// This file is long, because its class is not divided: the stages fill the same buffers, which no other code may see
+// incomplete.
 
 #include "slicing/cell_complex_slicer.hpp"
 
@@ -24,8 +25,9 @@ namespace oval4d::slicing {
 void CellComplexSlicer::slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                               const geometry::Hyperplanes& planes, SliceSet& out) {
     if (!planes.listed.empty()) {
-        cutEach(planes, out,
-                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(polytope, orientation, plane, one); });
+        cutEachHyperplane(planes, out, [&](const geometry::Hyperplanes& plane, SliceSet& one) {
+            slice(polytope, orientation, plane, one);
+        });
         return;
     }
     out.planes = planes;
@@ -36,8 +38,9 @@ void CellComplexSlicer::slice(const polytopes::Polytope& polytope, const geometr
 void CellComplexSlicer::slice(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
                               const geometry::Hyperplanes& planes, SliceSet& out) {
     if (!planes.listed.empty()) {
-        cutEach(planes, out,
-                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(complex, orientation, plane, one); });
+        cutEachHyperplane(planes, out, [&](const geometry::Hyperplanes& plane, SliceSet& one) {
+            slice(complex, orientation, plane, one);
+        });
         return;
     }
     out.planes = planes;
@@ -188,7 +191,7 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
             least = std::min(least, rankSum_[*vertex]);
             most = std::max(most, rankSum_[*vertex]);
         }
-        const Span above{least / 2, most / 2};
+        const PlaneRange above{least / 2, most / 2};
         const std::int32_t leastUpTo = (least + 1) / 2;
         const std::int32_t mostUpTo = (most + 1) / 2;
         faceSpan_[f] = {leastUpTo, above.to};
@@ -205,7 +208,7 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
 // The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
 // nothing, if the loop ascends more than once. Rounding errors can have this effect if the 2-face nearly lies in a
 // hyperplane.
-bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above) {
+bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
     std::int32_t ascents = 0;
@@ -228,7 +231,7 @@ bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std:
 // A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
 // hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
 // overlap, the 2-face covers the line more than once.
-void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above,
+void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above,
                                          const SliceSet& out) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
@@ -340,7 +343,7 @@ void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet&
     cellSpan_.resize(cells);
     for (std::uint32_t c = 0; c < cells; ++c) {
         const auto faces = complex.cells[c];
-        Span span = faceSpan_[faces[0]];
+        PlaneRange span = faceSpan_[faces[0]];
         for (const std::uint32_t f : faces) {
             span = {std::min(span.from, faceSpan_[f].from), std::max(span.to, faceSpan_[f].to)};
         }
@@ -379,7 +382,7 @@ bool CellComplexSlicer::lowestSectionCollapses(const geometry::CellComplex& comp
 // Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
 // cell: the end of a segment is the start of the next one. Then follows these links to find the closed loops.
 void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
-    const Span span = cellSpan_[cell];
+    const PlaneRange span = cellSpan_[cell];
     starts_.clear();
     for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
         const std::uint32_t f = complex.cells.items[at];
@@ -430,7 +433,7 @@ void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, cons
         std::array<bool, 2> bounds{};
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t cell = complex.faceCells[f].at(i);
-            const Span span = cellSpan_[cell];
+            const PlaneRange span = cellSpan_[cell];
             standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) = standsOnFace.at(i) || (span.from > plane && span.to <= plane && isUpward(cell));
         }

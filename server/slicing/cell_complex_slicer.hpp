@@ -42,7 +42,7 @@ class CellComplexSlicer {
     static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see FaceCrossing
 
     // The hyperplanes with the indices in [from, to); no hyperplane if to ≤ from.
-    struct Span {
+    struct PlaneRange {
         std::int32_t from, to;
     };
     // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
@@ -76,14 +76,16 @@ class CellComplexSlicer {
     // more than two hyperplanes touch the polytope or if rounding errors prevent the cut.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out);
-    // Cuts one slice, in the hyperplane with the index `plane` in `all.planes`, and writes it to `single`. Borrows
-    // `all.rotatedVertices` meanwhile, and returns them at the end.
+    // Cuts one slice, in the hyperplane with the index `plane` in `all.planes`, and writes it to `single`. Moves
+    // `all.rotatedVertices` to `single` for the cut, and back at the end.
     void cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const geometry::CellComplex& complex, SliceSet& out);
     void cutFaces(const geometry::CellComplex& complex, SliceSet& out);
-    bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above);
-    void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, Span above, const SliceSet& out);
-    // Sets lowestEdges_ to those of the 2-face in the hyperplane `plane`, which contains its lowest vertices.
+    bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above);
+    void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above,
+                          const SliceSet& out);
+    // Sets lowestEdges_ to the edges of the 2-face that lie in the hyperplane `plane`. This hyperplane must contain the
+    // lowest vertices of the 2-face.
     void findLowestEdges(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane);
     void addFaceCrossing(const geometry::CellComplex& complex, std::uint32_t face, std::int32_t plane, std::uint32_t up,
                          std::uint32_t down);
@@ -125,7 +127,7 @@ class CellComplexSlicer {
     std::vector<FaceCrossing> faceCrossings_;  // those of 2-face f begin at faceCrossingBegin_[f]
     std::vector<std::uint32_t> faceCrossingBegin_;
     // Per 2-face or cell: the hyperplanes strictly between its lowest and its highest vertex.
-    std::vector<Span> faceSpan_, cellSpan_;
+    std::vector<PlaneRange> faceSpan_, cellSpan_;
     std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
     CoincidingEdges coinciding_;                // per slice edge

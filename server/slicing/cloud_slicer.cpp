@@ -18,8 +18,9 @@ double relativeBallRadius(const geometry::PointCloud& cloud) {
 void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotation& orientation,
                         const geometry::Hyperplanes& planes, SliceSet& out) {
     if (!planes.listed.empty()) {
-        cutEach(planes, out,
-                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(cloud, orientation, plane, one); });
+        cutEachHyperplane(planes, out, [&](const geometry::Hyperplanes& plane, SliceSet& one) {
+            slice(cloud, orientation, plane, one);
+        });
         return;
     }
     out.planes = planes;

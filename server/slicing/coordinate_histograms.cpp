@@ -42,7 +42,7 @@ void CoordinateHistograms::measure(const fields::Field& field, const geometry::R
 
 // Evaluates the function, and sets fullRange_ and typicalRange_.
 void CoordinateHistograms::sample(const fields::Field& field) {
-    constexpr double kResolution = 128;  // steps from one side of the domain to the other
+    constexpr double kResolution = 128;  // how many steps long each side of the domain is: see forSteps()
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};
     for (int k = 0; k < 4; ++k) steps[static_cast<std::size_t>(k)][k] = size[k] / kResolution;

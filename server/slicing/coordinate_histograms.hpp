@@ -32,7 +32,8 @@ class CoordinateHistograms {
     static constexpr int kPanel = 64;  ///< columns for each axis
     static constexpr int kColumns = 4 * kPanel;
     static constexpr int kRows = 65;
-    /// The weight that a point adds to each panel. The two columns between which the point lies share this weight.
+    /// The weight that a point adds to each panel. The weight is divided between the two columns between which the
+    /// point lies.
     static constexpr std::uint32_t kPointWeight = 4;
     /// Limits on the number of points. Functions that take longer to evaluate are evaluated at fewer points.
     static constexpr std::size_t kMaxPoints = std::size_t{1} << 17, kMinPoints = std::size_t{1} << 14;

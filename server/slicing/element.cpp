@@ -54,7 +54,8 @@ void visitVertexNumbers(const PointCloud& /*cloud*/, const Element& element, Vis
 const std::vector<glm::dvec4>& verticesOf(const CellComplex& p) { return p.vertices; }
 const std::vector<glm::dvec4>& verticesOf(const PointCloud& cloud) { return cloud.points; }
 
-// Calls `visit` with the position of each vertex of the element, as often as visitVertexNumbers() does.
+// Calls `visit` with the position of each vertex of the element, in the order and as often as visitVertexNumbers()
+// visits the vertex.
 template <typename Elements, typename Visit>
 void visitVertices(const Elements& object, const Element& element, Visit visit) {
     visitVertexNumbers(object, element, [&](std::uint32_t v) { visit(verticesOf(object)[v]); });
@@ -258,7 +259,7 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
                          object);
 }
 
-geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
+geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
     const glm::dvec4 own = directionOf(object, element, ownDirectionOfW(orientation));
     return geometry::Rotation::between(orientation(own), {0, 0, 0, 1});
 }
@@ -298,7 +299,7 @@ void PartsShowingElement::clear() {
     for (auto* list : {&vertices, &edges, &ownVertices}) list->clear();
 }
 
-void findSourcesShowing(const Object& object, const Element& element, PartsShowingElement& out) {
+void findPartsShowing(const Object& object, const Element& element, PartsShowingElement& out) {
     out.clear();
     visitElements([&](const auto& elements) { findSourcesIn(elements, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {

@@ -50,9 +50,9 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
 /// Returns the rotation by the smallest angle that, applied after `orientation`, turns the direction of the element to
-/// +w. This direction is the result of directionOf(), where `preferred` is the direction that `orientation` alone turns
-/// to +w. Requires element.index < elementCount(object, element.kind).
-geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
+/// +w. The direction of the element is the result of directionOf(); the argument `preferred` is the direction that
+/// `orientation` alone turns to +w. Requires element.index < elementCount(object, element.kind).
+geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
 /// `orientation`. If `incident` is given, considers only elements that contain `incident` or are contained in it; among
@@ -85,7 +85,7 @@ struct PartsShowingElement {
 ///
 /// Overwrites `out`. Takes time linear in the number of edges. Requires element.index < elementCount(object,
 /// element.kind).
-void findSourcesShowing(const Object& object, const Element& element, PartsShowingElement& out);
+void findPartsShowing(const Object& object, const Element& element, PartsShowingElement& out);
 
 /// The center and the size of an element.
 struct ElementMeasurements {
@@ -118,8 +118,8 @@ struct HeightGroup {
 /// differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
 std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation);
 
-/// Sorts w coordinates, and groups successive ones that differ by at most `same`. The w of a group is the mean of its
-/// coordinates.
+/// Sorts w coordinates, and groups successive coordinates that differ by at most `same`. The w of a group is the mean
+/// of its coordinates.
 std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same);
 
 }  // namespace oval4d::slicing

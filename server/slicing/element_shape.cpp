@@ -68,7 +68,8 @@ double addShape(const CellComplex& p, const Element& element, const PartsShowing
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;
     const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
-    // sources.edges also contains the source numbers of slice edges cut from 2-faces. These are skipped.
+    // sources.edges also contains source numbers of slice edges cut from 2-faces, which are skipped: the shape has only
+    // edges of the object.
     const auto faces = static_cast<std::uint32_t>(p.faces.size());
     std::vector<std::uint32_t> edges;
     for (const std::uint32_t source : sources.edges) {
@@ -86,9 +87,9 @@ double addShape(const CellComplex& p, const Element& element, const PartsShowing
 
 void writeElementAsSlice(const Object& object, const Element& element, const geometry::Rotation& orientation,
                          SliceSet& out) {
-    const geometry::Rotation turn = wayToW(object, element, orientation) * orientation;
+    const geometry::Rotation turn = rotationToW(object, element, orientation) * orientation;
     PartsShowingElement sources;
-    findSourcesShowing(object, element, sources);
+    findPartsShowing(object, element, sources);
     out.rotatedVertices.clear();
     out.surfaces.clear();
     out.fogs.clear();

@@ -60,7 +60,8 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     const bool hasFog = !settings.fog.empty() && !detail.fogSteps.empty();
     out.surfaces.resize(count);
     out.fogs.resize(hasFog ? count : 0);
-    // Each slice gets a share of the time and point limits, in proportion to the estimated number of its points.
+    // Each slice gets a share of the limits on time and points, in proportion to the estimated number of the points of
+    // its surfaces.
     double sum = 0;
     for (const double step : detail.steps) sum += pointWeight(step);
     if (sum == 0) {
@@ -73,10 +74,10 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     const auto work = [&](std::size_t worker) {
         for (int i = next++; i < planes.count; i = next++) {
             const auto n = static_cast<std::size_t>(i);
-            Task task;
+            SliceTask task;
             if (sum > 0) task = {detail.steps[n], pointWeight(detail.steps[n]) / sum, 0};
             if (hasFog) task.fogStep = coarsening * detail.fogSteps[n];
-            process(field, toFunction, settings, detail, task, i, out, worker);
+            sampleSlice(field, toFunction, settings, detail, task, i, out, worker);
         }
     };
     parallel::invoke(forkJoin_, [&] { work(0); }, [&] { work(1); });
@@ -107,8 +108,9 @@ double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetai
     return factor;
 }
 
-void FieldSlicer::process(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
-                          const SurfaceDetail& detail, const Task& task, int slice, SliceSet& out, std::size_t worker) {
+void FieldSlicer::sampleSlice(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
+                              const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out,
+                              std::size_t worker) {
     const auto n = static_cast<std::size_t>(slice);
     const bool empty = out.vertexCount(slice) == 0, extracts = task.share > 0 && !empty;
     const bool samples = task.fogStep > 0 && !empty;

@@ -32,7 +32,7 @@ class FieldSlicer {
 
   private:
     // The work for one slice.
-    struct Task {
+    struct SliceTask {
         // The lattice step of the surfaces, and the fraction of the SurfaceLimits that this slice may use. If the
         // fraction is 0, no surfaces are extracted.
         double step = 0, share = 0;
@@ -40,8 +40,8 @@ class FieldSlicer {
     };
     // Extracts the surfaces and samples the fog of one slice. `worker` is the index in extractors_ and sections_ of the
     // objects to use.
-    void process(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
-                 const SurfaceDetail& detail, const Task& task, int slice, SliceSet& out, std::size_t worker);
+    void sampleSlice(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
+                     const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out, std::size_t worker);
     static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);
 
     parallel::ForkJoin* forkJoin_;

@@ -49,8 +49,8 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
         for (std::size_t i = 0; i < size; ++i) {
             const glm::dvec2 a = onPlane(points_[first + i]);
             const glm::dvec2 b = onPlane(points_[first + (i + 1) % size]);
-            // The inside is to the left of a side that goes up, so the winding number decreases from left to right
-            // across such a side.
+            // The inside of a loop is to the left of a side that goes up, so the winding number decreases by 1 from
+            // left to right across such a side.
             const double slope = (b.x - a.x) / (b.y - a.y);
             if (a.y < b.y) sides_.push_back({a, b, slope, -1, 0, 0, 0});
             if (a.y > b.y) sides_.push_back({b, a, slope, 1, 0, 0, 0});
@@ -222,8 +222,8 @@ void FaceFiller::sortActive(double y) {
 }
 
 // Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
-// else begins a new piece. Only a piece that arrives at the left end of the region can continue; there is at most one,
-// except where several sides meet.
+// else begins a new piece. Only a piece whose left side arrives at the left end of the region can be extended. There is
+// at most one such piece, except where several sides meet.
 void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     const double x = l.at(bottom);

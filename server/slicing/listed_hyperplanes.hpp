@@ -10,7 +10,7 @@ namespace oval4d::slicing {
 /// must not be empty. Calls `cut` with each hyperplane and with a set to which `cut` must write the slice in this
 /// hyperplane.
 template <typename Cut>
-void cutEach(const geometry::Hyperplanes& planes, SliceSet& out, Cut cut) {
+void cutEachHyperplane(const geometry::Hyperplanes& planes, SliceSet& out, Cut cut) {
     SliceSet one;
     out.planes = planes;
     out.clearSlices();

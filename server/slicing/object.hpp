@@ -48,8 +48,8 @@ using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr, SurfacePtr>;
 /// Returns the field, or null if the object is of another kind. The pointer is valid as long as the field exists.
 const fields::Field* fieldIn(const Object& object);
 
-/// Returns the properties that objects of every kind have. The reference is valid as long as the data exists. This
-/// function and those below require that the object is not a null pointer.
+/// Returns the properties that objects of every kind have. The reference is valid as long as the object's data exist.
+/// This function and those below require that the object is not a null pointer.
 const geometry::ObjectInfo& infoOf(const Object& object);
 
 /// Returns the numbers of vertices (or points), edges, 2-faces and cells.
@@ -96,15 +96,15 @@ void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 /// offset are 0. Clears both lists for a point cloud or a surface.
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets);
 
-/// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the data exists;
-/// it is empty for a point cloud or a surface.
+/// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the object's
+/// data exist; it is empty for a point cloud or a surface.
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
 /// of the object's own vertices. ObjectInfo::originInFile, the point of the object's file that is the origin of the
-/// object, is added to each of them. Therefore an import of the new file gives the object as in its own file, turned
-/// about this point. The file of a surface lists no cells, and that of a point cloud has only vertices; the file of a
-/// field contains the domain.
+/// object, is added to each of them. Therefore, importing the new file gives the object at its place in the original
+/// file, turned about this point. The file of a surface lists no cells, and that of a point cloud has only vertices;
+/// the file of a field contains the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

@@ -29,8 +29,8 @@ using polytopes::Polytope;
 using serialization::ByteReader;
 using serialization::ByteWriter;
 
-// Reading and writing share this code, so that they always agree. The structured binding does not compile if a member
-// is added to JaggedArray but not here.
+// Reading and writing share this code, so that both use the same format. The structured binding does not compile if a
+// member is added to JaggedArray but not here.
 template <typename Archive, typename Array>
 void visitArray(Archive& archive, Array& array) {
     auto& [begin, items] = array;
@@ -59,7 +59,8 @@ void visitSurface(Archive& archive, Surface& surface) {
     for (auto* array : {&surface.faces, &surface.faceEdges}) visitArray(archive, *array);
 }
 
-// Writes samples or, if writeParts() does not write them inline, the index of their file and their place in this file.
+// Writes samples or, if writeObjectContent() does not write them inline, the index of their file and their place in
+// this file.
 class SampleWriter {
   public:
     SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)
@@ -148,9 +149,9 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
 // The kind of an object is written as the index of its alternative in Object.
 void writeKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
 
-// Reads the kind of an object. Returns a null pointer to an object of this kind, to be visited by the functions that
-// read the rest: if a kind has no function, the code does not compile. Throws std::runtime_error if the kind is
-// unknown.
+// Reads the kind of an object. Returns a null pointer to an object of this kind. Callers visit it to choose the
+// function that reads the rest, so that the code does not compile if a kind has no function. Throws std::runtime_error
+// if the kind is unknown.
 template <typename... Kinds>
 Object readKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     const std::array<Object, sizeof...(Kinds)> ofEachKind{Kinds()...};
@@ -223,7 +224,7 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
                       readKind(archive, std::type_identity<Object>()));
 }
 
-void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
+void writeObjectContent(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
     writeKind(object, archive);
     std::visit(Overloaded{[&](const PolytopePtr& p) {
                               archive(p->vertices), archive(p->originInFile);
@@ -240,7 +241,8 @@ void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, s
                object);
 }
 
-Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices, const MappedFiles& files) {
+Object readObjectContent(ByteReader& archive, const std::string& name, std::size_t maxVertices,
+                         const MappedFiles& files) {
     std::vector<glm::dvec4> vertices;
     glm::dvec4 originInFile(0);
     const auto readVerticesAndOrigin = [&] {

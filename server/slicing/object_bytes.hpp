@@ -26,20 +26,21 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 /// std::runtime_error if bytes or files are missing.
 Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
-/// Writes the data from which readParts() rebuilds the object, without its name: for a polytope, its vertices, 2-faces,
-/// cells and cell types; for a field, its functions (formulas or samples) and domain; for any other object, what
-/// its file lists, such as the points and radii of a cloud. For all but fields, also writes ObjectInfo::originInFile.
+/// Writes the data from which readObjectContent() rebuilds the object, without its name: for a polytope, its vertices,
+/// 2-faces, cells and cell types; for a field, its functions (formulas or samples) and domain; for any other object,
+/// what its file lists, such as the points and radii of a cloud. For all but fields, also writes
+/// ObjectInfo::originInFile.
 ///
-/// The samples of an array are written inline if they are not in a file, or if the object has at most `maxInMemory`
-/// inline samples in total, these included. Otherwise a reference to their file is written, and the file is added to
+/// The samples of an array are written inline if they are not in a file, or if the total number of inline samples of
+/// the object stays at most `maxInMemory`. Otherwise a reference to their file is written, and the file is added to
 /// `files` if it is not there yet.
-void writeParts(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
-                std::size_t maxInMemory = fields::kMaxSamples);
+void writeObjectContent(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
+                        std::size_t maxInMemory = fields::kMaxSamples);
 
-/// Builds an object with this name and a new serial number from the data that writeParts() wrote. The sender need not
-/// be trusted. Throws std::runtime_error with the reason if the object is invalid, if it has more than `maxVertices`
-/// vertices or points, or if samples are neither inline nor in one of `files`.
-Object readParts(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices,
-                 const MappedFiles& files = {});
+/// Builds an object with this name and a new serial number from the data that writeObjectContent() wrote. The sender
+/// need not be trusted. Throws std::runtime_error with the reason if the object is invalid, if it has more than
+/// `maxVertices` vertices or points, or if samples are neither inline nor in one of `files`.
+Object readObjectContent(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices,
+                         const MappedFiles& files = {});
 
 }  // namespace oval4d::slicing

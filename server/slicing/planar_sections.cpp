@@ -57,8 +57,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // Two axes are perpendicular to the plane. The one that comes first in kFirstAxis is the axis of the
-            // plane's first hyperplane, so that each plane is cut only once.
+            // Two axes are perpendicular to the plane. The one of these axes that comes first in kFirstAxis is the axis
+            // of the plane's first hyperplane, so that each plane is cut only once.
             const auto firstAxis = std::ranges::find_if_not(kFirstAxis, contains);
             if (*firstAxis != first) continue;
             out[i].axes = axes;
@@ -90,8 +90,8 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
         copyCloudPoints(slices, slice, axis, point[axis], out);
         return;
     }
-    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. So even a slice that
-    // only touches the hyperplane has a section, on whichever side of the hyperplane the slice lies.
+    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. Therefore even a slice
+    // that only touches the hyperplane has a section, whether the slice lies above or below the hyperplane.
     zeroIsAbove_ = anyBelow;
     cutEdges(slices, slice, static_cast<std::uint32_t>(elementCounts(object)[2]), axis, point[axis], out);
     cutFaces(slices, slice, out);

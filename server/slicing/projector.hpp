@@ -32,8 +32,8 @@ class Projector {
   public:
     struct Options {
         ProjectionToHyperplane projection;
-        /// Whether to write the 2-faces of the object, which bound the projected cells. If the object has a nonconvex
-        /// 2-face, or has no cells, no 2-face is written.
+        /// Whether to write the 2-faces of the object, which bound the projected cells. Writes no 2-faces if the object
+        /// has no cells, or if one of its 2-faces is not convex.
         bool cells = false;
         /// Whether to leave out the elements that the 4-D eye cannot see. The eye sees an element if it sees the outer
         /// side of at least one cell that contains the element. Leaves out nothing if the object has no cells.

@@ -17,7 +17,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-// How many hyperplanes lie below a vertex, and how many lie below it or contain it.
+// How many hyperplanes lie below a vertex (`below`), and how many lie below it or contain it (`upTo`).
 struct PlanesAtVertex {
     std::size_t below, upTo;
 };
@@ -69,8 +69,8 @@ TooManySliceEdges::TooManySliceEdges(std::size_t found, std::size_t allowed)
     : std::runtime_error("these slices have " + std::to_string(found) + " edges; at most " + std::to_string(allowed) +
                          " are allowed (--max-slice-edges). Show fewer slices, or a greater spacing") {}
 
-std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
-                            const geometry::Hyperplanes& planes) {
+std::size_t sliceEdgeBound(const Object& object, const geometry::Rotation& orientation,
+                           const geometry::Hyperplanes& planes) {
     return visitElements(
         Overloaded{[&](const geometry::CellComplex& complex) { return countInComplex(complex, orientation, planes); },
                    [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
@@ -85,7 +85,7 @@ void checkSliceEdges(const Object& object, const geometry::Rotation& orientation
                       object);
     // A hyperplane crosses each side of a 2-face at most once, and two crossings are the ends of a slice edge.
     if (sides * static_cast<std::size_t>(planes.count) / 2 <= allowed) return;
-    const std::size_t found = countSliceEdges(object, orientation, planes);
+    const std::size_t found = sliceEdgeBound(object, orientation, planes);
     if (found > allowed) throw TooManySliceEdges(found, allowed);
 }
 

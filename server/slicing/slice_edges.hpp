@@ -21,11 +21,11 @@ class TooManySliceEdges : public std::runtime_error {
 /// Returns an upper bound of the number of edges that all slices of the rotated object have together. It is the exact
 /// number if no vertex lies in a hyperplane. For a field, these are the slices of the domain; a point cloud has no
 /// edges. Takes time linear in the number of elements.
-std::size_t countSliceEdges(const Object& object, const geometry::Rotation& orientation,
-                            const geometry::Hyperplanes& planes);
+std::size_t sliceEdgeBound(const Object& object, const geometry::Rotation& orientation,
+                           const geometry::Hyperplanes& planes);
 
-/// Throws TooManySliceEdges if countSliceEdges() is greater than `allowed`. If so many edges are impossible, because
-/// the object has few 2-faces or there are few hyperplanes, returns in constant time.
+/// Throws TooManySliceEdges if sliceEdgeBound() is greater than `allowed`. Returns in constant time if the numbers of
+/// 2-faces and hyperplanes are so small that more than `allowed` edges are impossible.
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                      std::size_t allowed);
 

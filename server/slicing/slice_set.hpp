@@ -51,7 +51,7 @@ struct SliceSet {
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; last: the number of corners
+    std::vector<std::uint32_t> cornerBegin;  ///< the index of the first corner of each face; then the number of corners
     std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise seen from outside
     std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next in its loop
     std::vector<std::uint32_t> faceSource;

@@ -22,9 +22,9 @@ class Slicer {
     /// object.
     explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : complexes_(forkJoin), fields_(forkJoin) {}
 
-    /// Slices `object` rotated by `orientation`. Extracts the surfaces and samples the fog of a field as `settings` and
-    /// `detail` specify. Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples of a field
-    /// are in a file that can no longer be read.
+    /// Slices `object` rotated by `orientation`. For a field, extracts the surfaces and samples the fog as `settings`
+    /// and `detail` specify; other objects do not use these arguments. Overwrites `out` and reuses its memory. Throws
+    /// std::runtime_error if the samples of a field are in a file that can no longer be read.
     void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 

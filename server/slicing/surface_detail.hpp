@@ -11,8 +11,8 @@ namespace oval4d::slicing {
 
 /// The quality of a picture or a file that shows a field. It does not affect pictures and files of other objects.
 enum class Quality : std::uint8_t {
-    draft,  ///< coarser surfaces, for a picture that another one soon replaces
-    full,   ///< for any other picture
+    draft,  ///< coarser surfaces, for a picture that a better one soon replaces
+    full,   ///< for any picture that is not a draft
     file,   ///< finer surfaces, for exported files
 };
 
@@ -24,16 +24,15 @@ struct SurfaceDetail {
     /// Determines the limits on time and points. Surfaces in drafts may lack details of the function that are smaller
     /// than the lattice steps (see ScalarFunction::forSteps()).
     Quality quality = Quality::full;
-    std::vector<double> fogSteps = {};  ///< like `steps`, but for fog
-    /// Whether only the topology of the surfaces is needed. If so, their points lie only roughly on the levels, and
-    /// have no normals, growth or values.
+    std::vector<double> fogSteps = {};  ///< like `steps`, but the lattice of the fog
+    /// Whether only the topology of the surfaces is needed. If it is true, the points of the surfaces lie only roughly
+    /// on the levels, and have no normals, growth or values.
     bool topologyOnly = false;
     bool secondValues = false;  ///< whether the points need the values of the field's second function
 };
 
 /// Limits on the surfaces of all slices of a picture or file together: the estimated time to extract them on one core,
-/// in nanoseconds, and the number of their points. The lattices are made coarser where this is necessary to meet the
-/// limits.
+/// in nanoseconds, and the number of their points. If the surfaces would exceed a limit, the lattices are made coarser.
 struct SurfaceLimits {
     double time;
     std::size_t points;
@@ -59,21 +58,21 @@ constexpr int cubesAcross(Quality quality) {
 }
 
 /// Returns the lattice step of messages and files in the units of an object with this circumradius.
-constexpr double evenStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
+constexpr double uniformStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
 
-/// Sets `out` for messages and files: the lattice step of the surfaces in all slices to evenStep(), and the quality.
+/// Sets `out` for messages and files: the lattice step of the surfaces in all slices to uniformStep(), and the quality.
 /// Clears the steps of the fog, so that no fog is sampled.
-inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
-                          SurfaceDetail& out) {
-    out.steps.assign(static_cast<std::size_t>(planes.count), evenStep(circumradius, quality));
+inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
+                             SurfaceDetail& out) {
+    out.steps.assign(static_cast<std::size_t>(planes.count), uniformStep(circumradius, quality));
     out.fogSteps.clear();
     out.quality = quality;
 }
 
-/// Sets the lattice step of the fog in all slices, for messages: half the step that setEvenDetail() sets for the
+/// Sets the lattice step of the fog in all slices, for messages: half the step that setUniformDetail() sets for the
 /// surfaces in the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
 /// moved onto the level after sampling.
-inline void addEvenFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
+inline void addUniformFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
     out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
 }
 

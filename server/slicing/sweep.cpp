@@ -18,8 +18,8 @@ void copyChunk(const std::byte* from, std::byte* to) {
 }
 
 // Repeats the block of `size` items that begins at `begin`, so that it occurs `times` times in succession. Makes the
-// first few copies of a small block inline, because each call of memcpy would take longer than the copying. Then
-// doubles the copied range with each call of memcpy.
+// first few copies of a small block inline, because a call of memcpy takes longer than copying a small block. After
+// that, doubles the copied range with each call of memcpy.
 template <typename Item>
 void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
     constexpr std::size_t kSmall = 256, kFew = 8;
@@ -27,7 +27,7 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
     const std::size_t bytes = size * sizeof(Item);
     std::size_t done = bytes;
     if (bytes >= sizeof(Chunk) && bytes <= kSmall) {
-        const std::size_t last = bytes - sizeof(Chunk);  // where the last chunk begins; it may overlap the one before
+        const std::size_t last = bytes - sizeof(Chunk);  // the start of the last chunk, which may overlap its neighbor
         for (; done < bytes * std::min(times, kFew); done += bytes) {
             for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
             copyChunk(first + last, first + done + last);
@@ -147,7 +147,7 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
     const std::uint32_t* bound = polytope.cells.items.data();
     for (std::uint32_t c = 0; c < cells; ++c) {
         const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
-        Span span = faceSpan_[*bound];
+        PlaneRange span = faceSpan_[*bound];
         while (++bound != end) {
             span.from = std::min(span.from, faceSpan_[*bound].from);
             span.to = std::max(span.to, faceSpan_[*bound].to);

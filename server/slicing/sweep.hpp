@@ -54,7 +54,7 @@ class Sweep {
         glm::dvec3 slope;
     };
     // The hyperplanes with the indices in [from, to).
-    struct Span {
+    struct PlaneRange {
         std::int32_t from, to;
     };
     // For a hyperplane: `inside` if vertices lie in it; otherwise `between` if vertices lie between the next lower
@@ -75,7 +75,7 @@ class Sweep {
     SliceCounts size_;  // see maxSize()
     int first_ = 0;     // the number in `out` of the slice in hyperplane 0
     ActiveList edges_, faces_, cells_;
-    std::vector<Span> faceSpan_;            // per 2-face: the hyperplanes that cut it
+    std::vector<PlaneRange> faceSpan_;      // per 2-face: the hyperplanes that cut it
     std::vector<VerticesMet> verticesMet_;  // per hyperplane
     // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
     // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.

@@ -86,7 +86,7 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                 w.member("w", origin.w + scene.placements[picked->slice].w);
             }
             slicing::PartsShowingElement sources;
-            slicing::findSourcesShowing(object, picked->element, sources);
+            slicing::findPartsShowing(object, picked->element, sources);
             double least = std::numeric_limits<double>::max(), most = -least;
             for (const std::uint32_t v : sources.ownVertices) {
                 least = std::min(least, scene.slices->rotatedVertices[v].w);

@@ -56,7 +56,8 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
     return std::monostate{};
 }
 
-// Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most a brick.
+// Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most as large as
+// a brick.
 void ClosedSurfaceSlicer::visit(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
@@ -220,7 +221,7 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
 }
 
 // Adds the level set in a tetrahedron: a triangle if only one corner is inside or only one is outside, a quadrilateral
-// if two corners are inside, and nothing if all are.
+// if two corners are inside, and nothing if all corners are inside.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };

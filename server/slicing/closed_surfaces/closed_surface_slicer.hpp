@@ -1,6 +1,6 @@
 #pragma once
-// Slices a field into closed surfaces. For this, the field is replaced by the piecewise linear interpolation of its
-// values on a lattice.
+// Slices a field into closed surfaces. Replaces the field by the piecewise linear interpolation of its values on a
+// lattice.
 
 #include <array>
 #include <cstddef>
@@ -90,9 +90,9 @@ class ClosedSurfaceSlicer {
     struct CutPentatope {
         const Pentatope* shape;
         glm::ivec4 cell;
-        std::array<double, 5> heights, values;                 // of its corners; heights above the hyperplane
+        std::array<double, 5> heights, values;                 // per corner: height above the hyperplane, value
         std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: on the edge between corners i and j, i < j
-        bool positive;                                         // the argument of sectionOf()
+        bool positive;                                         // whether its signed volume is positive: see sectionOf()
     };
 
     void visit(const CellRange& range);

@@ -58,7 +58,8 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
         }
     }
     positive_ = glm::determinant(toSlice) > 0;
-    // So far the terms are relative to the center of the box; the origin of the object is field.center.
+    // The terms computed above are relative to the center of the box, but positions are relative to field.center, the
+    // origin of the object.
     const glm::dvec4 shift = toSlice * (field.box.center() - field.center);
     for (glm::dvec4& term : positionTerms_[0]) term += shift;
 }

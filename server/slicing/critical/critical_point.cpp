@@ -27,8 +27,8 @@ struct Expansion {
 };
 
 Expansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
-    // Point 0 is the point itself; points 1 … 8 are its two neighbors along each axis. The rest repeat the point to
-    // fill the batch.
+    // Point 0 is the point itself; points 1 … 8 are its two neighbors along each axis. The remaining points repeat
+    // point 0 to fill the batch.
     constexpr std::size_t kPoints = 16;
     std::array<std::array<float, kPoints>, 4> at{}, slopes{};
     std::array<float, kPoints> values{};
@@ -65,7 +65,8 @@ std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double
         const Expansion f = expand(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
-        // The gradients are the rows of the Jacobian. GLM takes them as columns, so this is its transpose.
+        // The gradients are the rows of the Jacobian. The GLM constructor takes columns, so it makes the transpose of
+        // the Jacobian.
         const glm::dmat4 transposed =
             glm::dmat4(f.second[0], f.second[1], f.second[2], f.gradient) * glm::dmat4(1 / scale);
         const glm::dmat4 product = glm::transpose(transposed) * transposed;

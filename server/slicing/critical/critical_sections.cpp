@@ -179,17 +179,17 @@ class Correspondence {
 };
 
 /// An interval of w in which the topology of one level changes.
-struct Change {
+struct TopologyChange {
     double from, to;
     std::size_t level;
     SectionTopology before, after;
 };
 
 /// One search for the critical values of w of a field.
-class Search {
+class CriticalSearch {
   public:
-    Search(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings,
-           const CriticalOptions& options, std::pair<double, double> range)
+    CriticalSearch(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings,
+                   const CriticalOptions& options, std::pair<double, double> range)
         : field_(field),
           orientation_(orientation),
           settings_(settings),
@@ -206,9 +206,9 @@ class Search {
     Result<CriticalSections> run() {
         if (options_.stop.stop_requested()) return kCanceled;
         findIntervals();
-        for (const Change& change : combined()) {
+        for (const TopologyChange& change : combined()) {
             if (options_.stop.stop_requested()) break;
-            found_.all.push_back(located(change));
+            found_.all.push_back(criticalSectionOf(change));
         }
         if (options_.stop.stop_requested()) return kCanceled;
         std::ranges::stable_sort(found_.all, {}, &CriticalSection::w);
@@ -223,7 +223,7 @@ class Search {
     // at any time.
     void findIntervals() {
         const double gap = width() / kCriticalSections;
-        // At the ends of its range of w, the domain may be a wedge that is thinner than a lattice cube.
+        // Leaves out the ends of the range of w, where the domain may be a wedge that is thinner than a lattice cube.
         const double margin = width() / 80;
         const double from = found_.least + margin, to = found_.greatest - margin;
         std::priority_queue<Interval> open;
@@ -247,8 +247,8 @@ class Search {
 
     // Returns the changes of each level. Combines changes that are close to each other, because the lattice shows
     // several changes where a surface touches itself along a curve.
-    std::vector<Change> combined() const {
-        std::vector<Change> all;
+    std::vector<TopologyChange> combined() const {
+        std::vector<TopologyChange> all;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             const std::size_t first = all.size();
             for (const Interval& interval : intervals_) {
@@ -261,14 +261,14 @@ class Search {
                 }
             }
         }
-        std::erase_if(all, [](const Change& change) { return change.before == change.after; });
+        std::erase_if(all, [](const TopologyChange& change) { return change.before == change.after; });
         return all;
     }
 
     // Finds the critical w and the kind of a change.
-    CriticalSection located(const Change& change) {
+    CriticalSection criticalSectionOf(const TopologyChange& change) {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
-            // There is no time to compare the sections.
+            // The time is over, so the sections are not compared.
             return {(change.from + change.to) / 2,
                     changeOf(change.before, change.after),
                     0,
@@ -283,8 +283,8 @@ class Search {
         result.change = Correspondence(before, after, change.level, cutter_).change(change.before, change.after);
         if (!field_.formula.empty() && !mustEnd()) {
             std::optional<double> best;
-            improve(change, before, change.from, best);
-            improve(change, after, change.to, best);
+            searchNearTangentPoints(change, before, change.from, best);
+            searchNearTangentPoints(change, after, change.to, best);
             result.w = best.value_or(result.w);
         }
         return result;
@@ -292,7 +292,8 @@ class Search {
 
     // Searches for critical points near those points of a section where the surface is most nearly tangent to the
     // hyperplane. Sets `best` to the w of the critical point nearest to the change, unless `best` is already nearer.
-    void improve(const Change& change, const SliceSurface& surface, double w, std::optional<double>& best) const {
+    void searchNearTangentPoints(const TopologyChange& change, const SliceSurface& surface, double w,
+                                 std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
         const PlacedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
                                     field_.center, field_.circumradius};
@@ -347,7 +348,7 @@ Result<CriticalSections> findCriticalSections(const Object& object, const geomet
                                               const FieldSettings& settings, const CriticalOptions& options) {
     const auto range = rangeOfW(object, orientation);
     if (const fields::Field* field = fieldIn(object))
-        return Search(*field, orientation, settings, options, range).run();
+        return CriticalSearch(*field, orientation, settings, options, range).run();
     CriticalSections found{range.first, range.second, kOnPlaneTolerance * infoOf(object).circumradius, 0, {}};
     for (const auto& [w, vertexCount] : vertexHeights(object, orientation))
         found.all.push_back({w, SectionChange::vertices, vertexCount, 0, {}, {}});

@@ -71,9 +71,9 @@ using CriticalPtr = std::shared_ptr<const CriticalSections>;
 /// Limits on one search.
 struct CriticalOptions {
     /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
-    /// CriticalSections::tolerance is greater than otherwise. Finding the SectionChange of each critical w may take
-    /// half of this time more; after that, the remaining changes are derived from the numbers of components and
-    /// cavities alone.
+    /// CriticalSections::tolerance is greater than otherwise. Sections are compared to find the SectionChange of each
+    /// critical w until 1.5 times this limit has passed since the start; the remaining changes are derived from the
+    /// numbers of components and cavities alone.
     std::chrono::duration<double> time{10};
     std::stop_token stop = {};
 };

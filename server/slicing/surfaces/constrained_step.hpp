@@ -11,8 +11,8 @@
 namespace oval4d::slicing {
 
 /// Computes the shortest step from the current point to a point where up to three functions are zero, as if the
-/// functions were linear. Ignores a function whose gradient is almost a linear combination of the gradients added
-/// before.
+/// functions were linear. Ignores a function whose gradient is almost a linear combination of the gradients of the
+/// functions added before.
 class ConstrainedStep {
   public:
     /// Adds a function with this gradient, which must be a unit vector, and this value at the current point.

@@ -31,8 +31,8 @@ struct CubeCase {
     std::uint8_t patches = 0;                    ///< 0 … 4
     std::array<std::uint8_t, 12> patchOfEdge{};  ///< per edge: its patch; kNoPatch if both ends are on the same side
     /// The face whose corners are alternately inside and outside, and whose four edges belong to the same patch;
-    /// kNoFace if there is no such face. If this face is also the mergingFace of the cube on its other side, the
-    /// surface would touch itself along an edge there. In this case, use joinedCubeCase() for both cubes.
+    /// kNoFace if there is no such face. If this face is also the mergingFace of the neighboring cube that shares it,
+    /// the surface would touch itself along an edge there. Therefore, use joinedCubeCase() for both cubes in this case.
     std::uint8_t mergingFace = kNoFace;
 };
 

@@ -23,7 +23,7 @@ std::uint8_t byteOf(float value, double least, double scale) {
 
 }  // namespace
 
-glm::ivec3 fogLattice(const glm::dvec3& min, const glm::dvec3& max, double step) {
+glm::ivec3 fogLatticeSize(const glm::dvec3& min, const glm::dvec3& max, double step) {
     return glm::ivec3(glm::ceil(max / step) - glm::floor(min / step)) + 1;
 }
 
@@ -33,7 +33,7 @@ void sampleFog(const fields::ScalarFunction& function, const FieldSection& secti
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     const glm::dvec3 extent = section.max - section.min;
     out.step = std::max(step, std::max({extent.x, extent.y, extent.z}) / (SliceFog::kMaxPoints - 3));
-    out.size = fogLattice(section.min, section.max, out.step);
+    out.size = fogLatticeSize(section.min, section.max, out.step);
     const glm::dvec3 first = glm::floor(section.min / out.step);
     out.min = out.step * first;
     out.walls = section.walls;

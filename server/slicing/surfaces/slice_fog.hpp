@@ -35,7 +35,7 @@ struct SliceFog {
 
 /// Returns the numbers of points along x, y and z of a lattice that covers this box. The coordinates of its points are
 /// multiples of `step`. On each side, at most one layer of points lies outside the box.
-glm::ivec3 fogLattice(const glm::dvec3& min, const glm::dvec3& max, double step);
+glm::ivec3 fogLatticeSize(const glm::dvec3& min, const glm::dvec3& max, double step);
 
 /// Samples a function on a lattice in a section. The coordinates of lattice points are multiples of the step, so that
 /// the lattice stays in place while an object turns. Enlarges `step` if an axis would have more than

@@ -1,5 +1,5 @@
-// One class in one file, although it is long: its stages work on the same lattice, and the compiler inlines the inner
-// loops of one stage into the next.
+// This file is long, because its class is not divided: the stages work on the same lattice, and the compiler inlines
+// the inner loops of one stage into the next.
 
 #include "slicing/surfaces/surface_extractor.hpp"
 
@@ -92,8 +92,8 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
         out.clear();
 }
 
-// Extracts the surfaces with this step, or a larger one. Returns false if there are too many points, and the lattice
-// can still become coarser.
+// Extracts the surfaces with a lattice step of at least `step`. Returns false if there are too many points, and the
+// lattice can still become coarser.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                   const Options& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
@@ -143,7 +143,8 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
         const glm::dvec3 n = glm::abs(section.walls[i].normal);
         maxMoveOntoWall_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
     }
-    // Two more layers of points on each side: one of points that may be moved onto walls, and one of points outside.
+    // Adds two layers of points on each side of the domain's bounding box: one of points that may be moved onto walls,
+    // and one of points outside the domain.
     base_ = glm::ivec3(glm::floor(section.min / step_)) - 2;
     const glm::ivec3 cubes = glm::ivec3(glm::ceil(section.max / step_)) + 2 - base_;
     blockCount_ = (cubes + kBlock - 1) / kBlock + 1;
@@ -152,7 +153,7 @@ void SurfaceExtractor::layOut(const FieldSection& section, double step) {
         cornerOffsets_[static_cast<std::size_t>(c)] = index(glm::ivec3(c & 1, c >> 1 & 1, c >> 2));
     const std::size_t needed = static_cast<std::size_t>(points_.x) * points_.y * points_.z;
     if (needed <= capacity_) return;
-    // Not initialized, so that memory for blocks that are skipped is not touched.
+    // The arrays are not initialized, so that memory for blocks that are skipped is not touched.
     values_ = std::make_unique_for_overwrite<float[]>(needed);
     inside_ = std::make_unique_for_overwrite<std::uint8_t[]>(needed);
     cubeAt_ = std::make_unique_for_overwrite<std::uint32_t[]>(needed);
@@ -237,7 +238,8 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     });
 }
 
-// Notes that all points of this block are needed, and the first layer of points of each of its upper neighbors.
+// Marks the block as active. Notes that all its points must be sampled, and that the first layer of points of each of
+// its upper neighbors must be sampled, too.
 void SurfaceExtractor::activate(glm::ivec3 block) {
     active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
     for (int i = 0; i < 8; ++i) {
@@ -253,7 +255,7 @@ void SurfaceExtractor::activate(glm::ivec3 block) {
 
 void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                     const Options& options) {
-    // Blocks are collected until they fill a batch.
+    // Blocks are collected until they fill a batch, which is then evaluated at once.
     struct BatchedBlock {
         const Block* block;
         glm::ivec3 first;   // the lattice point at its lower end
@@ -483,7 +485,8 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, gl
         const unsigned from = kCubeEdges[e][0];
         const float start = values[from] - level, end = values[kCubeEdges[e][1]] - level;
         glm::vec3 point(from & 1U, from >> 1U & 1U, from >> 2U);
-        // Rounding of the level to a float may put both ends on the same side.
+        // Because the level is rounded to a float, both ends may be on the same side of the level; therefore the
+        // quotient is clamped.
         point[static_cast<int>(e / 4)] = start == end ? 0.5F : std::clamp(start / (start - end), 0.0F, 1.0F);
         const std::size_t patch = patches.patchOfEdge[e];
         sums[patch] += point;
@@ -585,7 +588,7 @@ void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, cons
         }
     }
     approachLevel(function, section);
-    // Points that have left the domain belong to the rim.
+    // Points that have left the domain through a wall belong to the rim: this wall becomes one of their constraints.
     for (const std::uint32_t i : moving_) {
         for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
             const auto& [normal, offset] = section.walls[wall];
@@ -645,8 +648,8 @@ ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, s
     return step;
 }
 
-// Moves a point. If it would then be more than one lattice step from its start along an axis, moves it back to its
-// start, because the approximation is wrong.
+// Moves a point by a Newton step. If the point would be more than one lattice step from its start along an axis, moves
+// it back to its start instead, because the linear approximation is wrong.
 void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) {
     const glm::dvec3 next = positions_[point] + step.solve();
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
@@ -680,7 +683,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
                 other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
                 // A surface passes through all cubes around an edge that it crosses, so that their blocks are active,
-                // unless boundsIn() has returned wrong bounds. Then the triangles at this edge are omitted.
+                // unless boundsIn() has returned wrong bounds. In that case, the triangles at this edge are omitted.
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const Cube& around = cubes_[cubeAt_[index(other)]];

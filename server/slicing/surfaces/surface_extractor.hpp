@@ -47,7 +47,7 @@ class SurfaceExtractor {
         double maxTime = 1e9;
         std::size_t maxPoints = 10'000'000;
         bool topologyOnly = false;  ///< see SurfaceDetail
-        double pointTime = 0;       ///< the estimated time that the caller then spends on each point, in nanoseconds
+        double pointTime = 0;  ///< the estimated time that the caller spends on each extracted point, in nanoseconds
     };
     static constexpr int kMaxCubes = 256;
 
@@ -66,7 +66,7 @@ class SurfaceExtractor {
     struct Evaluation;
     struct Block {
         bool isActive = false;   // whether it may contain a surface
-        std::uint8_t walls = 0;  // if it is sampled: a bit for each wall that it may touch or lie beyond
+        std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that it may touch or lie beyond
         glm::u8vec3 needed{0};   // how many points along each axis are sampled, from its lower end on
         bool isSampled() const { return needed.x != 0; }
     };
@@ -155,10 +155,11 @@ class SurfaceExtractor {
     std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set inside its body
     std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
     std::vector<Block> blocks_;
-    std::vector<std::uint32_t> active_;           // the indices of active blocks
-    std::vector<Cube> cubes_;                     // of the current level
-    std::vector<glm::dvec3> positions_, starts_;  // of the points of the current level, now and before they were moved
-    std::vector<std::uint32_t> moving_;           // the points that are being moved onto the level set
+    std::vector<std::uint32_t> active_;  // the indices of active blocks
+    std::vector<Cube> cubes_;            // of the current level
+    // Per point of the current level: its position, and its position before it was moved.
+    std::vector<glm::dvec3> positions_, starts_;
+    std::vector<std::uint32_t> moving_;  // the points that are being moved onto the level set
     // The triangles of the caps of the current level. In the result, they follow the other triangles of this level.
     std::vector<std::array<std::uint32_t, 3>> caps_;
     std::vector<std::uint16_t> constraints_;  // per point of the current level: a constraint mask

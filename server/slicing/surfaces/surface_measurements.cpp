@@ -56,8 +56,8 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& corners = triangles[t];
         const std::uint32_t root = connected.of(corners[0]);
-        // Coordinates are relative to a point of the same part, so that rounding errors are small even if the volume is
-        // small.
+        // Coordinates are relative to a point of the part, so that rounding errors are small even if the volume of the
+        // part is small.
         const glm::dvec3 base(points[root]);
         const glm::dvec3 a = glm::dvec3(points[corners[0]]) - base, b = glm::dvec3(points[corners[1]]) - base,
                          c = glm::dvec3(points[corners[2]]) - base;

@@ -116,7 +116,7 @@ struct SlicedBall {
         EXPECT_TRUE(read) << read.error().message;
         object = std::make_shared<const fields::Field>(std::move(*read));
         slicing::SurfaceDetail detail;
-        slicing::setEvenDetail(slicing::infoOf(object).circumradius, planes, slicing::Quality::file, detail);
+        slicing::setUniformDetail(slicing::infoOf(object).circumradius, planes, slicing::Quality::file, detail);
         slicing::Slicer().slice(object, {}, planes, {}, detail, slices);
         scene::Composer().compose(object, {}, slices, 0, {}, {}, scene);
     }

@@ -110,17 +110,17 @@ TEST(CloudSlicer, bytesBringItBack) {
     EXPECT_EQ(infoOf(whole).serial, cloud.serial);
     std::string parts;
     serialization::ByteWriter writer(parts);
-    writeParts(object, writer, files);
+    writeObjectContent(object, writer, files);
     serialization::ByteReader reader(parts);
-    const Object again = readParts(reader, "again", 64);
+    const Object again = readObjectContent(reader, "again", 64);
     EXPECT_EQ(std::get<CloudPtr>(again)->points, cloud.points);
     EXPECT_EQ(std::get<CloudPtr>(again)->radii, cloud.radii);
     EXPECT_EQ(infoOf(again).name, "again");
     serialization::ByteReader small(parts);
-    EXPECT_THROW(readParts(small, "again", 63), std::runtime_error);
+    EXPECT_THROW(readObjectContent(small, "again", 63), std::runtime_error);
     for (std::size_t size = 0; size < parts.size(); size += 37) {
         serialization::ByteReader cut(std::string_view(parts).substr(0, size));
-        EXPECT_THROW(readParts(cut, "again", 64), std::runtime_error);
+        EXPECT_THROW(readObjectContent(cut, "again", 64), std::runtime_error);
     }
 }
 

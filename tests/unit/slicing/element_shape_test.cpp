@@ -34,7 +34,7 @@ TEST(ElementShape, hasTheDistancesOfTheElement) {
             writeElementAsSlice(object, element, support::randomRotation(random), shape);
             ASSERT_EQ(shape.planes.count, 1);
             PartsShowingElement sources;
-            findSourcesShowing(object, element, sources);
+            findPartsShowing(object, element, sources);
             ASSERT_EQ(shape.vertices.size(), sources.ownVertices.size());
             for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
                 EXPECT_EQ(shape.vertexSource[i], edges + sources.ownVertices[i]);

@@ -49,7 +49,7 @@ std::vector<double> heightsOf(const Polytope& p, const Element& element, const g
 }
 
 geometry::Rotation turnedTo(const Object& object, const Element& element, const geometry::Rotation& from) {
-    return wayToW(object, element, from) * from;
+    return rotationToW(object, element, from) * from;
 }
 
 TEST(Elements, LieInOneHyperplaneOnceTheyPointToW) {

@@ -97,13 +97,13 @@ std::string partsOf(const Object& object) {
     std::string bytes;
     serialization::ByteWriter writer(bytes);
     MappedFiles files;
-    writeParts(object, writer, files);
+    writeObjectContent(object, writer, files);
     return bytes;
 }
 
 Object read(std::string_view bytes, std::size_t maxVertices = 100'000) {
     serialization::ByteReader reader(bytes);
-    return readParts(reader, "mine", maxVertices);
+    return readObjectContent(reader, "mine", maxVertices);
 }
 
 TEST(ObjectBytes, ObjectsComeAsTheyWere) {
@@ -246,9 +246,9 @@ TEST(ObjectBytes, FieldsKeepTheirSecondFunction) {
         MappedFiles files;
         encodeObject(object, bytes, files);
         serialization::ByteWriter writer(parts);
-        writeParts(object, writer, files);
+        writeObjectContent(object, writer, files);
         serialization::ByteReader reader(parts);
-        for (const Object& copy : {decodeObject(bytes), readParts(reader, "copy", 100)}) {
+        for (const Object& copy : {decodeObject(bytes), readObjectContent(reader, "copy", 100)}) {
             const fields::Field& back = *fieldIn(copy);
             ASSERT_TRUE(back.second);
             EXPECT_EQ(back.second->formula, field.second->formula);
@@ -258,7 +258,7 @@ TEST(ObjectBytes, FieldsKeepTheirSecondFunction) {
         }
         for (std::size_t size = 0; size < parts.size(); ++size) {
             serialization::ByteReader cut(std::string_view(parts).substr(0, size));
-            EXPECT_THROW(readParts(cut, "cut", 100), std::runtime_error);
+            EXPECT_THROW(readObjectContent(cut, "cut", 100), std::runtime_error);
         }
     }
     EXPECT_GT(memoryOf(std::make_shared<const fields::Field>(twoArrays)), memoryOf(arrayOf(shape, 1)));

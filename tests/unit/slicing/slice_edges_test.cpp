@@ -29,8 +29,8 @@ TEST(SliceEdges, areCountedExactlyIfNoVertexLiesInAHyperplane) {
             const geometry::Hyperplanes planes{-10, 21, p.circumradius / 9, 0.01 * p.circumradius};
             geometry::Hyperplanes listed{0, 3, 1};
             for (const double part : {0.7, -0.31, 0.05}) listed.listed.push_back(part * p.circumradius);
-            EXPECT_EQ(countSliceEdges(object, orientation, planes), edgesOf(object, orientation, planes)) << name;
-            EXPECT_EQ(countSliceEdges(object, orientation, listed), edgesOf(object, orientation, listed)) << name;
+            EXPECT_EQ(sliceEdgeBound(object, orientation, planes), edgesOf(object, orientation, planes)) << name;
+            EXPECT_EQ(sliceEdgeBound(object, orientation, listed), edgesOf(object, orientation, listed)) << name;
         }
     }
 }
@@ -40,7 +40,7 @@ TEST(SliceEdges, areNotMoreThanCountedIfVerticesLieInHyperplanes) {
         const polytopes::Polytope& p = named(name);
         const Object object = support::objectOf(p);
         const geometry::Hyperplanes planes{-10, 21, p.circumradius / 8};
-        EXPECT_GE(countSliceEdges(object, {}, planes), edgesOf(object, {}, planes)) << name;
+        EXPECT_GE(sliceEdgeBound(object, {}, planes), edgesOf(object, {}, planes)) << name;
     }
 }
 
@@ -52,7 +52,7 @@ TEST(SliceEdges, areRefusedBeyondTheLimit) {
         const geometry::Rotation orientation = support::randomRotation(random);
         for (const int count : {1, 21}) {
             const geometry::Hyperplanes planes{0, count, 0.02, 0.01};
-            const std::size_t found = countSliceEdges(object, orientation, planes);
+            const std::size_t found = sliceEdgeBound(object, orientation, planes);
             ASSERT_GT(found, 0U);
             EXPECT_NO_THROW(checkSliceEdges(object, orientation, planes, found));
             EXPECT_THROW(checkSliceEdges(object, orientation, planes, found - 1), TooManySliceEdges);

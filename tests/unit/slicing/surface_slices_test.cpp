@@ -231,7 +231,7 @@ TEST(SurfaceSlices, AreCountedBeforeTheyAreCut) {
     const Object torus = cliffordTorus(24, 30);
     const Rotation turn = support::randomRotation(random);
     const Hyperplanes planes{-5, 11, 0.171};
-    EXPECT_EQ(countSliceEdges(torus, turn, planes), cut(torus, turn, planes).totalCounts().edges);
+    EXPECT_EQ(sliceEdgeBound(torus, turn, planes), cut(torus, turn, planes).totalCounts().edges);
 }
 
 TEST(SurfaceSlices, AlternateWithPolytopes) {
@@ -322,10 +322,10 @@ TEST(Surface, BytesBringItBack) {
 
     std::string parts;
     serialization::ByteWriter writer(parts);
-    writeParts(object, writer, files);
+    writeObjectContent(object, writer, files);
     const auto read = [&](std::string_view from, std::size_t maxVertices = 48) {
         serialization::ByteReader reader(from);
-        return readParts(reader, "again", maxVertices);
+        return readObjectContent(reader, "again", maxVertices);
     };
     const Object again = read(parts);
     EXPECT_EQ(infoOf(again).name, "again");

@@ -189,7 +189,7 @@ TEST(Pov, hasFlatCapsOfFields) {
     const slicing::Object object = std::make_shared<const fields::Field>(std::move(*read));
     const geometry::Hyperplanes planes{-1, 1, 0.5};
     slicing::SurfaceDetail detail;
-    slicing::setEvenDetail(slicing::infoOf(object).circumradius, planes, slicing::Quality::file, detail);
+    slicing::setUniformDetail(slicing::infoOf(object).circumradius, planes, slicing::Quality::file, detail);
     slicing::SliceSet slices;
     slicing::Slicer().slice(object, {}, planes, {}, detail, slices);
     scene::Scene scene;

@@ -17,7 +17,7 @@ struct FogPicture : HandMade {
     template <typename Values>
     FogPicture(double depth, double step, Values valueAt) : HandMade({}) {
         slicing::SliceFog& fog = slices.fogs.emplace_back();
-        fog.size = slicing::fogLattice(glm::dvec3(-1), glm::dvec3(1), step);
+        fog.size = slicing::fogLatticeSize(glm::dvec3(-1), glm::dvec3(1), step);
         fog.min = step * glm::floor(glm::dvec3(-1) / step);
         fog.step = step;
         for (int axis = 0; axis < 3; ++axis) {

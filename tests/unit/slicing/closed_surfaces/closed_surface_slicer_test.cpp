@@ -334,7 +334,7 @@ TEST(ClosedSurfaceSlicer, TheInteractiveSurfacesConvergeToIt) {
     ClosedSurfaceSlicer exact(field, orientation, 96);
     SliceSet slices;
     SurfaceDetail detail;
-    setEvenDetail(field.circumradius, planes, Quality::file, detail);
+    setUniformDetail(field.circumradius, planes, Quality::file, detail);
     FieldSlicer().slice(field, orientation, planes, {}, detail, slices);
     for (int i = 0; i < planes.count; ++i) {
         const auto expected = measureSurface(exactSlice(exact, planes.w(i), 0));
