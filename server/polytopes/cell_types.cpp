@@ -35,7 +35,7 @@ struct LengthStatistics {
 };
 
 // Metric invariants of a cell.
-struct Measures {
+struct CellInvariants {
     std::uint32_t vertices = 0;
     LengthStatistics edges, radii;  // radii: distances of the vertices from their mean
 
@@ -44,17 +44,17 @@ struct Measures {
     }
 };
 
-// Measures cells. Measuring all cells takes time linear in the size of the polytope. measure() marks the vertices of
-// the cell with a number that no other cell has. The mark of a vertex shows, without a search, whether the vertex has
-// already been visited in this cell.
+// Measures cells, in time linear in the size of the polytope for all cells together. measure() marks the vertices of a
+// cell with a number that no other cell has. So the mark of a vertex shows, without a search, whether measure() has
+// already visited the vertex in this cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
 
-    Measures measure(std::uint32_t cell) {
+    CellInvariants measure(std::uint32_t cell) {
         ++mark_;
         own_.clear();
-        Measures result;
+        CellInvariants result;
         glm::dvec4 sum(0);
         for (const std::uint32_t face : p_.cells[cell]) {
             const auto loop = p_.faces[face];
@@ -124,7 +124,7 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
     CellMeasurer measurer(p);
     const double tolerance = kCongruenceTolerance * extentOf(p);
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
-        const Measures measures = measurer.measure(c);
+        const CellInvariants measures = measurer.measure(c);
         bySize[c] = sizes.numberOf({measures.vertices, static_cast<std::uint32_t>(p.cells[c].size())});
         if (count > kMaxCellTypes) continue;
         std::vector<std::uint32_t> sides{measures.vertices};
@@ -186,7 +186,7 @@ void numberCellTypes(Polytope& p, const std::vector<std::uint32_t>& labels) {
 }
 
 std::string nameOfCell(const Polytope& p, std::uint32_t cell) {
-    const Measures measures = CellMeasurer(p).measure(cell);
+    const CellInvariants measures = CellMeasurer(p).measure(cell);
     const auto faces = p.cells[cell];
     if (faces.size() == 4) return "tetrahedron";
     if (measures.edges.areEqual() && measures.radii.areEqual()) {

@@ -45,9 +45,9 @@ int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
     return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
 }
 
-// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell. If the vertex loops of a
-// cell are reversed where the sign is negative, they traverse each edge of the cell once in each direction. A 2-face
-// has opposite signs in its two cells. An incidence is identified by its index in cells.items.
+// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell. If the vertex loops of
+// the 2-faces of a cell are reversed where the sign is negative, they traverse each edge of the cell once in each
+// direction. A 2-face has opposite signs in its two cells. An incidence is identified by its index in cells.items.
 class Orienter {
   public:
     explicit Orienter(Polytope& p) : p_(p), incidencesOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
@@ -183,9 +183,9 @@ class Orienter {
     }
 
     // Returns 24 times the signed hypervolume of the cone over the cell. The apex of the cone, `tip`, is a vertex of
-    // the polytope: if it were the origin, rounding errors would exceed the sum for a polytope that is far from the
-    // origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`, a fixed vertex of the cell
-    // (`tip` + `fromTipToCell`), and the corners of one of the triangles into which a 2-face is divided as a fan.
+    // the polytope. It is not the origin, because rounding errors would exceed the sum for a polytope that is far from
+    // the origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`, a fixed vertex of the
+    // cell (`tip` + `fromTipToCell`), and the corners of one of the triangles into which a 2-face is divided as a fan.
     double scaledConeVolume(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
@@ -223,8 +223,8 @@ void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part ow
 
 // Builds edgeFaces. At each of its edges, a cell has two 2-faces, whose loops, oriented outward from the cell, traverse
 // the edge in opposite directions. The cyclic order results from going through the cell from one of the two 2-faces to
-// the other, then through the next cell, and so on. If there are several cycles around an edge, they are stored one
-// after another.
+// the other, then through the next cell, and so on. If the 2-faces around an edge form several cycles, the cycles are
+// stored one after another.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);

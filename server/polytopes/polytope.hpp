@@ -39,12 +39,13 @@ class InvalidPolytope : public std::invalid_argument {
     enum class Part : std::uint8_t { whole, face, cell };
 
     /// `number` is the index of the 2-face or cell; 0 for the whole polytope. `fault` says what is wrong without naming
-    /// the element, such as "does not lie in two cells". what() then returns "2-face 7 does not lie in two cells".
+    /// the element, such as "does not lie in two cells". what() returns the name and the fault: "2-face 7 does not lie
+    /// in two cells".
     InvalidPolytope(Part element, std::size_t number, const std::string& fault);
 
     Part part;
-    std::size_t index;   ///< the constructor's `number`
-    std::string detail;  ///< the constructor's `fault`
+    std::size_t index;   ///< the index of the 2-face or cell; 0 for the whole polytope
+    std::string detail;  ///< what is wrong, without the name of the element
 };
 
 /// Builds a polytope from vertices, 2-faces (vertex loops) and cells (lists of 2-faces); computes its edges, incidences
@@ -53,9 +54,9 @@ class InvalidPolytope : public std::invalid_argument {
 /// numberCellTypes().
 ///
 /// Throws InvalidPolytope if a cell is not a connected closed orientable surface, if a 2-face does not lie in exactly
-/// two cells, or if the boundary is not orientable. Also throws it if there are no cells, if a 2-face has fewer than 3
-/// vertices or a cell fewer than 4 2-faces, if a loop lists the same vertex twice in a row, if an index is out of
-/// range, if a coordinate is not finite, or if all vertices are at the origin.
+/// two cells, or if the boundary is not orientable. Also throws InvalidPolytope if there are no cells, if a 2-face has
+/// fewer than 3 vertices or a cell fewer than 4 2-faces, if a loop lists the same vertex twice in a row, if an index is
+/// out of range, if a coordinate is not finite, or if all vertices are at the origin.
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geometry::JaggedArray faces,
                       geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell = {});
 

@@ -71,9 +71,10 @@ void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFil
 
 polytopes::ImportLimits importLimits(const Limits& limits) { return {limits.maxVertices, limits.maxHullCells}; }
 
-Result<ObjectWithWarnings> polytopeFrom(std::variant<polytopes::Imported, FileError> imported, const LoadObject& load) {
+Result<ObjectWithWarnings> polytopeFrom(std::variant<polytopes::ImportedPolytope, FileError> imported,
+                                        const LoadObject& load) {
     if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
-    auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
+    auto& [polytope, warnings] = std::get<polytopes::ImportedPolytope>(imported);
     warnOfMove(load.center, polytope.originInFile, warnings);
     return ObjectWithWarnings{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }

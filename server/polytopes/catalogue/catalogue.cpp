@@ -165,7 +165,7 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
 }
 
 // Returns the result of designNamed() for `text`, a name within another name. If the result is an error without a
-// message, adds a message.
+// message, sets its message.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {
@@ -184,7 +184,7 @@ std::span<const CatalogueEntry> catalogue() { return entries(); }
 
 const CatalogueEntry* findEntry(std::string_view text) {
     if (const auto found = index().find(text::normalizedName(text)); found != index().end()) return found->second;
-    const auto described = describedBy(text, [](std::string_view base) -> DesignOrError {
+    const auto described = designDescribedBy(text, [](std::string_view base) -> DesignOrError {
         const CatalogueEntry* entry = findEntry(base);
         return entry != nullptr ? DesignOrError(entry->design) : NameError{};
     });
@@ -196,7 +196,7 @@ const CatalogueEntry* findEntry(std::string_view text) {
 
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     if (const auto* entry = findEntry(text)) return entry->design;
-    auto described = describedBy(text, [=](std::string_view base) { return designWithin(base, maxVertices); });
+    auto described = designDescribedBy(text, [=](std::string_view base) { return designWithin(base, maxVertices); });
     if (const auto* design = std::get_if<Design>(&described)) {
         if (design->name.size() > kMaxNameBytes) {
             return NameError::impossible("the name has " + std::to_string(design->name.size()) + " bytes; at most " +

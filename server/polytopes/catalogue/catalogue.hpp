@@ -37,13 +37,13 @@ std::span<const CatalogueEntry> catalogue();
 inline constexpr std::size_t kMaxNameBytes = 256;
 
 /// Returns the entry with this name, alias, diagram or Schläfli symbol, or the entry of the polytope that the text
-/// describes in one of the notations (see describedBy() in names.hpp); nullptr if there is none. Ignores case; blanks
-/// and hyphens are equivalent.
+/// describes in one of the notations (see designDescribedBy() in names.hpp); nullptr if there is none. Ignores case;
+/// blanks and hyphens are equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
 /// Returns the design of the polytope that a text names: the design of an entry of the catalogue, or of any other
-/// polytope that the text describes in one of the notations (see describedBy() in names.hpp). Returns an error if the
-/// text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
+/// polytope that the text describes in one of the notations (see designDescribedBy() in names.hpp). Returns an error if
+/// the text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
 /// `maxVertices` vertices, if the convex hulls that build it have more than kMaxHullPoints points in total
 /// (convex_hull.hpp), or if its canonical name has more than kMaxNameBytes.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);

@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows them;
-// after "dual", it may be omitted.
+// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows such a
+// word; after "dual", "of" may be omitted.
 const std::vector<std::string_view>& constructionWords() {
     static const std::vector<std::string_view> all = [] {
         std::vector<std::string_view> found;
@@ -39,8 +39,8 @@ std::size_t constructionsIn(const std::vector<std::string>& words) {
     return count;
 }
 
-// Returns whether the words contain "of circumradius", but not within a hull or an intersection. Only the polytopes of
-// these take a circumradius.
+// Returns whether the words contain "of circumradius", but not within a hull or an intersection. Only the two polytopes
+// of a hull or an intersection may have a circumradius.
 bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
         if (words[i] == "hull" || words[i] == "intersection") return false;
@@ -65,7 +65,7 @@ std::string reasonFor(const std::vector<std::string>& words) {
 
 }  // namespace
 
-DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
+DesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup) {
     const std::vector<std::string> words = text::wordsOf(text);
     if (words.empty()) return NameError{};
     if (const std::size_t count = constructionsIn(words); count > kMaxConstructions) {

@@ -41,7 +41,7 @@ class PolytopeCache {
     std::size_t bytes() const;
 
   private:
-    // The entry of the cache for one name.
+    // The entry for one name. It does not keep the polytope alive.
     struct Slot {
         std::mutex building;  // held while the polytope is being built
         std::weak_ptr<const Polytope> polytope;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kLeastRadius = 0.01, kMostRadius = 100;
 
-bool isOfTwo(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
+bool isCombinationWord(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
 
 // One of the two polytopes of a hull or an intersection.
 struct Operand {
@@ -41,12 +41,12 @@ struct Operand {
 
 using Words = std::vector<std::string>;
 
-// Returns the index of the "and" between the two operands; std::nullopt if there is none. A combination that is nested
-// in the first operand has an "and" of its own, which is skipped.
+// Returns the index of the "and" between the two operands; std::nullopt if there is none. Skips the "and" of each
+// combination that is nested in the first operand.
 std::optional<std::size_t> findAnd(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
-        if (isOfTwo(words[i]) && i + 1 < words.size() && words[i + 1] == "of") ++nested;
+        if (isCombinationWord(words[i]) && i + 1 < words.size() && words[i + 1] == "of") ++nested;
         if (words[i] == "and" && nested-- == 0) return i;
     }
     return {};
@@ -144,7 +144,7 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
 // over the polyhedron.
 std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     const Words& words = text.words;
-    if (!isOfTwo(words[0]) || words.size() < 3 || words[1] != "of") return {};
+    if (!isCombinationWord(words[0]) || words.size() < 3 || words[1] != "of") return {};
     const auto at = findAnd(words);
     if (!at || *at == 2 || *at + 1 == words.size()) {
         const std::string example = words[0] == "product" ? "5-gon and 7-gon" : "tesseract and 16-cell";

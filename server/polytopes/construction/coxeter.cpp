@@ -34,7 +34,7 @@ Mirrors normalized(Mirrors mirrors) {
 
 const std::array<PlacedFamily, 4>& placedFamilies() {
     static const std::array<PlacedFamily, 4> kPlaced = [] {
-        // The 5-cell of Kageyama's paper; mirror i swaps its vertices i and i + 1.
+        // The vertices of the 5-cell of Kageyama's paper. Mirror i swaps the vertices i and i + 1.
         const double y = 1 / std::sqrt(3.0);
         const double z = -1 / std::sqrt(6.0);
         const double w = -1 / std::sqrt(10.0);
@@ -148,8 +148,8 @@ class SetOrbits {
 };
 
 // Returns the vertex loop of the polygon that mirrors a and b generate from the generating vertex p (vertex 0). Its
-// vertices are the images of p and of a·p under the powers of the rotation ab; if only one mirror is ringed, the two
-// sets of images are the same.
+// vertices are the images of p and of a·p under the powers of the rotation ab. If only one of the two mirrors is
+// ringed, p and a·p have the same images.
 std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::uint32_t b) {
     const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
     if (image(0, a) == 0) std::swap(a, b);

@@ -25,10 +25,10 @@ glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& r
 
 /// Builds the uniform polytope of the diagram. Its vertices are the orbit of the generating vertex under the group of
 /// the mirrors. One, two or three mirrors generate an edge, a 2-face or a cell at the generating vertex if each
-/// connected component of these mirrors contains a ringed one. The images of this element under the group are elements
-/// of the polytope, too. The cells of an orbit have the same cell type; orbits that a symmetry of the diagram maps to
-/// each other also have the same type. Throws std::invalid_argument if a connected component of the diagram has no
-/// ringed mirror, if two orbits of 2-faces coincide, or if there are more than `maxVertices` vertices.
+/// connected component of these mirrors contains a ringed one. All images of this element under the group are elements
+/// of the polytope. The cells of an orbit have the same cell type; orbits that a symmetry of the diagram maps to each
+/// other also have the same type. Throws std::invalid_argument if a connected component of the diagram has no ringed
+/// mirror, if two orbits of 2-faces coincide, or if there are more than `maxVertices` vertices.
 Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices = 100'000);
 
 }  // namespace oval4d::polytopes

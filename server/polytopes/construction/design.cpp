@@ -89,8 +89,8 @@ class SnubPrism : public Recipe {
 
 std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
 
-// Returns the designs that have a name of their own; the keys are canonical diagrams. A design has an entry for each of
-// its diagrams.
+// Returns the designs that have a name of their own, by canonical diagram. A design with several diagrams has an entry
+// for each of them.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
@@ -123,7 +123,7 @@ Design designOf(const Diagram& diagram) {
     const auto& named = namedDesigns();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
     // If every connected component has at most two mirrors, the polytope is a duoprism. Each component of two mirrors
-    // generates a polygon; two components of a single mirror together generate a square.
+    // generates a polygon; two components of one mirror each generate a square together.
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

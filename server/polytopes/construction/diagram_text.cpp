@@ -61,8 +61,8 @@ NameError badBranch() {
 }
 
 // Builds a diagram from its nodes in order, each with its branches to earlier nodes. Nodes beyond the fourth are
-// counted but not stored; checked() then returns an error.
-class Builder {
+// counted but not stored; if there are any, checked() returns an error.
+class DiagramBuilder {
   public:
     int nodes = 0;
     Diagram diagram;
@@ -154,7 +154,7 @@ std::optional<Branch> parseBranch(std::string_view text) {
 
 std::variant<Diagram, NameError> parseDiagram(std::string_view text) {
     Reader reader{text};
-    Builder builder;
+    DiagramBuilder builder;
     int last = -1;
     while (true) {
         bool joined = !reader.skipBlanks();
@@ -189,7 +189,7 @@ std::variant<Diagram, NameError> parseDiagram(std::string_view text) {
 
 std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
     Reader reader{text};
-    Builder builder;
+    DiagramBuilder builder;
     do {
         reader.skipBlanks();
         const std::size_t brace = reader.rest.find('{');

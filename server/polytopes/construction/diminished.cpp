@@ -115,9 +115,9 @@ Polytope buildSnub24Cell(std::string name) {
 }
 
 Polytope buildGrandAntiprism(std::string name) {
-    // Two neighboring vertices and the center span the plane of a decagon of edges; the other decagon lies in the
-    // completely orthogonal plane. `part` is the length of the projection of a vertex to the first plane, in
-    // circumradii: 1 for a vertex of the first decagon, 0 for one of the other.
+    // Two neighboring vertices and the center span the plane of a decagon of edges; the second decagon lies in the
+    // completely orthogonal plane. `part` is the length of the projection of a vertex to the plane of the first
+    // decagon, in circumradii: 1 for a vertex of the first decagon, 0 for a vertex of the second.
     const Polytope whole = sixHundredCell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];

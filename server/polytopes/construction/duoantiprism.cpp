@@ -28,10 +28,11 @@ namespace {
 // a regular n-gon of edge length 2.
 //
 // The resulting radii of the two circles make the edges of a duoantiprism as equal as possible. With any radii, let a
-// and b be the edge lengths of the p-gons and the q-gons, and c the length of the other edges. The ends of such an edge
-// are neighboring points on the first circle, and also on the second. Then c² = (a / 2cos(π/2p))² + (b / 2cos(π/2q))².
-// The coefficients of a² and b² are at most 1/2, and both are 1/2 only for p = q = 2. Hence all lengths can be equal
-// only for p = q = 2; otherwise c is less than the larger of a and b, and max(a, b) / min(a, b, c) is least for a = b.
+// and b be the edge lengths of the p-gons and the q-gons, and c the length of the other edges. The two ends of such an
+// edge have neighboring points on the first circle, and neighboring points on the second. Therefore c² = (a /
+// 2cos(π/2p))² + (b / 2cos(π/2q))². The coefficients of a² and b² are at most 1/2, and both are 1/2 only for p = q = 2.
+// Hence all lengths can be equal only for p = q = 2; otherwise c is less than the larger of a and b, and max(a, b) /
+// min(a, b, c) is least for a = b.
 glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     const double angle = std::numbers::pi / n;
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
@@ -50,8 +51,8 @@ class Duoantiprism : public Recipe {
         return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
     }
     // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of the first
-    // group and one of the second; half of these pairs map the vertices that remain to each other. If p = q, as many
-    // other symmetries exchange the two planes.
+    // group and one of the second; half of these pairs map the remaining vertices to each other. If p = q, there are as
+    // many symmetries that exchange the two planes.
     std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {
@@ -88,8 +89,8 @@ class Duoantiprism : public Recipe {
             faces.add(loop);
         }
 
-        // All other 2-faces are triangles. Each one lies between an antiprism and the disphenoid of the four neighbors
-        // of a removed vertex (i, j).
+        // All other 2-faces are triangles. Each of these triangles lies between an antiprism and the disphenoid whose
+        // corners are the four neighbors of a removed vertex (i, j).
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> orbits;  // of the cells under the symmetry group
         for (std::uint32_t i = 0; i < m; ++i) {

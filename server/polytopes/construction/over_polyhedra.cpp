@@ -22,23 +22,25 @@ namespace oval4d::polytopes {
 
 namespace {
 
-enum class Over : std::uint8_t { prism, pyramid, bipyramid };
+enum class OverPolyhedronKind : std::uint8_t { prism, pyramid, bipyramid };
 
-constexpr auto kWords = std::to_array<std::pair<std::string_view, Over>>(
-    {{"prism", Over::prism}, {"pyramid", Over::pyramid}, {"bipyramid", Over::bipyramid}});
+constexpr auto kWords =
+    std::to_array<std::pair<std::string_view, OverPolyhedronKind>>({{"prism", OverPolyhedronKind::prism},
+                                                                    {"pyramid", OverPolyhedronKind::pyramid},
+                                                                    {"bipyramid", OverPolyhedronKind::bipyramid}});
 
 class OverPolyhedron : public Recipe {
   public:
-    OverPolyhedron(Over over, const Solid& solid) : over_(over), solid_(solid) {}
+    OverPolyhedron(OverPolyhedronKind over, const Solid& solid) : over_(over), solid_(solid) {}
 
     ElementCounts counts() const override {
         const auto [v, e, f] = countsOf(solid_);
         switch (over_) {
-            case Over::prism:
+            case OverPolyhedronKind::prism:
                 return {2 * v, 2 * e + v, 2 * f + e, f + 2};
-            case Over::pyramid:
+            case OverPolyhedronKind::pyramid:
                 return {v + 1, e + v, f + e, f + 1};
-            case Over::bipyramid:
+            case OverPolyhedronKind::bipyramid:
                 break;
         }
         return {v + 2, e + 2 * v, f + 2 * e, 2 * f};
@@ -48,7 +50,7 @@ class OverPolyhedron : public Recipe {
 
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
-        if (over_ == Over::prism) {
+        if (over_ == OverPolyhedronKind::prism) {
             // The base is the dual of a uniform polyhedron, because overPolyhedron() makes prisms over uniform
             // polyhedra by uniformPrismOver(). The symmetry group of such a dual is transitive on faces, so all faces
             // are in one orbit.
@@ -57,17 +59,18 @@ class OverPolyhedron : public Recipe {
         }
         const auto n = static_cast<std::uint32_t>(base.vertices.size());
         const double height = heightOver(base.vertices);
-        const double shift = over_ == Over::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
+        const double shift =
+            over_ == OverPolyhedronKind::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
         std::vector<glm::dvec4> vertices;
         for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, -shift);
         vertices.emplace_back(0, 0, 0, height - shift);
-        if (over_ == Over::bipyramid) vertices.emplace_back(0, 0, 0, -height);
+        if (over_ == OverPolyhedronKind::bipyramid) vertices.emplace_back(0, 0, 0, -height);
 
         geometry::JaggedArray faces = base.faces;
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> all(base.faces.size());
         std::iota(all.begin(), all.end(), 0U);
-        if (over_ == Over::pyramid) cells.add(all);
+        if (over_ == OverPolyhedronKind::pyramid) cells.add(all);
         for (std::uint32_t apex = n; apex < vertices.size(); ++apex) {
             std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> triangles;
             for (std::uint32_t f = 0; f < base.faces.size(); ++f) {
@@ -97,16 +100,18 @@ class OverPolyhedron : public Recipe {
         return solid_.dual || square < kFlat ? circumradius : std::sqrt(square);
     }
 
-    Over over_;
+    OverPolyhedronKind over_;
     Solid solid_;
 };
 
-Design overPolyhedron(Over over, const Solid& solid) {
+Design overPolyhedron(OverPolyhedronKind over, const Solid& solid) {
     const auto is = [&](std::string_view name) { return nameOf(solid) == name; };
-    if (over == Over::prism && !solid.dual) return uniformPrismOver(solid);
-    if (over == Over::pyramid && is("tetrahedron")) return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
-    if (over == Over::bipyramid && is("octahedron")) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
-    const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, Over>::second)->first;
+    if (over == OverPolyhedronKind::prism && !solid.dual) return uniformPrismOver(solid);
+    if (over == OverPolyhedronKind::pyramid && is("tetrahedron"))
+        return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
+    if (over == OverPolyhedronKind::bipyramid && is("octahedron"))
+        return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
+    const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, OverPolyhedronKind>::second)->first;
     return {std::string(word) + " of " + nameOf(solid), std::make_shared<OverPolyhedron>(over, solid)};
 }
 
@@ -121,7 +126,7 @@ Design overPolyhedron(Over over, const Solid& solid) {
 // returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};
-    const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, Over>::first);
+    const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, OverPolyhedronKind>::first);
     if (word == kWords.end()) return {};
     const auto solid = solidNamed({text.words.begin() + 2, text.words.end()});
     if (!solid) {

@@ -31,9 +31,9 @@ std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     return duoprism((*polygons)[0], (*polygons)[1]);
 }
 
-// Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub
-// cube prism", "truncated cubic prism". Returns an error for a polygon with fewer than three sides, and for a star as
-// the polygon of an antiprism; std::nullopt if the text is no such name.
+// Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube
+// prism", "truncated cubic prism". Returns an error for a polygon with fewer than three sides, and for a star as the
+// polygon of an antiprism; std::nullopt for other texts.
 std::optional<DesignOrError> prismNamed(const NameWords& text) {
     if (text.words.back() != "prism" || text.words.size() < 2) return {};
     const std::vector<std::string> words = text.withoutLast();

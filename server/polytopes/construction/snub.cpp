@@ -32,8 +32,8 @@ TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
 }
 
 // Returns the point x between the mirrors such that each of rotationP, rotationQ and their product moves x by a
-// distance of 2; then all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three rotations g
-// by Newton's method.
+// distance of 2, so that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three
+// rotations g by Newton's method.
 glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};
@@ -65,8 +65,8 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p)
 PolyhedronWithOrbits snubOf(Branch p, Branch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
-    // The vertices are g · seed for all rotations g of the group. If g is the rotation of vertex i, next[i] holds the
-    // indices of the vertices of the rotations g·rotationP and g·rotationQ.
+    // The vertices are g · seed for all rotations g of the group. If vertex i is g · seed, next[i] holds the indices of
+    // the vertices g · rotationP · seed and g · rotationQ · seed.
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;
     std::vector<std::array<std::uint32_t, 2>> next;

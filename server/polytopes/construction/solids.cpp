@@ -120,8 +120,8 @@ SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // Makes all loops counterclockwise, seen from outside. Then exactly one loop contains each directed edge; `corners`
-    // holds the face with this loop, and the vertex before the edge in the loop.
+    // Makes all loops counterclockwise, seen from outside. Each directed edge is then a part of exactly one loop. For
+    // each directed edge, `corners` holds the face with this loop, and the vertex that precedes the edge in the loop.
     struct FaceCorner {
         std::uint32_t face, before;
     };

@@ -13,7 +13,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kErrorBounds = 2;  // the tolerance in error bounds: one for the point, one for the hull
+constexpr double kErrorBounds = 2;  // the tolerance is the error bound of the point plus that of the hull
 constexpr int kMaxIterations = 64;  // a safeguard: usually, a few iterations suffice
 
 // A vertex of the current simplex, which contains the nearest point found so far, and the barycentric weight of the

@@ -96,7 +96,7 @@ class Merger {
     }
 
     // Grows cells from seed simplices. The largest simplices are the first seeds, so that nearly flat simplices, whose
-    // hyperplanes are uncertain, join larger ones.
+    // hyperplanes are uncertain, join the cells of larger simplices.
     void mergeSimplices() {
         std::vector<std::uint32_t> order(simplices_.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -149,7 +149,7 @@ class Merger {
         return all;
     }
 
-    // Removes simplices from the group until it forms a convex cell; in the worst case, all but the seed.
+    // Removes simplices from the group until it forms a convex cell; in the worst case, removes all but the seed.
     void makeConvex(std::uint32_t seed, const Hyperplane& hyperplane, std::vector<std::uint32_t>& group) {
         for (int i = 0; i < kMaxCorrections && group.size() > 1; ++i) {
             const auto faults = simplicesToRemove(seed, hyperplane, group);

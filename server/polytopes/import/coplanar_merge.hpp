@@ -24,7 +24,7 @@ struct SimplexFacet {
 struct MergedHull {
     geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
     /// The number of pairs of neighboring cells that were not merged, but would lie in one hyperplane if the error
-    /// bounds were three times as large. Whether these cells are really separate is uncertain.
+    /// bounds were three times as large. It is uncertain whether such cells are really separate.
     std::size_t ambiguousCellPairs = 0;
 };
 

@@ -208,8 +208,8 @@ class Flattener {
         }
     }
 
-    // Fits the hyperplane of a FittedFlat to the points of the flat: first to points that are far apart, then to all by
-    // least squares. The second step changes little; therefore its rounding errors are small, too.
+    // Fits the hyperplane of a FittedFlat to the points of the flat: first to a few points that are far apart, then to
+    // all points by least squares. The least-squares step changes little, so its rounding errors are small.
     void fit(std::uint32_t i) {
         FittedFlat& flat = flats_[i];
         const auto corners = corners_[i];
@@ -269,8 +269,8 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the change of each distance that results from a change of the unknowns, to the first order.
-    void apply(const Unknowns& change, std::vector<double>& out) const {
+    // Sets `out` to the product of the Jacobian and `change`: the change of each of the distances_ to the first order.
+    void multiplyByJacobian(const Unknowns& change, std::vector<double>& out) const {
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
                 out[k] = glm::dot(flats_[i].normal, change.moves[corners_.items[k]]) +
@@ -279,8 +279,8 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the product of the transposed matrix of apply() and the vector `list`.
-    void applyTransposed(const std::vector<double>& list, Unknowns& out) const {
+    // Sets `out` to the product of the transposed Jacobian and the vector `list`.
+    void multiplyByTransposedJacobian(const std::vector<double>& list, Unknowns& out) const {
         std::fill(out.moves.begin(), out.moves.end(), glm::dvec4(0));
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             glm::dvec4 tilt(0);
@@ -295,27 +295,27 @@ class Flattener {
         }
     }
 
-    // Returns the least change of the unknowns that makes all distances 0, to the first order. `tolerance` says how
+    // Returns the least change of the unknowns that makes all distances_ 0, to the first order. `tolerance` says how
     // precisely the equations are solved (see kFirstTolerance). Adds the work of the solution to `work`, which counts
     // up to kMaxWork.
     Unknowns solve(double tolerance, std::size_t& work) const {
         Unknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
         std::transform(distances_.begin(), distances_.end(), error.begin(), std::negate<>());
-        applyTransposed(error, gradient);
+        multiplyByTransposedJacobian(error, gradient);
         Unknowns direction = gradient;
         double square = gradient.squaredLength();
         const double goal = tolerance * tolerance * square;
         for (std::size_t step = 0; step < kMaxGradientSteps && square > goal && work < kMaxWork; ++step) {
             work += error.size() + change.moves.size() + change.tilts.size();
-            apply(direction, image);
+            multiplyByJacobian(direction, image);
             double steepness = 0;
             for (const double value : image) steepness += value * value;
             if (!(steepness > 0)) break;
             const double length = square / steepness;
             change.combine(1, length, direction);
             for (std::size_t k = 0; k < error.size(); ++k) error[k] -= length * image[k];
-            applyTransposed(error, gradient);
+            multiplyByTransposedJacobian(error, gradient);
             const double next = gradient.squaredLength();
             direction.combine(next / square, 1, gradient);
             square = next;

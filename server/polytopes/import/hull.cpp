@@ -31,8 +31,8 @@ constexpr int kDimensions = 4;
 constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
 constexpr double kPerturbation = 1e-11;          // the initial amplitude, relative to the extent of the points
 constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices is this times maxCells
-constexpr int kMaxRounds = 4;                    // at most so many rounds remove points that are not vertices
-constexpr std::size_t kMessageBytes = 4096;      // the size of the stream that takes and discards Qhull's messages
+constexpr int kMaxRounds = 4;                // the maximum number of rounds that remove points that are not vertices
+constexpr std::size_t kMessageBytes = 4096;  // the size of the stream that takes and discards Qhull's messages
 
 using Points = std::vector<glm::dvec4>;
 
@@ -175,7 +175,7 @@ std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Poi
         vertex[v] = !liesInHull(points[v], placesOf(links[v], points), frame);
         doubtful[v] = !vertex[v];
     }
-    // A doubtful point lies in the hull of its neighbors, but some of the neighbors may be doubtful, too, and be
+    // A doubtful point lies in the hull of its neighbors, but some of these neighbors may be doubtful, too, and may be
     // removed. Therefore each point of a connected component of doubtful points is tested against the hull of the
     // vertices around the component.
     for (std::uint32_t first = 0; first < points.size(); ++first) {
@@ -211,7 +211,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    // Merge points that are so close that errors alone may have moved them apart.
+    // Merge points that are so close together that errors may be the only reason why they differ.
     Points places;
     std::vector<std::uint32_t> numbers;  // per place: the index of its point
     geometry::PointIndex index(4 * 2 * frame.largestErrorBound());

@@ -33,7 +33,7 @@ HullFrame::HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& round
     }
     const glm::dvec4 middle = low + (high - low) / 2.0;
     const glm::dvec4 largest = glm::max(glm::abs(low), glm::abs(high));
-    // The points may have been rotated, so the error of any coordinate depends on the largest one.
+    // The points may have been rotated, so the error of any coordinate depends on the largest coordinate.
     rounding_ += 2 * kEpsilon * std::max({largest.x, largest.y, largest.z, largest.w});
 
     origin_ = *std::max_element(points.begin(), points.end(),

@@ -61,8 +61,8 @@ glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering
     return center;
 }
 
-// Makes the cells flat, and appends warnings of what has changed. Does not warn of a move by at most `rounding`, or of
-// one that is tiny compared with the size. Returns whether cells or 2-faces were divided.
+// Makes the cells flat, and appends warnings of what has changed. Does not warn of moves by at most `rounding`, or by a
+// tiny fraction of the size of the polytope. Returns whether cells or 2-faces were divided.
 bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
@@ -86,7 +86,7 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
 
 // A polytope, and whether cells or 2-faces were divided, so that its elements differ from the elements in the file.
 struct Built {
-    Imported imported;
+    ImportedPolytope imported;
     bool divided = false;
 };
 
@@ -119,8 +119,8 @@ Built buildOff4(const PolygonSoup& soup, const std::string& name, const geometry
     }
 }
 
-Imported importOff4(std::string_view text, const std::string& name, const ImportLimits& limits,
-                    const geometry::Centering& centering) {
+ImportedPolytope importOff4(std::string_view text, const std::string& name, const ImportLimits& limits,
+                            const geometry::Centering& centering) {
     const auto [soup, edges, shortRecord] = readOff4(text, limits.maxVertices);
     if (soup.cells.size() == 0)
         throwFileError(0, "the file lists no cells; its points can be loaded as a list of points");
@@ -142,7 +142,7 @@ Imported importOff4(std::string_view text, const std::string& name, const Import
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
 // numbers of few decimals, are normally treated as exact. They are treated as rounded if the hull that allows for
 // rounding errors has no ambiguous cell pairs (see MergedHull), and at most half as many cells as the hull of the exact
-// points. This is so for a polytope that was scaled and then rounded to whole numbers.
+// points. Both conditions hold for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
     // If `size` is less than this many units of the last digit, rounding by half a unit exceeds the distance by which
@@ -150,7 +150,7 @@ Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precisi
     constexpr double kMinUnits = 0.5 / kFlatnessTolerance;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
-    if (!precision.whole() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);
+    if (!precision.hasOnlyIntegers() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);
     Hull exact = convexHull(points, glm::dvec4(0), maxCells), coarse;
     if (size < kMinUnits * 2 * std::max({rounded.x, rounded.y, rounded.z, rounded.w})) return exact;
     try {
@@ -161,17 +161,18 @@ Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precisi
     if (coarse.ambiguousCellPairs > 0 || coarse.cells.size() == exact.cells.size()) return exact;
     const bool round = 2 * coarse.cells.size() <= exact.cells.size();
     warnings.push_back(std::string("the coordinates ") +
-                       (precision.whole() ? "are whole numbers" : "have few decimals") + " and were treated as " +
-                       (round ? "rounded" : "exact") + ": the hull has " + std::to_string(coarse.cells.size()) +
-                       " cells if they are rounded, " + std::to_string(exact.cells.size()) + " if they are exact");
+                       (precision.hasOnlyIntegers() ? "are whole numbers" : "have few decimals") +
+                       " and were treated as " + (round ? "rounded" : "exact") + ": the hull has " +
+                       std::to_string(coarse.cells.size()) + " cells if they are rounded, " +
+                       std::to_string(exact.cells.size()) + " if they are exact");
     return round ? std::move(coarse) : std::move(exact);
 }
 
-Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits,
-                      const geometry::Centering& centering) {
+ImportedPolytope importPoints(std::string_view text, std::string name, const ImportLimits& limits,
+                              const geometry::Centering& centering) {
     std::vector<glm::dvec4> points;
     RoundingEstimator precision;
-    Imported result;
+    ImportedPolytope result;
     const auto add = [&](const text_files::PointRow& row) {
         for (int axis = 0; axis < 4; ++axis)
             precision.add(row.numbers[static_cast<std::size_t>(axis)], axis, row.point[axis]);
@@ -207,8 +208,9 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
 
 }  // namespace
 
-std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                 const ImportLimits& limits, const geometry::Centering& centering) {
+std::variant<ImportedPolytope, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
+                                                         const ImportLimits& limits,
+                                                         const geometry::Centering& centering) {
     try {
         return importPlainText(format, text_files::plainText(text), std::move(name), limits, centering);
     } catch (const FileError& error) {
@@ -216,8 +218,9 @@ std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_
     }
 }
 
-std::variant<Imported, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
-                                                  const ImportLimits& limits, const geometry::Centering& centering) {
+std::variant<ImportedPolytope, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
+                                                          const ImportLimits& limits,
+                                                          const geometry::Centering& centering) {
     try {
         return format == FileFormat::off4 ? importOff4(text, name, limits, centering)
                                           : importPoints(text, std::move(name), limits, centering);

@@ -29,7 +29,7 @@ struct ImportLimits {
 using text_files::FileError;
 
 /// A polytope read from a file.
-struct Imported {
+struct ImportedPolytope {
     Polytope polytope;
     std::vector<std::string> warnings;  ///< repairs, moves, points left out, and uncertainties due to rounding
 };
@@ -40,30 +40,31 @@ struct Imported {
 /// A 4OFF file consists of the keyword 4OFF, or C4OFF, N4OFF or ST4OFF, in upper or lower case; the numbers of
 /// vertices, 2-faces, edges and cells; a line x y z w for each vertex; a line for each 2-face, with the number of its
 /// vertices followed by their indices; and a line for each cell, with the number of its 2-faces followed by their
-/// indices. Indices start at 0. What follows a record on its line, such as a comment (#) or a color, is ignored. A line
-/// that contains nothing but records may hold several. Each 2-face must be flat and each cell must lie in a hyperplane,
-/// to within 0.5 % of half the diagonal of the bounding box of the vertices; this allows for coordinates with three
-/// decimals. The polytope must also meet the conditions of makePolytope(). The following faults are repaired, with a
-/// warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no cell, 2-faces without
-/// area, 2-faces that are given once for each of their cells, 2-faces that pass through a vertex twice, cells that
-/// consist of several pieces, and 2-faces and cells that are not exactly flat (see flatten()).
+/// indices. Indices start at 0. Text that follows a record on its line, such as a comment (#) or a color, is ignored.
+/// However, a line may hold several records if it contains nothing else. Each 2-face must be flat and each cell must
+/// lie in a hyperplane, to within 0.5 % of half the diagonal of the bounding box of the vertices; this allows for
+/// coordinates with three decimals. The polytope must also meet the conditions of makePolytope(). The following faults
+/// are repaired, with a warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no
+/// cell, 2-faces without area, 2-faces that are given once for each of their cells, 2-faces that pass through a vertex
+/// twice, cells that consist of several pieces, and 2-faces and cells that are not exactly flat (see flatten()).
 ///
 /// A list of points is a table of the columns x, y, z and w (see text_files::readPoints()). The polytope is the convex
 /// hull of the points. Parts of the hull that lie in one hyperplane, to the precision of the coordinates in the file,
-/// become one cell, and the vertices are moved so that the cells are exactly flat. There is a warning only if a move is
-/// much larger than this precision.
+/// become one cell, and the vertices are moved so that the cells are exactly flat. There is a warning only if a vertex
+/// is moved by much more than this precision.
 ///
 /// `centering` chooses the point of the file that becomes the origin; Polytope::originInFile stores it. Apart from this
 /// shift, vertices that need not be moved keep the coordinates of the file. Memory use is bounded by the
 /// length of the text and by the limits: a short text cannot cause large allocations by stating large numbers of
 /// elements.
-std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                 const ImportLimits& limits, const geometry::Centering& centering = {});
+std::variant<ImportedPolytope, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
+                                                         const ImportLimits& limits,
+                                                         const geometry::Centering& centering = {});
 
-/// Does the same for a text that text_files::plainText() has returned.
-std::variant<Imported, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
-                                                  const ImportLimits& limits,
-                                                  const geometry::Centering& centering = {});
+/// Like importPolytope(), but `text` must be a result of text_files::plainText().
+std::variant<ImportedPolytope, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
+                                                          const ImportLimits& limits,
+                                                          const geometry::Centering& centering = {});
 
 /// Guesses the format of a file: 4OFF if its first word contains "OFF" in upper or lower case, else a list of points.
 /// `text` is the text of the file (see text_files::plainText()).

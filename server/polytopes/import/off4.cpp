@@ -80,8 +80,8 @@ Header readHeader(Tokenizer& file) {
     header.edges = count(file.next(), "a number of edges");
     word = file.nextOnLine();
     if (word.empty()) {
-        // Three counts on a line: either the fourth follows on a line of its own, or there are no cells, as in files of
-        // Geomview.
+        // The line has only three counts. Either the fourth count follows on a line of its own, or there are no cells,
+        // as in files of Geomview.
         const Tokenizer afterThree = file;
         word = file.next();
         const bool alone = !word.empty() && file.nextOnLine().empty();
@@ -180,8 +180,8 @@ using Layouts = std::array<Layout, 3>;
 PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
-    // The greatest sizes bound memory. The loop of a polytope's 2-face may pass through a vertex more than once, where
-    // repair() splits it.
+    // The greatest sizes bound memory. If there are cells, a loop may pass through a vertex more than once; repair()
+    // splits such a loop there.
     const std::size_t mostCorners = std::size_t{header.vertices} * (header.cells > 0 ? 2 : 1);
     readLists(file, layouts[1], header.faces, header.vertices, {3, mostCorners}, "2-face", {"vertex", "vertices"},
               soup.faces, soup.faceSourcePositions);
@@ -194,8 +194,8 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& lay
 }
 
 // Returns the fault of the first record whose line has too few words, if the file has as many lines as records;
-// otherwise std::nullopt. If the reader ignores line breaks, such a record takes words of the next line, and a later
-// record seems to be wrong. `file` is a copy, which begins after the header.
+// otherwise std::nullopt. A reader that ignores line breaks completes such a record with words of the next line, so
+// that a later record seems to be wrong. `file` is a copy, which begins after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

@@ -34,7 +34,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     for (const auto& p : points) place.push_back(glm::dot(p, along));
     std::sort(order.begin(), order.end(),
               [&](auto a, auto b) { return std::pair(place[a], a) < std::pair(place[b], b); });
-    // A union–find structure. As a root is joined to a root with a lesser index, it is the first point of its group.
+    // A union–find structure. A root is joined only to a root with a lesser index, so the root of a group is its point
+    // with the least index.
     std::vector<std::uint32_t> first(points.size());
     std::iota(first.begin(), first.end(), 0U);
     const auto rootOf = [&](std::uint32_t v) {
@@ -105,7 +106,7 @@ class Repairer {
             vanished += loops.empty() ? 1 : 0;
             compound += loops.size() > 1 ? 1 : 0;
             for (std::size_t i = 0; i < loops.size(); ++i) {
-                // A loop that is traversed twice is kept once.
+                // If the walk traverses a loop twice, the loop is kept once.
                 const auto same = [&](const auto& other) { return sorted(other) == sorted(loops[i]); };
                 if (std::any_of(loops.begin(), loops.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
                 becomes[f].push_back(static_cast<std::uint32_t>(faces.size()));
@@ -222,8 +223,8 @@ class Repairer {
                 sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
-        // If more than two 2-faces meet at an edge, several pieces share the edge, so the edge does not connect
-        // 2-faces.
+        // If more than two 2-faces meet at an edge, the edge belongs to several pieces, so it does not show which of
+        // its 2-faces belong together.
         for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
             while (end < sides.size() && sides[end].first == sides[i].first) ++end;
             if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);

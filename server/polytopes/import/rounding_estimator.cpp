@@ -73,8 +73,9 @@ void RoundingEstimator::updateSingleEvidence(int lastPlace, int lastNonzeroPlace
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // The fraction of the decimals of this length that are next to a single-precision number. Zeros at the end do not
-    // count as digits here: a number such as 0.50000000 is both a single-precision number and a short decimal.
+    // The fraction of all decimals of this length that are the nearest ones to single-precision numbers. Zeros at the
+    // end do not count as digits here: a number such as 0.50000000 is both a single-precision number and a short
+    // decimal.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }

@@ -34,7 +34,7 @@ class RoundingEstimator {
     glm::dvec4 roundingErrorIfRounded() const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
-    bool whole() const { return whole_; }
+    bool hasOnlyIntegers() const { return whole_; }
 
   private:
     glm::dvec4 unit() const;  // per axis: the unit of the last digit

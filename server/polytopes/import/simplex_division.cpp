@@ -80,8 +80,8 @@ class SimplexDivider {
         for (const std::uint32_t t : triangles) {
             for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
         }
-        // For each edge without the apex, the triangle between it and the apex: first only the triangles on the cell's
-        // surface, then also those inside the cell.
+        // For each edge that does not contain the apex, the triangle that joins the edge to the apex: at first only
+        // triangles on the cell's surface, later also triangles inside the cell.
         std::map<VertexPair, std::uint32_t> upright;
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
         for (const std::uint32_t t : triangles) {

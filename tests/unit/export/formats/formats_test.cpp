@@ -301,9 +301,9 @@ TEST(Off, isReadAgainAsTheSamePolytope) {
         const Rotation turned = randomRotation(random);
         const std::string text = fileOf(p, turned, {0, 1, 1}, requestFor(*formatNamed("off")));
         const auto read = importPolytope(FileFormat::off4, text, "again", {});
-        ASSERT_TRUE(std::holds_alternative<Imported>(read)) << std::get<FileError>(read).reason;
-        EXPECT_TRUE(std::get<Imported>(read).warnings.empty());
-        const Polytope& again = std::get<Imported>(read).polytope;
+        ASSERT_TRUE(std::holds_alternative<ImportedPolytope>(read)) << std::get<FileError>(read).reason;
+        EXPECT_TRUE(std::get<ImportedPolytope>(read).warnings.empty());
+        const Polytope& again = std::get<ImportedPolytope>(read).polytope;
         EXPECT_EQ(again.faces, p.faces);
         EXPECT_EQ(again.cells, p.cells);
         EXPECT_EQ(again.edges.size(), p.edges.size());

@@ -33,7 +33,7 @@ Points noisy(Points points, double amplitude, std::mt19937& random) {
     return points;
 }
 
-Imported imported(const Polytope& polytope, const Points& vertices) {
+ImportedPolytope imported(const Polytope& polytope, const Points& vertices) {
     return sound(importPolytope(FileFormat::off4, write4Off(polytope, vertices), "p", {}));
 }
 
@@ -142,7 +142,7 @@ TEST(Flatten, LeavesDistantPolytopesAsExactAsTheirCoordinatesAre) {
             const std::string text = write4Off(exact, vertices);
             for (const auto choice :
                  {geometry::Centering::OriginChoice::origin, geometry::Centering::OriginChoice::object}) {
-                const Imported made =
+                const ImportedPolytope made =
                     sound(importPolytope(FileFormat::off4, text, "p", {}, {.choice = choice, .place = {}}));
                 EXPECT_EQ(made.warnings, std::vector<std::string>()) << name << " at " << distance;
                 EXPECT_EQ(countsOf(made.polytope), countsOf(exact));
@@ -168,7 +168,7 @@ TEST(Flatten, KeepsTheContent) {
 TEST(Flatten, ConvergesForLargePolytopes) {
     std::mt19937 random(53);
     const Polytope& exact = named("120-cell");
-    const Imported flat = imported(exact, noisy(exact.vertices, 1e-4, random));
+    const ImportedPolytope flat = imported(exact, noisy(exact.vertices, 1e-4, random));
     EXPECT_LT(unevenness(flat.polytope), 1e-12);
     EXPECT_TRUE(flat.polytope.convex);
     EXPECT_EQ(flat.warnings.size(), 1U);
@@ -184,7 +184,7 @@ TEST(Flatten, TellsWhatItMoves) {
     // A vertex of a simplex may be anywhere.
     const Polytope& simplex = named("5-cell");
     const Points moved = noisy(simplex.vertices, 1e-3, random);
-    const Imported kept = imported(simplex, moved);
+    const ImportedPolytope kept = imported(simplex, moved);
     EXPECT_EQ(kept.polytope.vertices, moved);
     EXPECT_EQ(warningsOf(kept), "");
 }
@@ -193,7 +193,7 @@ TEST(Flatten, MovesTheVerticesOfAHullWithinTheirDigits) {
     std::mt19937 random(55);
     for (const char* name : {"8-cell", "24-cell", "3,3-duoprism", "120-cell"}) {
         const Points points = support::turned(named(name), random);
-        const Imported hull = sound(importPoints(support::asPoints(points, 5)));
+        const ImportedPolytope hull = sound(importPoints(support::asPoints(points, 5)));
         EXPECT_EQ(countsOf(hull.polytope), countsOf(named(name)));
         EXPECT_EQ(warningsOf(hull), "") << name;
         EXPECT_LT(unevenness(hull.polytope), 1e-12) << name;

@@ -37,7 +37,7 @@ using support::warningsOf;
 using Points = std::vector<glm::dvec4>;
 
 void expectTheSame(const char* name, const std::string& text, const std::string& how) {
-    const Imported imported = sound(importPoints(text));
+    const ImportedPolytope imported = sound(importPoints(text));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
     EXPECT_EQ(warningsOf(imported), "") << name << ", " << how;
     EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name << ", " << how;
@@ -45,7 +45,7 @@ void expectTheSame(const char* name, const std::string& text, const std::string&
 
 /// Like expectTheSame(), but allows for several types of cells.
 void expectTheCounts(const char* name, const std::string& text, const std::string& how) {
-    const Imported imported = sound(importPoints(text));
+    const ImportedPolytope imported = sound(importPoints(text));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
     EXPECT_EQ(warningsOf(imported), "") << name << ", " << how;
 }
@@ -112,7 +112,7 @@ TEST(Hull, WarnsHowWholeNumbersAreTreated) {
     std::mt19937 random(24);
     Points points = turnedToSize1("120-cell", random);
     for (auto& p : points) p = glm::round(1e6 * p);
-    const Imported imported = sound(importPoints(asPoints(points)));
+    const ImportedPolytope imported = sound(importPoints(asPoints(points)));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("120-cell")));
     EXPECT_NE(warningsOf(imported).find("treated as rounded: the hull has 120 cells if they are rounded"),
               std::string::npos)
@@ -123,7 +123,7 @@ TEST(Hull, WarnsHowFewDecimalsAreTreated) {
     std::mt19937 random(37);
     for (int trial = 0; trial < 10; ++trial) {
         const std::string text = formatted(turnedToSize1("24-cell", random), "%.*f", 2);
-        const Imported imported = sound(importPoints(text));
+        const ImportedPolytope imported = sound(importPoints(text));
         EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
         EXPECT_NE(warningsOf(imported).find("the coordinates have few decimals and were treated as rounded: the hull "
                                             "has 24 cells if they are rounded, "),
@@ -135,7 +135,7 @@ TEST(Hull, WarnsHowFewDecimalsAreTreated) {
         Points points(static_cast<std::size_t>(8 + trial % 70));
         for (auto& p : points)
             p = glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random)) / 4.0;
-        const Imported imported = sound(importPoints(asPoints(points)));
+        const ImportedPolytope imported = sound(importPoints(asPoints(points)));
         EXPECT_EQ(warningsOf(imported).find("treated as rounded"), std::string::npos) << warningsOf(imported);
     }
 }

@@ -67,7 +67,7 @@ TEST(Hull, OfWholeNumbersIsExact) {
         const glm::dvec4 by(trial % 3 * 1000);
         for (auto& p : points)
             p = by + glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
-        const Imported imported = sound(importPoints(asPoints(points)));
+        const ImportedPolytope imported = sound(importPoints(asPoints(points)));
         const Polytope& hull = imported.polytope;
         EXPECT_EQ(eulerOf(hull), 0);
         Points corners;  // in the coordinates of the file, which are exact even if the origin was moved to the center
@@ -108,7 +108,7 @@ TEST(Hull, OfPointsInABallIsASphere) {
         for (const int decimals : {3, 6, 17}) {
             Points points(static_cast<std::size_t>(count));
             for (auto& p : points) p = std::pow(uniform(random), 0.25) * randomDirection(random);
-            const Imported imported = sound(importPoints(formatted(points, "%.*f", decimals)));
+            const ImportedPolytope imported = sound(importPoints(formatted(points, "%.*f", decimals)));
             const Polytope& hull = imported.polytope;
             EXPECT_EQ(eulerOf(hull), 0) << count << " with " << decimals;
             if (decimals == 17) {  // the points are in general position, so all cells are simplices
@@ -128,7 +128,7 @@ TEST(Hull, OfManyPointsOnASphereHasThemAll) {
     std::mt19937 random(27);
     Points points(14'000);
     for (auto& p : points) p = randomDirection(random);
-    const Imported imported = sound(importPoints(formatted(points, "%.*f", 5)));
+    const ImportedPolytope imported = sound(importPoints(formatted(points, "%.*f", 5)));
     EXPECT_EQ(imported.polytope.vertices.size(), points.size());
     EXPECT_EQ(eulerOf(imported.polytope), 0);
     // The points are about 0.1 apart, so nearly flat tetrahedra are not rare.
@@ -166,7 +166,7 @@ TEST(Hull, OfAGridIsTheTesseract) {
         const std::string said =
             std::to_string(grid.size() - 16) + " of " + std::to_string(grid.size()) + " points are not hull vertices";
         for (const auto& text : {asPoints(grid), formatted(rotated, "%.*f", 4), formatted(rotated, "%.*g", 17)}) {
-            const Imported imported = sound(importPoints(text));
+            const ImportedPolytope imported = sound(importPoints(text));
             EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
             EXPECT_EQ(warningsOf(imported), said + " and were left out");
         }
@@ -177,7 +177,7 @@ TEST(Hull, MergesDuplicatePoints) {
     std::mt19937 random(29);
     Points points = turnedToSize1("600-cell", random);
     points.push_back(points[7]);
-    const Imported one = sound(importPoints(formatted(points, "%.*f", 6)));
+    const ImportedPolytope one = sound(importPoints(formatted(points, "%.*f", 6)));
     EXPECT_EQ(countsOf(one.polytope), countsOf(named("600-cell")));
     EXPECT_EQ(warningsOf(one), "1 of 121 points is not a hull vertex and was left out");
     const Points all = turnedToSize1("600-cell", random);

@@ -23,7 +23,7 @@ namespace oval4d::support {
 
 using namespace polytopes;
 
-using Result = std::variant<Imported, FileError>;
+using Result = std::variant<ImportedPolytope, FileError>;
 
 inline Result importPoints(std::string_view text, std::size_t maxHullCells = 100'000) {
     return importPolytope(FileFormat::points, text, "p", {.maxHullCells = maxHullCells});
@@ -34,11 +34,11 @@ inline Result importOff4(std::string_view text, std::size_t maxVertices = 100'00
 }
 
 /// Returns the imported polytope. Throws std::runtime_error if the file was refused.
-inline Imported sound(Result result) {
+inline ImportedPolytope sound(Result result) {
     if (const auto* error = std::get_if<FileError>(&result)) {
         throw std::runtime_error("line " + std::to_string(error->line) + ": " + error->reason);
     }
-    return std::move(std::get<Imported>(result));
+    return std::move(std::get<ImportedPolytope>(result));
 }
 
 inline std::string reasonOf(const Result& result) {
@@ -47,7 +47,7 @@ inline std::string reasonOf(const Result& result) {
 }
 
 /// Returns the warnings joined by "; ".
-inline std::string warningsOf(const Imported& imported) {
+inline std::string warningsOf(const ImportedPolytope& imported) {
     std::string all;
     for (const auto& warning : imported.warnings) all += (all.empty() ? "" : "; ") + warning;
     return all;

@@ -208,7 +208,7 @@ TEST(Points, OfARegularPolytopeHaveItAsTheirHull) {
         for (const int digits : {17, 5}) {
             auto points = turned(original, random);
             std::shuffle(points.begin(), points.end(), random);
-            const Imported imported = sound(importPoints(asPoints(points, digits)));
+            const ImportedPolytope imported = sound(importPoints(asPoints(points, digits)));
             EXPECT_EQ(countsOf(imported.polytope), countsOf(original)) << name << " with " << digits << " digits";
             EXPECT_EQ(warningsOf(imported), "");
             EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name;
@@ -222,7 +222,7 @@ TEST(Points, InsideTheHullAreLeftOutWithAWarning) {
     const std::size_t corners = points.size();
     for (int i = 0; i < 30; ++i) points.push_back(0.3 * points[i % corners] + 0.3 * points[(i + 5) % corners]);
     points.push_back(points[3]);
-    const Imported imported = sound(importPoints(asPoints(points)));
+    const ImportedPolytope imported = sound(importPoints(asPoints(points)));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
     EXPECT_EQ(warningsOf(imported), "31 of 55 points are not hull vertices and were left out");
 }
@@ -273,7 +273,7 @@ TEST(Import, ReadsTheLargestUniformPolychoronBack) {
     const Diagram diagram = Diagram::linear({5, 1}, {3, 1}, {3, 1}, {true, true, true, true});
     const Polytope original = wythoff("omnitruncated 120-cell", diagram, mirrorsOf(diagram));
     ASSERT_EQ(original.vertices.size(), 14'400U);
-    const Imported imported = sound(importOff4(Lines(original).text(28'800)));
+    const ImportedPolytope imported = sound(importOff4(Lines(original).text(28'800)));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
     EXPECT_EQ(imported.polytope.faces, original.faces);
     EXPECT_EQ(warningsOf(imported), "");
@@ -284,7 +284,7 @@ TEST(Import, ReadsStarPolychoraBack) {
          {std::array<Branch, 3>{{{5, 2}, {5, 1}, {3, 1}}}, {{{5, 1}, {5, 2}, {5, 1}}}, {{{5, 2}, {3, 1}, {3, 1}}}}) {
         const Diagram diagram = Diagram::linear(p, q, r, {true, false, false, false});
         const Polytope original = wythoff("star", diagram, mirrorsOf(diagram));
-        const Imported imported = sound(importOff4(Lines(original).text()));
+        const ImportedPolytope imported = sound(importOff4(Lines(original).text()));
         EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
         EXPECT_EQ(imported.polytope.convexFaces, original.convexFaces);
         EXPECT_EQ(warningsOf(imported), "");

@@ -32,7 +32,7 @@ using support::sound;
 using support::warningsOf;
 
 TEST(Repair, WarnsOfAWrongNumberOfEdges) {
-    const Imported imported = sound(importOff4(Lines(named("8-cell")).text(33)));
+    const ImportedPolytope imported = sound(importOff4(Lines(named("8-cell")).text(33)));
     EXPECT_EQ(warningsOf(imported), "the file states 33 edges, but its 2-faces have 32");
     EXPECT_EQ(warningsOf(sound(importOff4(Lines(named("8-cell")).text(32)))), "");
 }
@@ -44,7 +44,7 @@ TEST(Repair, RemovesUnusedElements) {
         for (auto& v : face) v += 2;
     }
     lines.faces.push_back({0, 1, 2});
-    const Imported imported = sound(importOff4(lines.text()));
+    const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(imported.polytope.vertices, named("5-cell").vertices);
     EXPECT_EQ(imported.polytope.faces, named("5-cell").faces);
     EXPECT_EQ(warningsOf(imported),
@@ -70,7 +70,7 @@ TEST(Repair, MergesElementsGivenOncePerCell) {
             }
         }
         const std::size_t doubled = lines.vertices.size() - original.vertices.size();
-        const Imported imported = sound(importOff4(lines.text()));
+        const ImportedPolytope imported = sound(importOff4(lines.text()));
         EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
         EXPECT_EQ(warningsOf(imported),
                   std::to_string(doubled) + " vertices coincide with others and were merged with them; " +
@@ -83,7 +83,7 @@ TEST(Repair, RemovesRepeatedCornersFromFaces) {
     Lines lines(named("8-cell"));
     lines.faces[0].insert(lines.faces[0].begin() + 1, lines.faces[0][0]);
     lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // traversed twice
-    const Imported imported = sound(importOff4(lines.text()));
+    const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
 }
 
@@ -122,7 +122,7 @@ TEST(Repair, MergesManyCopiesOfEachVertex) {
     for (std::size_t f = 0; f < lines.faces.size(); ++f) {
         for (std::uint32_t& v : lines.faces[f]) v += static_cast<std::uint32_t>(5 * (17 * f % 201));
     }
-    const Imported imported = sound(importOff4(lines.text()));
+    const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("5-cell")));
     EXPECT_EQ(warningsOf(imported), "1000 vertices coincide with others and were merged with them");
 }
@@ -141,7 +141,7 @@ TEST(Repair, MergesTheVerticesOfACompound) {
         for (auto& v : other.vertices) v = rotation(v);
         lines.add(other);
     }
-    const Imported imported = sound(importOff4(lines.text()));
+    const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{24, 96, 72, 24}));
     EXPECT_EQ(warningsOf(imported), "24 vertices coincide with others and were merged with them");
     // Each tesseract of edge 2 has hypervolume 16, and they overlap.
@@ -158,7 +158,7 @@ TEST(Repair, SplitsCellsOfSeveralPieces) {
     // Join cell 0 of both polytopes, which lie in one hyperplane.
     lines.cells[0].insert(lines.cells[0].end(), lines.cells[8].begin(), lines.cells[8].end());
     lines.cells.erase(lines.cells.begin() + 8);
-    const Imported imported = sound(importOff4(lines.text()));
+    const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{32, 64, 48, 16}));
     EXPECT_EQ(warningsOf(imported), "1 cell consists of several pieces and was split into one cell for each piece");
 }
