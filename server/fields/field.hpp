@@ -32,7 +32,7 @@ struct SecondFunction {
 };
 
 /// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
-/// it. The members mean the same as those of session::LoadObject with the same names.
+/// it. The members have the meaning of the members of session::LoadObject with the same names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;

@@ -19,9 +19,9 @@ inline constexpr Box kFormulaBox{glm::dvec4(-2), glm::dvec4(2)};
 Result<Field> fieldFromFormula(std::string name, std::string_view text, const Box& box = kFormulaBox,
                                std::string_view second = {});
 
-/// Sets the second function of a field to the formula `text`. The function of the field itself may be a formula or an
-/// array. Unlike in fieldFromFormula(), `text` cannot use names that another formula defines. Error: `bad_expression`;
-/// the message begins with "values: ".
+/// Sets the second function of a field to the formula `text`. The first function of the field may be a formula or an
+/// array. Unlike the second formula in fieldFromFormula(), `text` cannot use names that the first formula defines.
+/// Error: `bad_expression`; the message begins with "values: ".
 std::optional<Error> setSecondFormula(Field& field, std::string_view text);
 
 }  // namespace oval4d::fields

@@ -47,8 +47,8 @@ struct EvaluationCost {
     double bounds = 100;             ///< for each region
 };
 
-/// A function from R⁴ to the real numbers. Immutable, so any number of threads may use it at once. Where it has no
-/// value, the result is NaN. The value at a point does not depend on the other points of a batch.
+/// A function from R⁴ to the real numbers. Immutable, so any number of threads may use it at once. Where the function
+/// has no value, evaluate() writes NaN. The value at a point does not depend on the other points of a batch.
 class ScalarFunction {
   public:
     /// Batches are fastest if their size is a multiple of this number, and at least 64.
@@ -66,8 +66,7 @@ class ScalarFunction {
     virtual void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                                       const GradientBatch& gradients) const = 0;
 
-    /// Returns bounds that contain every value that evaluate() can return in `region`. They are guaranteed, but need
-    /// not be tight.
+    /// Returns bounds that contain every value that evaluate() can return in `region`. The bounds need not be tight.
     virtual Bounds boundsIn(const Box& region) const = 0;
 
     /// Returns the function to sample on lattices with these steps: this function, or a coarser version of it that is

@@ -24,8 +24,8 @@ void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
 
 namespace {
 
-// Returns both ranges. The typical one is the range of the middle 98 % of the values, extended at both ends by `margin`
-// times its length, but not beyond the full range.
+// Returns the full and the typical range. The typical range is the range of the middle 98 % of the values, extended at
+// both ends by `margin` times its length, but not beyond the full range.
 FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
     std::vector<float> found;
     found.reserve(values.size());
@@ -56,7 +56,8 @@ const ValueRange& TypicalRangeOnBox::get() const {
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kUnitPoints);
-        // For an array that is too large for memory, forSteps() returns a selection of its samples that is in memory.
+        // For an array that is too large for memory, forSteps() returns an array in memory with a selection of the
+        // samples.
         const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {

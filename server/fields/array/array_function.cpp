@@ -18,7 +18,7 @@ namespace {
 SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
     if (samples.values().size() != sampleCount(shape))
         throw std::invalid_argument("the number of samples does not match the shape of the array");
-    samples.expect(eager ? SampleStorage::Access::sequential : SampleStorage::Access::random);
+    samples.expectAccess(eager ? SampleStorage::Access::sequential : SampleStorage::Access::random);
     return samples;
 }
 
@@ -40,7 +40,7 @@ ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, SampleStorage s
       samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
       bricks_({lattice_, samples_.values().data()}, isEager()),
       coarser_(isEager() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
-    samples_.expect(SampleStorage::Access::random);
+    samples_.expectAccess(SampleStorage::Access::random);
     releasePages();
 }
 
@@ -61,9 +61,9 @@ Bounds ArrayFunction::boundsIn(const Box& region) const {
     }
     Bounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
-    // An interpolated value is the result of four linear interpolations, each with a rounding error of at most
-    // 4.3 · 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). 2⁻¹⁴⁶ covers underflow. If max − min
-    // overflows a float, the result may be NaN.
+    // An interpolated value is the result of four linear interpolations, each with a rounding error of at most 4.3 ·
+    // 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). The summand 2⁻¹⁴⁶ covers underflow. If max −
+    // min is greater than the largest float, an interpolated value may be NaN.
     const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
     if (extent > double{std::numeric_limits<float>::max()}) bounds.hasValueEverywhere = false;
     bounds.min -= rounding;
@@ -114,9 +114,9 @@ std::size_t ArrayFunction::memoryBytes() const {
 
 std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {
     const Shape coarse = downsampledShape(lattice_.shape);
-    samples_.expect(SampleStorage::Access::sequential);
+    samples_.expectAccess(SampleStorage::Access::sequential);
     SampleStorage means(downsample(lattice_.shape, samples_.values()));
-    samples_.expect(SampleStorage::Access::random);
+    samples_.expectAccess(SampleStorage::Access::random);
     return std::make_shared<ArrayFunction>(coarse, lattice_.box, std::move(means), eagerSamples_);
 }
 

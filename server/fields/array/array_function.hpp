@@ -35,8 +35,8 @@ class ArrayFunction final : public ScalarFunction {
     /// not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
-    /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all of them if there are at
-    /// most `eagerSamples`; otherwise, they are read when they are needed (see BrickBounds). Throws
+    /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all samples if there are at
+    /// most `eagerSamples`; otherwise, samples are read when they are needed (see BrickBounds). Throws
     /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
     ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples = kEagerSamples);
 
@@ -78,8 +78,8 @@ class ArrayFunction final : public ScalarFunction {
     std::span<const float> samples() const { return samples_.values(); }
     const SampleStorage& storage() const { return samples_; }
 
-    /// Returns the range of the samples and the number of missing ones: among all samples if rangeIsExact() is true,
-    /// otherwise among a selection of about 260,000.
+    /// Returns the range of the samples and the number of missing samples. If rangeIsExact() is true, they are those of
+    /// all samples, otherwise those of a selection of about 260,000 samples.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     bool rangeIsExact() const { return isEager(); }
 
@@ -101,7 +101,7 @@ class ArrayFunction final : public ScalarFunction {
     const SampleStorage samples_;
     const BrickBounds bricks_;
     const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null if the array is small, or if !isEager()
-    // A selection of the samples, if !isEager(). It is made when it is first needed.
+    // The result of selection(), which is made when it is first needed; always null if isEager().
     mutable std::once_flag selected_;
     mutable std::shared_ptr<const ArrayFunction> selection_;
 };

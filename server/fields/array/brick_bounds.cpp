@@ -84,8 +84,8 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange
     return statistics;
 }
 
-// Writes the statistics of bricks that follow one another along x; `range` contains all of them. A brick with missing
-// samples is then read again, to leave these samples out of its bounds and to count them.
+// Writes the statistics of bricks that follow one another along x; `range` contains all of them. Reads a brick with
+// missing samples a second time, to leave these samples out of its bounds and to count them.
 void readRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
     std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
@@ -173,8 +173,8 @@ void BrickBounds::readAll() {
 
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    // The multiples of this number modulo 1 are evenly spread, but not equidistant, so that the runs do not all meet
-    // the same phase of a periodic array.
+    // The multiples of this number modulo 1 are spread evenly, but not at equal distances. Therefore, in a periodic
+    // array, the runs do not all begin at the same phase.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {
@@ -216,7 +216,8 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const BrickIndex& brick) 
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
-    known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));  // several threads may do this at the same time
+    // Several threads may compute the same entry at the same time.
+    known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));
     entry.store(known, std::memory_order_relaxed);
     check.store(known ^ index, std::memory_order_relaxed);
     return known;

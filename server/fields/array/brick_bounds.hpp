@@ -32,10 +32,10 @@ struct SampleIndexRange {
 ///
 /// Small arrays are read once, by the constructor. A pyramid of coarser bricks, each of which joins up to 2⁴ bricks of
 /// the level below, then answers queries of any size from at most kMaxEntries entries (an entry is the bounds of one
-/// brick). Large arrays may be files that are larger than the memory; a brick of them is read when a query first needs
-/// it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because such a query would
-/// have to read a large part of the file. The bounds of bricks that were read are kept in a cache of at most
-/// kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
+/// brick). Large arrays may be in files that are larger than the memory; each brick of a large array is read when a
+/// query first needs it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because
+/// such a query would have to read a large part of the file. The bounds of bricks that were read are kept in a cache of
+/// at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -85,12 +85,12 @@ class BrickBounds {
     struct Slot {
         std::uint64_t check, entry;
     };
-    struct Free {
+    struct FreeDeleter {
         void operator()(Slot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
     };
-    std::unique_ptr<Slot[], Free> slots_;  // zero-initialized: the entry 0 means an empty slot; null if eager
-    std::size_t slotCount_ = 0;            // a power of 2
-    std::vector<Level> levels_;            // from fine to coarse; only the finest one unless eager_
+    std::unique_ptr<Slot[], FreeDeleter> slots_;  // zero-initialized: the entry 0 means an empty slot; null if eager
+    std::size_t slotCount_ = 0;                   // a power of 2
+    std::vector<Level> levels_;                   // from fine to coarse; only the finest one unless eager_
 };
 
 }  // namespace oval4d::fields

@@ -75,7 +75,7 @@ struct RowSums {
     }
 };
 
-void addTimes(std::span<const float> row, float weight, float* to) {
+void addWeighted(std::span<const float> row, float weight, float* to) {
     for (std::size_t i = 0; i < row.size(); ++i) to[i] += weight * row[i];
 }
 
@@ -113,8 +113,8 @@ std::vector<float> downsample(const Shape& shape, std::span<const float> samples
                         for (const Weight& y : weights[1][j]) {
                             const float weight = w.weight * z.weight * y.weight;
                             const std::size_t at = ((w.coarse * size[2] + z.coarse) * size[1] + y.coarse) * size[0];
-                            addTimes(row.values, weight, &sums[at]);
-                            addTimes(row.weights, weight, &weightSums[at]);
+                            addWeighted(row.values, weight, &sums[at]);
+                            addWeighted(row.weights, weight, &weightSums[at]);
                         }
                     }
                 }
@@ -147,8 +147,8 @@ std::vector<float> selectSamples(const Shape& shape, const SampleStorage& sample
     const std::span<const float> from = samples.values();
     for (const std::size_t w : places[3]) {
         for (const std::size_t z : places[2]) {
-            // All rows are announced before the first is read: the system then reads them in parallel, in much less
-            // time.
+            // All rows are announced to the system before the first row is read, so that the system reads them in
+            // parallel, in much less time.
             for (const std::size_t y : places[1]) prefetchRow(samples, w + z + y, places[0]);
             for (const std::size_t y : places[1]) {
                 for (const std::size_t x : places[0]) selected.push_back(from[w + z + y + x]);

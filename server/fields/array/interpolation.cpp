@@ -45,7 +45,7 @@ void gradientPortably(const SampledLattice& from, const PointBatch& points, cons
 }
 
 template <typename Batch>
-Batch sub(const Batch& batch, std::size_t begin, std::size_t count) {
+Batch subBatch(const Batch& batch, std::size_t begin, std::size_t count) {
     return {batch.x.subspan(begin, count), batch.y.subspan(begin, count), batch.z.subspan(begin, count),
             batch.w.subspan(begin, count)};
 }
@@ -68,9 +68,9 @@ class PaddedBatch {
 void interpolateWithAvx2(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                          const GradientBatch* gradients) {
     const std::size_t whole = points.size() / kLanes * kLanes, rest = points.size() - whole;
-    avx2::interpolate(from, sub(points, 0, whole), values, gradients);
+    avx2::interpolate(from, subBatch(points, 0, whole), values, gradients);
     if (rest == 0) return;
-    const PaddedBatch padded(sub(points, whole, rest));
+    const PaddedBatch padded(subBatch(points, whole, rest));
     std::array<float, kLanes> value{}, x{}, y{}, z{}, w{};
     const GradientBatch gradient{x, y, z, w};
     avx2::interpolate(from, padded.batch(), value, gradients != nullptr ? &gradient : nullptr);

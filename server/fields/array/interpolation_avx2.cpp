@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kLanes = ScalarFunction::kLanes;
 
-// While a group of 8 points is computed, the samples of the group that comes kAhead groups later are prefetched. This
-// is done only for every second point, because neighboring points often share cache lines.
+// While a group of 8 points is computed, the samples of the group that comes kAhead groups later are prefetched. Only
+// the samples of every second point are prefetched, because neighboring points often share cache lines.
 constexpr std::size_t kAhead = 4;
 
 // The members of LatticeAxis, each copied to all lanes.
@@ -204,7 +204,8 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             _mm256_storeu_ps(&gradients.w[i], _mm256_and_ps(w, exists));
         }
         if (_mm256_movemask_ps(valid) == 0xff) continue;
-        // The value may exist although it is not finite here: a corner that is not finite may have the weight 0.
+        // A value that is not finite here may be a number in truth, because a corner that is not finite may have the
+        // weight 0.
         const int unknown = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), onFaces(cells)));
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if ((unknown >> lane & 1) == 0) continue;

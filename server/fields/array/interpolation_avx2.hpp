@@ -7,7 +7,7 @@
 
 namespace oval4d::fields::avx2 {
 
-/// Returns whether this processor has AVX2. If not, interpolate() must not be called.
+/// Returns whether this processor has AVX2. If it returns false, interpolate() must not be called.
 bool isSupported();
 
 /// Writes the values at the points and, unless `gradients` is null, the gradients. The number of points must be a

@@ -18,7 +18,7 @@ struct LatticeAxis {
     float lastCell = 0;      ///< the position of the last cell's first sample; 0 for an axis with one sample
     std::size_t stride = 0;  ///< the distance of neighbors in memory, in samples; 0 for an axis with one sample
 
-    /// Returns the position of a coordinate, clamped to 0 … last; 0 for NaN. Each of the operations rounds
+    /// Returns the position of a coordinate, clamped to 0 … last; 0 for NaN. Each operation in this function rounds
     /// monotonically, so the function is monotonic: the positions of all coordinates in an interval lie between the
     /// positions of its ends.
     float continuousIndex(float coordinate) const {

@@ -127,8 +127,8 @@ MappedFile::~MappedFile() {
 bool MappedFile::isLost() const {
     const BusErrorEntry& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
-    // The file may have been shortened and restored since it was mapped. Then another process of the server that has
-    // mapped it may have read zeros. Therefore any change since the mapping counts as a loss.
+    // The file may have been shortened and restored since it was mapped. While it was shortened, another process of the
+    // server that has mapped it may have read zeros. Therefore any modification since the mapping counts as a loss.
     struct stat status{};
     return fstat(file_->descriptor(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size_ ||
            status.st_mtim.tv_sec != range.modified.tv_sec || status.st_mtim.tv_nsec != range.modified.tv_nsec;

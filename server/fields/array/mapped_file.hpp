@@ -47,8 +47,8 @@ class MappedFile {
     static Result<std::shared_ptr<const MappedFile>> map(std::shared_ptr<const FileHandle> file);
     /// Maps an open file as map() does, but for reading and writing.
     static Result<std::shared_ptr<MappedFile>> mapToWrite(std::shared_ptr<const FileHandle> file);
-    /// Maps an open file as the other map() does, but does not keep it open: the caller may close `descriptor`
-    /// afterward, and descriptor() returns −1.
+    /// Maps an open file as map(file) does, but does not keep it open: the caller may close `descriptor` after the
+    /// call. descriptor() of the result returns −1.
     static Result<std::shared_ptr<const MappedFile>> map(int descriptor);
 
     ~MappedFile();

@@ -67,7 +67,7 @@ void SampleStorage::advise(std::size_t first, std::size_t count, int advice) con
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 
-void SampleStorage::expect(Access access) const {
+void SampleStorage::expectAccess(Access access) const {
     advise(0, values_.size(), access == Access::random ? MADV_RANDOM : MADV_SEQUENTIAL);
 }
 

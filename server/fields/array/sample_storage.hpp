@@ -11,7 +11,8 @@
 
 namespace oval4d::fields {
 
-/// The samples of an array: 32-bit floats in memory or in a mapped file. They do not change. Copies share them.
+/// The samples of an array: 32-bit floats in memory or in a mapped file. The samples do not change. Copies of a
+/// SampleStorage share the samples.
 class SampleStorage {
   public:
     /// Takes ownership of samples in memory.
@@ -31,17 +32,17 @@ class SampleStorage {
     /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
     std::size_t offset() const;
 
-    /// Returns these samples, followed by `others`. Normally copies both into new memory, which has room for 1.5 times
-    /// as many samples. However, if these samples are the result of an earlier call, nothing has been appended to them
-    /// yet, and their memory still has enough room, copies only `others`, and the result shares the memory of these
-    /// samples. Thread-safe.
+    /// Returns these samples, followed by `others`. Normally copies these samples and `others` into new memory, which
+    /// has room for 1.5 times as many samples. However, if these samples are the result of an earlier call, nothing has
+    /// been appended to them yet, and their memory still has enough room, copies only `others` into that memory, which
+    /// the result shares. Thread-safe.
     SampleStorage followedBy(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
     /// pages that are needed; or `sequential`, so that it reads ahead.
     enum class Access : std::uint8_t { random, sequential };
     /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
-    void expect(Access access) const;
+    void expectAccess(Access access) const;
     /// Advises the system that `count` samples from the index `first` on are needed soon. Does nothing for samples in
     /// memory.
     void prefetch(std::size_t first, std::size_t count) const;

@@ -30,7 +30,8 @@ class Formula {
     /// text.
     const std::string& text() const { return text_; }
 
-    /// Returns the parsed formula. parseSyntax() needs it as `shared` if another formula uses the names of this one.
+    /// Returns the parsed formula. parseSyntax() needs it as `shared` if another formula uses the names of this
+    /// formula.
     const ParsedFormula& parsed() const { return *parsed_; }
 
     const Tape& tape() const { return *tape_; }

@@ -19,7 +19,7 @@ struct alignas(32) Lanes {
 };
 
 // Returns memory for at least `size` floats; may return null if `size` is 0. Each thread has its own memory, which
-// stays allocated and is reused by the next call.
+// stays allocated, and which the next call on this thread reuses.
 float* scratch(std::size_t size) {
     thread_local std::vector<Lanes> memory;
     const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
@@ -27,9 +27,9 @@ float* scratch(std::size_t size) {
     return memory.empty() ? nullptr : memory.front().values.data();
 }
 
+using PaddedPoints = std::array<Lanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
 // Returns kKernelLanes points: the points from index `begin` on, of which there must be fewer, and then copies of the
 // last point.
-using PaddedPoints = std::array<Lanes, 4>;
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
     const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};

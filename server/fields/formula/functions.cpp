@@ -38,8 +38,9 @@ Ref clamp(Graph& graph, Arguments a) {
 
 Ref mix(Graph& graph, Arguments a) { return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2])); }
 
-// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0); min(a, b) if k ≤ 0. Then
-// the overlap k h is 0, and so is its square divided by a positive number, but not 0/0.
+// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0); min(a, b) if k ≤ 0. The
+// correction k h² / 4 is computed as (k h)² / max(4 k, kLeastDivisor): for k ≤ 0, the overlap k h is 0, and the
+// positive divisor makes the correction 0, not 0/0.
 Ref smoothMin(Graph& graph, Arguments a) {
     const Ref distance = graph.unary(Operation::abs, graph.subtract(a[0], a[1]));
     const Ref overlap = graph.binary(Operation::max, graph.subtract(a[2], distance), graph.constant(0));

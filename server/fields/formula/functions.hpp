@@ -16,7 +16,8 @@ struct BuiltinFunction {
     std::string_view arguments;  ///< the arguments as shown in help, such as "a, b"
     std::string_view meaning;    ///< the explanation shown in help
     std::size_t minArguments, maxArguments;
-    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);  ///< adds a call; returns its node
+    /// Adds the operations of a call to the graph. Returns the node of the result.
+    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);
 };
 
 /// Returns all functions.

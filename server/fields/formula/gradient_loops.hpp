@@ -80,8 +80,8 @@ class GradientLoops : private ValueLoops<Math> {
     };
 
     // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
-    // operands. `byA` and `byB`: whether these derivatives may differ from 0; if not, they are not read. min and max
-    // take the derivative of one operand, even if the other derivative is not finite.
+    // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that cannot is not read.
+    // min and max take the derivative of one operand, even if the other derivative is not finite.
     static void combine(const Instruction& instruction, const ValuesAndPartials& partials, bool byA, bool byB,
                         float* out, const float* ofA, const float* ofB, Size size) {
         const Number zero{0};

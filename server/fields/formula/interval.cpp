@@ -114,7 +114,8 @@ Bounds log(const Bounds& a) {
     return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
 }
 
-// Returns whether, for some integer k, phase + k · period is in `a`, or so near to `a` that rounding errors matter.
+// Returns whether, for some integer k, phase + k · period is in `a`, or outside of `a` by no more than rounding errors
+// may be.
 bool containsPhase(const Bounds& a, double phase, double period) {
     const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
@@ -166,7 +167,7 @@ Bounds power(const Bounds& a, const Bounds& b) {
     if (a.min >= 0) return powerOfPositive(a, b);
     const bool mayBeInteger = std::floor(b.max) >= b.min;
     if (!mayBeInteger) {
-        // For these b, which are not integers, pow(−∞, b) is pow(∞, b) in C, not NaN.
+        // `b` contains no integers. For such exponents, pow(−∞, b) is pow(∞, b) in C, not NaN.
         if (a.max < 0 && a.min > -kInfinity) return kEmpty;
         const Bounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
         return powerOfPositive(positive, b);

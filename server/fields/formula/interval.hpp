@@ -4,7 +4,7 @@
 //
 // Proof by induction over the operations of a formula: the interval of each operand contains the exact value and the
 // float, and the interval of the result is computed such that it contains both, too. Let [m, M] contain the exact
-// results for all real operands in the intervals, and so also for the floats among them.
+// results for all real operands in the intervals; these include the operands that are floats.
 //
 // - Addition, subtraction, multiplication, division, squares and square roots are correctly rounded. The float is the
 //   exact result times 1 + δ, |δ| ≤ 2⁻²⁴; it is off by at most 2⁻¹⁵⁰ if it is subnormal, and infinite if it is beyond

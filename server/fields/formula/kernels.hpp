@@ -1,5 +1,5 @@
 #pragma once
-// Functions that run compiled formulas (tapes) for blocks of points. Each exists for several instruction sets.
+// Functions that run compiled formulas (tapes) for blocks of points. There are versions for several instruction sets.
 
 #include <cstddef>
 
@@ -31,9 +31,9 @@ struct GradientBlock {
     std::size_t size;
 };
 
-/// Functions that run the `count` instructions of a tape for a block of points. Both compute the same values. The value
-/// at a point does not depend on the other points of the block. A gradient is (0, 0, 0, 0) if the value or one of the
-/// derivatives is not finite.
+/// Functions that run the `count` instructions of a tape for a block of points. Both functions compute the same values.
+/// The value at a point does not depend on the other points of the block. A gradient is (0, 0, 0, 0) if the value or
+/// one of the derivatives is not finite.
 struct Kernels {
     void (*evaluate)(const Instruction* instructions, std::size_t count, const PointBlock& block);
     void (*differentiate)(const Instruction* instructions, std::size_t count, const GradientBlock& block);

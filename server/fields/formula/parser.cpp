@@ -101,8 +101,8 @@ class Parser {
     }
 
   private:
-    // An operand whose sign is not yet part of the tree. Signs are moved out of products and absorbed by sums and
-    // differences, so that toText() never needs to write "--".
+    // An operand whose sign is not yet part of the tree. Signs are moved out of products, and turn sums into
+    // differences or the reverse, so that toText() never needs to write "--".
     struct Term {
         Index node;
         bool isNegative;
@@ -144,8 +144,8 @@ class Parser {
             return {add(Kind::power, {value, exponent}), isNegative};
         }
         if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
-        // The value is a negation in parentheses. The node of the negation is the last one; it is removed, because the
-        // returned Term holds the sign.
+        // The value is a negation in parentheses. The node of the negation is the last node of the tree; it is removed,
+        // because the returned Term holds the sign.
         const Index operand = tree_.operands.back();
         tree_.operands.pop_back();
         tree_.nodes.pop_back();
@@ -278,7 +278,7 @@ class Parser {
         if (constants_.size() - expressions_.sharedConstants == limits_.constants)
             failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
         Graph graph;
-        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // folded into one number
+        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // the graph folds the operations
         if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
         constants_.push_back({std::move(name), value});
     }
@@ -386,7 +386,7 @@ class Parser {
         for (const auto& function : functions()) known.push_back(function.name);
         return text::commaSeparated(known);
     }
-    // Returns the end of the message that a name is not defined: how to correct this mistake.
+    // Returns the last part of the message for a name that is not defined: how to correct this mistake.
     static std::string explanation(std::string_view name) {
         if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
             std::string product(1, name[0]);

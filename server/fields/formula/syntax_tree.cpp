@@ -77,7 +77,7 @@ std::string_view symbolOf(Relation relation) {
 // How tightly the outermost operation of a text binds, from the loosest to the tightest.
 enum class Precedence { sum, product, negation, power, unit, atom };
 
-struct Written {
+struct TextWithPrecedence {
     std::string text;
     Precedence precedence;
 
@@ -88,9 +88,10 @@ struct Written {
 // Stands for a space that is written only outside of parentheses.
 constexpr char kOuterSpace = '\1';
 
-class Writer {
+class FormulaWriter {
   public:
-    Writer(const SyntaxTree& tree, std::span<const FormulaConstant> constants) : tree_(tree), constants_(constants) {
+    FormulaWriter(const SyntaxTree& tree, std::span<const FormulaConstant> constants)
+        : tree_(tree), constants_(constants) {
         written_.reserve(tree.nodes.size());
         for (const SyntaxNode& node : tree.nodes) written_.push_back(write(node));
     }
@@ -98,7 +99,7 @@ class Writer {
     std::string side(std::uint32_t node) { return std::move(written_[node].text); }
 
   private:
-    Written write(const SyntaxNode& node) {
+    TextWithPrecedence write(const SyntaxNode& node) {
         switch (node.kind) {
             case Kind::number:
                 return {text::shortestDecimal(node.number), Precedence::atom};
@@ -132,20 +133,20 @@ class Writer {
     std::string operand(const SyntaxNode& node, std::size_t i, Precedence least) {
         return std::move(written_[tree_.operandsOf(node)[i]]).atLeast(least);
     }
-    // The negation of a product is written −a·b, without parentheses. The parser moves the sign out of the product, so
-    // this gives the same tree.
-    Written writeNegation(const SyntaxNode& node) {
+    // The negation of a product is written −a·b, without parentheses. The parser moves the sign of a factor out of the
+    // product, so −a·b is parsed to the same tree.
+    TextWithPrecedence writeNegation(const SyntaxNode& node) {
         const bool isProduct = written_[tree_.operandsOf(node)[0]].precedence == Precedence::product;
         return {"-" + operand(node, 0, Precedence::product), isProduct ? Precedence::product : Precedence::negation};
     }
-    Written writeBinary(const SyntaxNode& node, std::string_view symbol, Precedence own, Precedence left,
-                        Precedence right) {
+    TextWithPrecedence writeBinary(const SyntaxNode& node, std::string_view symbol, Precedence own, Precedence left,
+                                   Precedence right) {
         std::string text = operand(node, 0, left);
         text += symbol;
         text += operand(node, 1, right);
         return {std::move(text), own};
     }
-    Written writeCall(const SyntaxNode& node) {
+    TextWithPrecedence writeCall(const SyntaxNode& node) {
         const std::string_view name = functions()[node.index].name;
         if (name == "deg") return {operand(node, 0, Precedence::atom) + "°", Precedence::unit};
         std::string text(name);
@@ -158,7 +159,7 @@ class Writer {
 
     const SyntaxTree& tree_;
     std::span<const FormulaConstant> constants_;
-    std::vector<Written> written_;
+    std::vector<TextWithPrecedence> written_;
 };
 
 std::string withOuterSpaces(std::string_view text, bool isSpaced) {
@@ -206,7 +207,7 @@ Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> c
 
 std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced) {
     const std::string space(isSpaced ? 1 : 0, ' ');
-    Writer writer(tree, constants);
+    FormulaWriter writer(tree, constants);
     std::string text = withOuterSpaces(writer.side(tree.left), isSpaced);
     if (tree.relation != Relation::none) {
         text += space + std::string(symbolOf(tree.relation)) + space;

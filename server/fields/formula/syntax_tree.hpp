@@ -62,8 +62,8 @@ struct SyntaxTree {
     std::vector<NamedExpression> expressions;
     Relation relation = Relation::none;
     std::uint32_t left = 0, right = 0;  ///< the root nodes of both sides; without a comparison, only `left` is used
-    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). These
-    /// come first in ParsedFormula::constants and in `expressions`.
+    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). The
+    /// shared constants and expressions come first in ParsedFormula::constants and in `expressions`.
     std::size_t sharedConstants = 0, sharedExpressions = 0;
 
     std::span<const std::uint32_t> operandsOf(const SyntaxNode& node) const {

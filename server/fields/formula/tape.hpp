@@ -20,7 +20,7 @@ struct Instruction {
     Operation operation;
     OperandForm form = OperandForm::two_registers;
     Axes axes = 0;                  ///< the axes along which the derivative of the result can differ from 0
-    Axes axesOfA = 0, axesOfB = 0;  ///< the same for the operands a and b
+    Axes axesOfA = 0, axesOfB = 0;  ///< like `axes`, for the operands a and b
     std::uint16_t result = 0;
     std::uint16_t a = 0, b = 0;  ///< the registers of the operands; unused for a number
     double number = 0;           ///< the operand that is a number, or the exponent of integer_power
@@ -35,7 +35,7 @@ struct Tape {
     std::size_t scratchRegisters = 0;       ///< the number of registers from kFirstScratch on
 };
 
-/// Compiles the function of the node `result`. Registers are reused as soon as their value is no longer needed.
+/// Compiles the function of the node `result`. A register is reused as soon as its value is no longer needed.
 Tape compile(const Graph& graph, Graph::Ref result);
 
 }  // namespace oval4d::fields

@@ -70,8 +70,8 @@ bool AxisMapping::isInOrder() const {
 }
 
 std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
-    // Each slab has one index along each of the first `divided` dimensions, up to `group` indices along the next one,
-    // and all indices along the others.
+    // Each slab has one index along each of the first `divided` dimensions, up to `group` indices along the next
+    // dimension, and all indices along the other dimensions.
     std::size_t divided = 0, inner = count() / layout_.size[0];
     for (; divided < 3 && inner > maxCount; inner /= layout_.size[divided]) ++divided;
     const std::size_t group = std::clamp<std::size_t>(maxCount / inner, 1, layout_.size[divided]);

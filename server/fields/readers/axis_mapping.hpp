@@ -31,9 +31,9 @@ struct Dimension {
 };
 
 /// Returns the axis, 0 … 3 for x, y, z, w, of each dimension of an array, in the order of its indices. `axes` has a
-/// letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, "tzyx", "zyx", "yx" or "x" is used. Errors:
-/// `bad_field` if there are no dimensions or more than 4; `out_of_range` if `axes` does not have as many letters as
-/// there are dimensions, or contains another letter, or an axis twice.
+/// letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, uses "tzyx", "zyx", "yx" or "x", depending on
+/// the number of dimensions. Errors: `bad_field` if there are no dimensions or more than 4; `out_of_range` if `axes`
+/// does not have as many letters as there are dimensions, or contains another letter, or an axis twice.
 Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimensions);
 
 /// A part of an array that is read at once.
@@ -83,8 +83,8 @@ class AxisMapping {
 };
 
 /// Returns a box, centered at the origin, for an array of which only the shape is known. The distance between samples
-/// is the same along all axes, and the longest axis extends from −1 to 1. If `time` is true, this applies only to x, y
-/// and z, and w extends from −1 to 1. An axis with one sample has no extent.
+/// is the same along all axes, and the longest axis extends from −1 to 1. If `time` is true, w extends from −1 to 1,
+/// and these rules apply only to x, y and z. An axis with one sample has no extent.
 Box defaultBox(const Shape& shape, bool time);
 
 }  // namespace oval4d::fields

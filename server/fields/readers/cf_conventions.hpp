@@ -18,9 +18,9 @@ struct CfDimension {
 /// Returns the axis of a dimension, 0 … 3 for x, y, z, t; an empty optional if the file does not state it.
 std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 
-/// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest. A
-/// dimension gets the axis that the file states, unless an earlier dimension has got this axis. Then the dimensions
-/// that have got no axis, from the fastest to the slowest, each get the first axis of x, y, z, t that is left.
+/// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest.
+/// First, each dimension gets the axis that the file states for it, unless an earlier dimension has this axis. Then
+/// each dimension without an axis, from the fastest to the slowest, gets the first of x, y, z, t that is not yet taken.
 std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimensions);
 
 /// The first and the last of the coordinates along a dimension.

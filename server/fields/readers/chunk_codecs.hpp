@@ -22,7 +22,7 @@ enum class ChunkCodec : std::uint8_t {
 std::optional<ChunkCodec> chunkCodecNamed(std::string_view name);
 
 /// Decompresses a chunk into `to`, which must have exactly the size of the decompressed chunk. The size that the chunk
-/// itself states is never used to allocate memory, so a wrong one is harmless. Error: `bad_field` if the chunk is
+/// itself states is never used to allocate memory, so a wrong size is harmless. Error: `bad_field` if the chunk is
 /// damaged, too short or too long.
 Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
 

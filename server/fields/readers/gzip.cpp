@@ -17,7 +17,7 @@ struct GzipReader::State {
     inflate_state inflate;
     std::span<const std::byte> rest;
 
-    // Gives the library the next compressed bytes if it has used all that it got before.
+    // Gives the library the next compressed bytes if it has used all earlier ones.
     void refill() {
         if (inflate.avail_in > 0) return;
         const std::size_t count = std::min<std::size_t>(rest.size(), kStep);
@@ -31,7 +31,7 @@ struct GzipReader::State {
     // end of one, and calls refill(). Returns false if the data have ended and no member follows.
     bool proceed() {
         if (inflate.block_state == ISAL_BLOCK_FINISH) {
-            // The bytes of `rest` lie behind those that the library has got and not used.
+            // The bytes of `rest` directly follow the bytes that the library has received but not used.
             const std::span left(reinterpret_cast<const std::byte*>(inflate.next_in), inflate.avail_in + rest.size());
             if (inflate.crc_flag != ISAL_GZIP || !isGzipStart(left)) return false;
             isal_inflate_reset(&inflate);

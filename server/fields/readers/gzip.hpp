@@ -33,8 +33,8 @@ class GzipReader {
     /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
     Result<bool> fill(std::span<std::byte> to);
 
-    /// Returns whether all decompressed bytes have been read and their checksum is correct. If bytes are left, skips
-    /// one of them, so nothing should be read afterward.
+    /// Returns whether all decompressed bytes have been read and their checksum is correct. If decompressed bytes are
+    /// left, skips one of them, so do not read from this object afterward.
     bool verifyEnd();
 
   private:

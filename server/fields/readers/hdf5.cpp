@@ -43,7 +43,7 @@ class Handle {
 };
 
 // The library calls these functions to get memory for a copy of the file, and to fill it. There is no copy: they return
-// the bytes of the file themselves. The library only reads these, because it opens the file for reading.
+// the bytes of the file themselves. The library does not write to these bytes, because it opens the file for reading.
 void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;
@@ -55,8 +55,8 @@ herr_t keepBytes(void* /*memory*/, H5FD_file_image_op_t /*purpose*/, void* /*byt
 void* sameBytes(void* bytes) { return bytes; }
 herr_t keepAll(void* /*bytes*/) { return 0; }
 
-// Opens a file in memory. Returns a negative number if the file is not valid; H5LTopen_file_image would leak memory
-// then.
+// Opens a file in memory. Returns a negative number if the file is not valid. Does not use H5LTopen_file_image, which
+// leaks memory if the file is not valid.
 hid_t openBytes(std::span<const std::byte> bytes) {
     constexpr std::size_t kIncrement = 65536;                   // the step by which the file would grow
     auto* const memory = const_cast<std::byte*>(bytes.data());  // the library's type is not const
@@ -74,8 +74,8 @@ struct Contents {
     bool refers = false;  // whether the file refers to other files
 };
 
-// The library calls visitLink() for each link and visitObject() for each object, until one returns another number than
-// 0. Neither may throw, because the library is written in C.
+// The library calls visitLink() for each link and visitObject() for each object, until a call returns a number other
+// than 0. These functions must not throw, because the library is written in C.
 herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<Contents*>(to);
     contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
@@ -195,9 +195,9 @@ Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& opt
     return buffer->take();
 }
 
-// Chooses among the datasets that contain numbers and have 1 to 4 dimensions. Returns the path of the one with the most
-// dimensions, and of several such, the first; an empty string if there is none to choose from. Adds a warning if there
-// are several to choose from.
+// Chooses among the candidates: the datasets that contain numbers and have 1 to 4 dimensions. Returns the path of the
+// candidate with the most dimensions, or of the first of several such candidates; an empty string if there is no
+// candidate. Adds a warning if there are several candidates.
 std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
     std::size_t dimensions = 0, candidates = 0;

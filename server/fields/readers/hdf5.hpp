@@ -23,7 +23,7 @@ bool isHdf5Start(std::span<const std::byte> start);
 /// Errors: `bad_field`, `too_large`, `not_found` for the path, `out_of_range` for the other options.
 ///
 /// The HDF5 library is not made for hostile files: files from strangers should be read in a confined process.
-/// Thread-safe only if the library is.
+/// Thread-safe only if the HDF5 library is thread-safe.
 Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -150,9 +150,9 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns the coordinate variable of one of the variable's dimensions: the one with the dimension's name and with this
-// dimension alone. The name does not suffice: a variable may be named like a dimension that it does not have, and a
-// dimension of a group may be named like one of an outer group.
+// Returns the coordinate variable of one of the variable's dimensions: the variable that has the dimension's name, and
+// has no other dimension. The name does not suffice: a variable may be named like a dimension that it does not have,
+// and a dimension of a group may be named like a dimension of an outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     auto found = variableNamed(variable.group, dimensionName(variable.group, dimension));
     if (!found || found->dimensions != std::vector{dimension}) return {};
@@ -264,8 +264,8 @@ Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& opt
     const std::size_t skipped = 4 - variable.dimensions.size();
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
-    // The cache keeps chunks for the next slab, which often needs the same ones. A failure is ignored: the call fails
-    // for files without chunks, which need no cache.
+    // The cache keeps chunks for the next slab, which often needs the same chunks. A failure of the call is ignored,
+    // because the call fails for files without chunks, which need no cache.
     constexpr std::size_t kSlots = 4133;
     static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
     std::vector<std::byte> numbers;

@@ -69,7 +69,7 @@ std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t he
     return {};
 }
 
-NiftiHeader parse1(const HeaderReader& bytes) {
+NiftiHeader parseNifti1(const HeaderReader& bytes) {
     NiftiHeader header;
     header.dimensions = bytes.at<std::int16_t>(40);
     for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int16_t>(42 + 2 * i);
@@ -91,7 +91,7 @@ NiftiHeader parse1(const HeaderReader& bytes) {
     return header;
 }
 
-NiftiHeader parse2(const HeaderReader& bytes) {
+NiftiHeader parseNifti2(const HeaderReader& bytes) {
     NiftiHeader header;
     header.type = bytes.at<std::int16_t>(12);
     header.dimensions = bytes.at<std::int64_t>(16);
@@ -125,7 +125,7 @@ Result<NiftiHeader> parse(std::span<const std::byte> start) {
     if (magic == "ni1" || magic == "ni2")
         return badField("the header and the data are in two files; join them into one file .nii");
     if (magic != (size == kHeader1 ? "n+1" : "n+2")) return badField("the file is not in the format NIfTI");
-    NiftiHeader header = size == kHeader1 ? parse1(bytes) : parse2(bytes);
+    NiftiHeader header = size == kHeader1 ? parseNifti1(bytes) : parseNifti2(bytes);
     header.bigEndian = *bigEndian;
     if (header.dimensions < 1 || header.dimensions > static_cast<std::int64_t>(kDimensions))
         return badField("the array must have 1 to 4 dimensions");
@@ -255,8 +255,8 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions&
     return {};
 }
 
-// Returns the first `size` bytes of a decompressed file; if they are too many to be kept in memory, in a file that
-// `options.newFile` makes. `unzipped` must contain the bytes that `gzip` has already decompressed.
+// Returns the first `size` bytes of a decompressed file. If these are too many to be kept in memory, they are in a file
+// that `options.newFile` makes. `unzipped` must contain the bytes that `gzip` has already decompressed.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
                            std::size_t size, const ReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;

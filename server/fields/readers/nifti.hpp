@@ -16,8 +16,8 @@ bool isNiftiStart(std::span<const std::byte> start);
 /// Reads a NIfTI-1 or NIfTI-2 file (.nii, .nii.gz) with 1 to 4 dimensions of integers or real numbers, in either byte
 /// order. Refuses images whose header and data are in two files (.hdr, .img). The box is `options.box`. Without this
 /// option, the file's orientation gives the box along the first three dimensions, provided that `options.axes` is empty
-/// and the voxels' axes are parallel to the axes of space. Otherwise, the box is centered at the origin along these
-/// dimensions, and uses the file's distances between samples; if `options.axes` is empty and the voxels' axes are
+/// and the voxels' axes are parallel to the axes of space. Otherwise, the box is centered at the origin along the first
+/// three dimensions, and uses the file's distances between samples; if `options.axes` is empty and the voxels' axes are
 /// oblique, there is a warning. The fourth dimension begins at the file's first time. Errors: `bad_field`, `too_large`;
 /// `out_of_range` for the options.
 Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options);

@@ -91,7 +91,7 @@ void convertNumbers(const NumberFormat& format, const std::byte* from, const Str
 }
 
 template <typename Number>
-void convertEither(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
+void convertInFileByteOrder(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     if (format.bigEndian == (std::endian::native == std::endian::big) || sizeof(Number) == 1)
         convertNumbers<Number, false>(format, from, layout, to);
     else
@@ -138,29 +138,29 @@ bool NumberFormat::isPlain() const {
 void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:
-            return convertEither<Boolean>(format, from, layout, to);
+            return convertInFileByteOrder<Boolean>(format, from, layout, to);
         case NumberType::i1:
-            return convertEither<std::int8_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::int8_t>(format, from, layout, to);
         case NumberType::u1:
-            return convertEither<std::uint8_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::uint8_t>(format, from, layout, to);
         case NumberType::i2:
-            return convertEither<std::int16_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::int16_t>(format, from, layout, to);
         case NumberType::u2:
-            return convertEither<std::uint16_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::uint16_t>(format, from, layout, to);
         case NumberType::i4:
-            return convertEither<std::int32_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::int32_t>(format, from, layout, to);
         case NumberType::u4:
-            return convertEither<std::uint32_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::uint32_t>(format, from, layout, to);
         case NumberType::i8:
-            return convertEither<std::int64_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::int64_t>(format, from, layout, to);
         case NumberType::u8:
-            return convertEither<std::uint64_t>(format, from, layout, to);
+            return convertInFileByteOrder<std::uint64_t>(format, from, layout, to);
         case NumberType::f2:
-            return convertEither<Half>(format, from, layout, to);
+            return convertInFileByteOrder<Half>(format, from, layout, to);
         case NumberType::f4:
-            return convertEither<float>(format, from, layout, to);
+            return convertInFileByteOrder<float>(format, from, layout, to);
         case NumberType::f8:
-            return convertEither<double>(format, from, layout, to);
+            return convertInFileByteOrder<double>(format, from, layout, to);
     }
 }
 

@@ -44,8 +44,9 @@ struct StridedLayout {
 };
 
 /// Converts the numbers of a block to the nearest 32-bit floats. `from` points to the stored numbers, which need not be
-/// aligned; the first one goes to `to`. Numbers that stand for no value, and finite numbers beyond the largest float,
-/// become NaN. Infinite numbers become NaN or remain infinite; ArrayFunction treats both as missing samples.
+/// aligned; `to` is the place of the first number. Numbers that stand for no value, and finite numbers beyond the
+/// largest float, become NaN. Infinite numbers become NaN or remain infinite; ArrayFunction treats both as missing
+/// samples.
 void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
 
 }  // namespace oval4d::fields

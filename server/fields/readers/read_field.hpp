@@ -40,7 +40,7 @@ struct ReadOptions {
                                  ///< remain valid as long as the samples are used
 };
 
-/// A field read from a file. The samples may lie in the file's bytes, which they then keep valid.
+/// A field read from a file. If the samples lie in the bytes of the file, they keep these bytes valid.
 struct ReadField {
     Shape shape{1, 1, 1, 1};
     Box box;

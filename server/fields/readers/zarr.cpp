@@ -36,9 +36,9 @@ class ChunkReader {
   public:
     ChunkReader(const FolderReader& folder, const ZarrArray& array) : folder_(folder), array_(array) {}
 
-    // Converts all chunks. `stride` has, for each dimension, the distance of neighbors in `to`; `first` is the place of
-    // the array's first number in `to`. `to` must contain only zeros before the call. Calls `afterward` after about
-    // every kNumbers numbers.
+    // Converts all chunks. `stride` has, for each dimension, the distance in `to` between neighbors along this
+    // dimension; `first` is the place of the array's first number in `to`. `to` must contain only zeros before the
+    // call. Calls `afterward` after about every kNumbers numbers.
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {
@@ -158,8 +158,8 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};
     array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
-    // Times are often large numbers with small differences, which floats would lose. Therefore all coordinates are
-    // converted relative to the first one.
+    // Times are often large numbers with small differences, which 32-bit floats could not represent. Therefore the
+    // coordinates are converted as differences from the first coordinate.
     std::vector<float> values(size);
     const double offset = array.format.offset;
     const auto read = [&] { return ChunkReader(folder, array).read({1}, 0, values.data(), [] {}).operator bool(); };
@@ -174,8 +174,8 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
     return at;
 }
 
-// Sets `kept` to the dimensions that are read: all of them or, if there are more than four, those that remain when
-// dimensions of size 1 are left out until four remain.
+// Sets `kept` to the dimensions that are read. If there are more than four dimensions, leaves out dimensions of size 1
+// until four remain.
 void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
     kept.resize(array.shape.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
@@ -255,7 +255,7 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     while (path.starts_with('/')) path.erase(0, 1);
     auto found = zarr.array(path);
     if (found && !*found && path.empty()) {
-        const auto chosen = zarr.choose();
+        const auto chosen = zarr.chooseArray();
         if (!chosen) return chosen.error();
         path = chosen->path;
         if (chosen->all.size() > 1) {
@@ -267,7 +267,7 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     if (!found) return found.error();
     if (!*found) {
         std::vector<std::string_view> names;
-        const auto chosen = zarr.choose();
+        const auto chosen = zarr.chooseArray();
         if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
         return Error{ErrorCode::out_of_range,
                      "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};

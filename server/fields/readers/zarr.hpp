@@ -22,9 +22,10 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 
 /// Reads an array from a Zarr folder, chunk by chunk. `options.variable` is the path of the array in the folder. If
 /// this option is empty, reads the folder itself if it is an array, or the finest level if it is a multiscale image
-/// (OME-Zarr). If the folder is another group, the group's consolidated metadata must list its arrays, and the one with
-/// the most dimensions is read. Types: Booleans, integers and floats of either byte order. Chunks may be compressed by
-/// gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
+/// (OME-Zarr). If the folder is any other group, the group's consolidated metadata must list its arrays, and the array
+/// with the most dimensions is read. Types: Booleans, integers and floats of either byte order. Chunks may be
+/// compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill
+/// value.
 ///
 /// The axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr). The box is
 /// given by the arrays of coordinates beside the array, or by the scales of a multiscale image. CF attributes apply:

@@ -194,7 +194,7 @@ Result<std::monostate> parseCodecs(const json& metadata, ZarrArray& array) {
         const json* const given = member(codec, "configuration");
         const json configuration = given == nullptr ? json::object() : *given;
         if (name == "transpose" && !hasBytes) {
-            // Composes this transposition with the earlier ones: array.order becomes the order of all together.
+            // Composes this transposition with the earlier transpositions in array.order.
             auto order = sizesIn(configuration, "order", 0);
             if (!order) return order.error();
             std::vector<std::size_t> sorted = *order, transposed;
@@ -321,7 +321,8 @@ void transform(const json& transformation, ZarrCoordinates& coordinates) {
     }
 }
 
-// Returns whether a path consists only of names, without . and .., so that it cannot lead out of the folder.
+// Returns whether a path cannot lead out of its folder: whether none of its names is empty, "." or "..", or contains a
+// null character.
 bool isInside(std::string_view path) {
     for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());
@@ -430,7 +431,7 @@ std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path
     return coordinates;
 }
 
-Result<ZarrFolder::ChosenArray> ZarrFolder::choose() const {
+Result<ZarrFolder::ChosenArray> ZarrFolder::chooseArray() const {
     const nlohmann::json attributes = groupAttributes();
     ChosenArray chosen;
     if (const nlohmann::json* const images = member(attributes, "multiscales");

@@ -21,7 +21,7 @@ using TextReader = std::function<Result<std::optional<std::string>>(const std::s
 
 /// An array in a Zarr folder.
 struct ZarrArray {
-    std::string path;  ///< of the array's folder, relative to the Zarr folder; empty if they are the same
+    std::string path;  ///< of the array's folder, relative to the Zarr folder; empty for the Zarr folder itself
     std::vector<std::size_t> shape, chunk;    ///< the sizes of the array and of its chunks, in the order of its indices
     std::vector<std::size_t> order;           ///< the indices of the dimensions as they are stored, from the
                                               ///< slowest to the fastest
@@ -68,7 +68,7 @@ class ZarrFolder {
     /// Chooses an array to read if the folder is a group (see readZarr()). Errors: `unsupported_format` if the folder
     /// is neither an array nor a group; `out_of_range` if the group does not list its arrays; `bad_field` if none of
     /// them can be read.
-    Result<ChosenArray> choose() const;
+    Result<ChosenArray> chooseArray() const;
 
     /// Returns the coordinates of an array; an empty optional unless the folder is a multiscale image and the array is
     /// one of its levels.
