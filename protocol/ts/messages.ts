@@ -30,9 +30,9 @@ export type Encoding = "json" | "cbor" | "msgpack";
 export type Scheme = "dark" | "light";
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 /**
- * What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar sections; or all slices at the same size, in a straight row in order of w from the left (strip) or in a straight column with the largest w at the top (column).
+ * What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar sections; or all slices at the same size, in a straight row in order of w from the left (strip), in a straight column with the largest w at the top (column), or in as many rows as make them largest, in order of w from left to right and from top to bottom (grid).
  */
-export type View = "oval" | "single" | "matrix" | "strip" | "column";
+export type View = "oval" | "single" | "matrix" | "strip" | "column" | "grid";
 /**
  * What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
  */

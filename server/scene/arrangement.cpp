@@ -4,6 +4,10 @@
 #include <numbers>
 #include <utility>
 
+#include <glm/common.hpp>
+
+#include "scene/style.hpp"
+
 namespace oval4d::scene {
 
 namespace {
@@ -24,6 +28,14 @@ constexpr double kRowFocusDrop = 1.4;  // the label of the focus slice is this f
 // In a column, the label of the focus slice is this far to the right of the others, in heights of text, because the
 // plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
+// In a grid, the step from a slice to the slice below it leaves this much room between them, in heights of text: for
+// the label, with gaps above and below it.
+constexpr double kGridLabelRoom = 2.3;
+constexpr double kGridFocusRoom = 2.1;    // how much more the label of the focus slice needs, which is farther down
+constexpr double kGridLabelWidth = 0.94;  // the greatest width of the other labels, as a fraction of the column step
+// Like kLineDistance, for the distance from the focus slice to the farthest column or row. Slices in the corners look
+// nearly as those in the middle.
+constexpr double kGridDistance = 8;
 constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
@@ -74,6 +86,54 @@ Arrangement columnOf(int count, double reach) {
     return made;
 }
 
+// Returns a grid with the number of columns at which the slices are largest. `reach`: the radius of a slice with its
+// balls.
+Arrangement gridOf(int count, double reach, const SliceRoom& room) {
+    // The projection takes this share of the room, in the direction in which it stands beside the grid. It takes less
+    // if its height or width would otherwise be more than the share kProjectionBreadth of the room.
+    constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
+    constexpr double kLeastWideAspect = 1.3;  // of rooms in which the projection is to the left
+    if (count == 1) return focusSliceAlone();
+    const double text = style().textHeight;
+    SliceGrid grid;
+    grid.count = count;
+    grid.projectionIsAbove = room.size.x < kLeastWideAspect * room.size.y;
+    double scale = 0;  // how many viewport heights a world unit takes up in the picture
+    for (const glm::dvec2& part : room.besideAxes) {
+        glm::dvec2 left = part;  // what the projection leaves
+        double side = 0;
+        if (room.hasProjection) {
+            double& length = grid.projectionIsAbove ? left.y : left.x;
+            side = std::min(kProjectionShare * length, kProjectionBreadth * (grid.projectionIsAbove ? left.x : left.y));
+            length -= side;
+        }
+        for (int columns = 1; columns <= count; ++columns) {
+            const int rows = (count + columns - 1) / columns;
+            const double labels = (kGridLabelRoom * rows + kGridFocusRoom) * text;
+            const double radius = std::min(left.x / (kLineStep * (columns - 1) + 2), (left.y - labels) / (2 * rows));
+            if (radius / reach <= scale) continue;
+            scale = radius / reach;
+            grid.columns = columns;
+            grid.projectionSide = side / scale;
+        }
+    }
+    grid.columnStep = kLineStep * reach;
+    grid.rowStep = 2 * reach + kGridLabelRoom * text / scale;
+    grid.focusGap = kGridFocusRoom * text / scale;
+    Arrangement made;
+    made.grid = grid;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 offset = glm::abs(grid.positionOf(i));
+        made.halfWidth = std::max(made.halfWidth, offset.x);
+        made.halfHeight = std::max(made.halfHeight, offset.y);
+    }
+    made.distance = kGridDistance * std::max(made.halfWidth, made.halfHeight) + kSingleDistance;
+    made.isClearOfAxes = true;
+    made.focusLabelDrop = kRowFocusDrop;
+    made.labelColumns = room.size.x / (kGridLabelWidth * grid.columnStep * scale);
+    return made;
+}
+
 // Places the projection to the right of the focus slice or, in a tall room, above it.
 ProjectionPlacement besideFocusSlice(double reach, double aspect) {
     constexpr double kGap = 0.2;
@@ -92,11 +152,22 @@ ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double
     return {true, (reach + kGap + radius) * away, radius};
 }
 
+// Places the projection to the left of a grid or, unless the room is wide, above it.
+ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
+    constexpr double kShare = 0.94;  // of its square that the projection fills
+    const double half = grid.projectionSide / 2;
+    const glm::dvec3 first = grid.positionOf(0), last = grid.positionOf(grid.count - 1);
+    const glm::dvec3 center = grid.projectionIsAbove ? glm::dvec3(first.x + (grid.columns - 1) * grid.columnStep / 2,
+                                                                  first.y + reach + half, 0)
+                                                     : glm::dvec3(first.x - reach - half, (first.y + last.y) / 2, 0);
+    return {true, center, kShare * half};
+}
+
 }  // namespace
 
 // The switches over the views have no default, so that a view without a case does not compile.
 
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect) {
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const SliceRoom& room) {
     Arrangement made;
     switch (view) {
         case View::oval:
@@ -116,6 +187,9 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
         case View::column:
             made = columnOf(count, 1 + relativeBall);
             break;
+        case View::grid:
+            made = gridOf(count, 1 + relativeBall, room);
+            break;
     }
     made.reach = made.sliceRadius * (1 + relativeBall);
     return made;
@@ -134,6 +208,8 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
             return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
         case View::column:
             return besideLine({-1, 0, 0}, arrangement.halfHeight + reach, reach, 1 / aspect);
+        case View::grid:
+            return besideGrid(arrangement.grid, reach);
     }
     return {};
 }

@@ -1,10 +1,12 @@
 #pragma once
 // What the views differ in: how they arrange the slices, their labels and the projection, and how the camera sees them.
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "scene/layout.hpp"
@@ -12,13 +14,42 @@
 
 namespace oval4d::scene {
 
+/// The room that a picture has for the slices, their labels and the projection. All sizes are a width and a height, in
+/// viewport heights.
+struct SliceRoom {
+    glm::dvec2 size{0};
+    std::array<glm::dvec2, 2> besideAxes{};  ///< the sizes of the parts to the right of the axes symbol and below it
+    bool hasProjection = false;              ///< whether the projection is shown
+};
+
+/// The places of slices that stand in rows, in the order in which a text is read. Each row but the last has the same
+/// number of slices. All lengths are in world units. The focus slice is the one in the middle of the sequence, or the
+/// one before the middle, and stands at the origin.
+struct SliceGrid {
+    int count = 0;  ///< the number of slices; 0 if the view has no grid
+    int columns = 1;
+    double columnStep = 0, rowStep = 0;
+    double focusGap = 0;  ///< how much longer the step from the row of the focus slice to the next row is
+    /// The side of the square to the left of the grid or above it in which the projection is; 0 if it is not shown.
+    double projectionSide = 0;
+    bool projectionIsAbove = false;
+
+    /// Returns the position of slice i. No coordinate is −0.
+    glm::dvec3 positionOf(int i) const {
+        const int focus = (count - 1) / 2;
+        const int right = i % columns - focus % columns, down = i / columns - focus / columns;
+        return {right * columnStep, -down * rowStep - (down > 0 ? focusGap : 0), 0};
+    }
+};
+
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
-/// slices stand on a curve, a parabola, a straight row, a straight column or a single place, whose middle is the
-/// origin. The focus slice is there, unless the number of slices is even, as it may be in files. The camera looks at
-/// the origin from the distance `distance`, downward by the angle `pitch` (radians).
+/// slices stand in a grid or on a curve, a parabola, a straight row, a straight column or a single place. The middle of
+/// the curve is the origin. The focus slice is there, unless the number of slices is even, as it may be in files; in a
+/// grid, it always is. The camera looks at the origin from the distance `distance`, downward by the angle `pitch`
+/// (radians).
 struct Arrangement {
-    double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth
-    double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight
+    double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth. In a grid, the greatest |x|
+    double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight. In a grid, the greatest |y|
     double depth = 0;       ///< how far behind the focus slice the first and the last slice stand
     double pitch = 0, distance = 1;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
@@ -37,24 +68,30 @@ struct Arrangement {
     /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
     /// column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
     /// part of the column. If the labels are below the slices, the label of the focus slice keeps its size, because it
-    /// is farther down than the others.
-    int labelColumns = 0;
+    /// is farther down than the others. A grid may be narrower than the room; this is then the number of its columns
+    /// that the room would hold.
+    double labelColumns = 0;
+    SliceGrid grid = {};  ///< the grid in which the slices stand, if they do
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
-    /// coordinate is −0, because messages would contain the sign.
-    glm::dvec3 positionAt(double u) const { return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0; }
-    /// Returns an upper bound of the distance from the focus slice to the first and to the last slice.
+    /// coordinate is −0, because messages would contain the sign. In a grid, parameters between those of two slices
+    /// belong to the nearer slice. So a grid has no direction at a slice, and the label is straight below it.
+    glm::dvec3 positionAt(double u) const {
+        if (grid.count > 0) return grid.positionOf(static_cast<int>(std::lround((grid.count - 1) / 2.0 * (1 + u))));
+        return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0;
+    }
+    /// Returns an upper bound of the distance from the focus slice to any other slice.
     double extent() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
-    /// assumed to lie. In a row, a column or a single place, this radius is 1. On a parabola, it is the radius of the
-    /// slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice only
-    /// touch this sphere; the parabola has just enough room for such slices.
+    /// assumed to lie. In a grid, a row, a column or a single place, this radius is 1. On a parabola, it is the radius
+    /// of the slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice
+    /// only touch this sphere; the parabola has just enough room for such slices.
     double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
 /// Returns how a view arranges `count` slices in a picture with this aspect ratio (width / height). `relativeBall`: the
-/// radius of balls as a fraction of the slice radius.
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect);
+/// radius of balls as a fraction of the slice radius. Only a grid depends on `room`.
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const SliceRoom& room);
 
 /// Places the projection of the whole object beside the slices of a view. `count`: the number of slices. `aspect`: the
 /// aspect ratio of the room that the slices and the projection have, without the part of the width that labels beside

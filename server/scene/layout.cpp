@@ -1,6 +1,7 @@
 #include "scene/layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -70,6 +71,9 @@ void setRadii(const ProjectionSettings& projection, double relativeBall, Project
     placement.ballRadius = thinBall * placement.objectRadius;
     placement.barRadius = kBarPerBall * placement.ballRadius;
 }
+
+// Returns the width and the height of a rectangle.
+glm::dvec2 sizeOf(const Rect& rect) { return {rect.right - rect.left, rect.top - rect.bottom}; }
 
 // Returns the width of a rectangle, divided by its height.
 double aspectOf(const Rect& rect) { return (rect.right - rect.left) / (rect.top - rect.bottom); }
@@ -147,6 +151,15 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
     return inside;
 }
 
+// Returns the part of `room` to the right of the axes symbol, and the part below it. They have at least half the width
+// or height of `room`. `axes`: the box of the symbol.
+std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
+    Rect right = room, below = room;
+    right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
+    below.top = std::max(axes.center.y - axes.half.y, (room.bottom + room.top) / 2);
+    return {right, below};
+}
+
 // Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
 // slices and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
 // the symbol or the part below it, whichever lets the slices be larger. Uses the part to the right only if labels
@@ -161,9 +174,7 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
         return overlap(axes, middle + scale * (circle.center - middleOfBounds), scale * circle.radius);
     });
     if (isClear) return inside;
-    Rect right = room, below = room;
-    right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
-    below.top = std::max(axes.center.y - axes.half.y, (room.bottom + room.top) / 2);
+    auto [right, below] = partsBeside(axes, room);
     const bool labelsFit = 2 * labels.overhang(bounds, scale).right <= right.right - right.left;
     right = roomInside(right, bounds, labels);
     below = roomInside(below, bounds, labels);
@@ -221,7 +232,10 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are
     // proportional to it.
     const double relativeBall = look.thickness * content.relativeBallRadius;
-    const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect);
+    const bool projected = look.projection.kind != ProjectionKind::off;
+    const auto [right, below] = partsBeside(boxOf(out.axes), room);
+    const SliceRoom sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
+    const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
     out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : MatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
     out.ballRadius = relativeBall * out.sliceRadius;
@@ -232,7 +246,6 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     LabelLayout labels(arrangement, decimals, content.originW, out.placements);
     if (arrangement.labelColumns > 0) labels.shrink((room.right - room.left) / arrangement.labelColumns);
     std::vector<Circle> circles = circlesOf(out.placements, arrangement);
-    const bool projected = look.projection.kind != ProjectionKind::off;
     ProjectionPlacement& projection = out.projectionPlacement;
     projection = {};
     if (projected) {

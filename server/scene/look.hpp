@@ -27,6 +27,7 @@ enum class View : std::uint8_t {
     matrix = 2,  ///< the focus slice, beside the matrix of planar sections
     strip = 3,   ///< all slices, at the same size in a straight row
     column = 4,  ///< all slices, at the same size in a straight column
+    grid = 5,    ///< all slices, at the same size in rows that are read from left to right and from top to bottom
 };
 /// A row of the table of views. arrangement.cpp says where each view has the slices, the labels and the projection.
 struct ViewRow {
@@ -40,7 +41,8 @@ inline constexpr auto kViews =
                             {.name = "single", .value = View::single, .showsAllSlices = false},
                             {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
                             {.name = "strip", .value = View::strip, .showsAllSlices = true},
-                            {.name = "column", .value = View::column, .showsAllSlices = true, .isTall = true}});
+                            {.name = "column", .value = View::column, .showsAllSlices = true, .isTall = true},
+                            {.name = "grid", .value = View::grid, .showsAllSlices = true}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 /// Returns ViewRow::showsAllSlices of a view.
 constexpr bool showsAllSlices(View view) {

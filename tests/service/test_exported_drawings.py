@@ -165,6 +165,19 @@ def test_a_drawing_of_a_column_is_in_portrait_format(server, tmp_path):
     assert [heights[n] for n in sorted(heights)] == sorted(heights.values(), reverse=True), "w rises upward"
 
 
+def test_a_drawing_of_a_grid_has_rows(server, tmp_path):
+    centers = {}
+    for group in svg_of(server, tmp_path, "polytope=24-cell&slices=7&of=oval&view=grid").iter(SVG + "g"):
+        balls = [(float(ball.get("cx")), float(ball.get("cy"))) for ball in group.iter(SVG + "circle")]
+        if group.get("id").startswith("slice_") and balls:
+            centers[int(group.get("id").removeprefix("slice_"))] = [sum(each) / len(balls) for each in zip(*balls)]
+    upper, lower = ([centers[n] for n in sorted(centers) if (n > 0) == below] for below in (False, True))
+    assert len(upper) > 1 and len(lower) > 1, "slices 1, 2 and 3 are in the second row"
+    for row in (upper, lower):
+        assert [x for x, _ in row] == sorted(x for x, _ in row), "w rises to the right"
+    assert max(y for _, y in upper) < min(y for _, y in lower)
+
+
 def test_a_drawing_of_the_focus_slice_marks_the_focus_point(server, tmp_path):
     query = "polytope=tesseract&of=focus"
     points = []

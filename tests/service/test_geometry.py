@@ -134,3 +134,19 @@ async def test_in_a_column_w_rises_upward_in_equal_steps(server):
         assert min(steps) > 0 and max(steps) == pytest.approx(min(steps), rel=1e-4)
         await client.request("key", key="I")
         assert (await client.request("get", what="state"))["view"] == "oval"
+
+
+async def test_a_grid_is_read_from_left_to_right_and_from_top_to_bottom(server):
+    async with Client(server, stream="geometry", width=1280, height=720) as client:
+        done = await client.request("key", key="M")
+        slices = await client.wait_for_slices(done["revision"])
+        assert slices["scene"]["view"] == "grid" and all(piece["drawn"] for piece in slices["slices"])
+        assert [piece["w"] for piece in slices["slices"]] == sorted(piece["w"] for piece in slices["slices"])
+        places = [piece["position"] for piece in slices["slices"]]
+        assert places[10] == [0, 0, 0] and all(place[2] == 0 for place in places)
+        rows = [list(row) for _, row in itertools.groupby(places, key=lambda place: place[1])]
+        assert len(rows) == 3 and [place[0] for place in rows[0]] == sorted(place[0] for place in rows[0])
+        assert all([place[0] for place in row] == [place[0] for place in rows[0]] for row in rows)
+        assert rows[0][0][1] > 0 > rows[2][0][1]
+        await client.request("key", key="M")
+        assert (await client.request("get", what="state"))["view"] == "oval"

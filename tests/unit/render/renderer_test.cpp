@@ -197,6 +197,7 @@ TEST_F(Pictures, ShowNothingOfEarlierPictures) {
         {"beside a slice", View::single, {0.3, 0, 0.4}, {ProjectionKind::perspective, 1000}},
         {"beside the matrix", View::matrix, {}, {ProjectionKind::perspective, 3}},
         {"above a row", View::strip, {0.5, -0.7, 0.3}, {ProjectionKind::orthogonal, 3}},
+        {"beside a grid", View::grid, {0.3, 0.2, 0.8}, {ProjectionKind::perspective, 3}},
     };
     const auto subjectOf = [&](const Later& example) {
         scene::Look look;

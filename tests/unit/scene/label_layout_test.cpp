@@ -106,6 +106,35 @@ TEST(Labels, standToTheRightOfAColumn) {
     }
 }
 
+TEST(Labels, standBelowTheSlicesOfAGridAndTouchNone) {
+    scene::Look look;
+    look.view = scene::View::grid;
+    for (const scene::Viewport viewport : kWindows) {
+        for (const int count : {3, 11, 21, 61}) {
+            const Scene s = composed("24-cell", count, viewport, look);
+            SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count);
+            int labeled = 0;
+            for (const auto& placement : s.placements) {
+                if (placement.label.empty()) continue;
+                ++labeled;
+                const LabelBox box(s, placement);
+                const glm::dvec2 at = project(s, placement.position);
+                EXPECT_NEAR((box.left + box.right) / 2, at.x, 1e-6) << placement.label;
+                EXPECT_GT(box.top, at.y) << placement.label;
+                EXPECT_TRUE(box.isInside(viewport)) << placement.label;
+                for (const auto& slice : s.placements) {
+                    const double radius = radiusOnScreen(s, slice.position, s.sliceRadius + s.ballRadius);
+                    EXPECT_FALSE(box.overlapsDisk(project(s, slice.position), radius)) << placement.label;
+                }
+            }
+            expectLabelsApart(s);
+            if (count <= 21) {
+                EXPECT_EQ(labeled, count);
+            }
+        }
+    }
+}
+
 TEST(Labels, besideAColumnNameTheSectionOnlyWhereThereIsRoom) {
     scene::Look look;
     look.view = scene::View::column;

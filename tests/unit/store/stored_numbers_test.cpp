@@ -27,7 +27,7 @@ Numbers numbersOf() {
 
 TEST(StoredNumbers, OfEnumeratorsStayTheSame) {
     EXPECT_EQ(numbersOf<scene::View>(),
-              (Numbers{{"oval", 0}, {"single", 1}, {"matrix", 2}, {"strip", 3}, {"column", 4}}));
+              (Numbers{{"oval", 0}, {"single", 1}, {"matrix", 2}, {"strip", 3}, {"column", 4}, {"grid", 5}}));
     EXPECT_EQ(numbersOf<scene::Coloring>(),
               (Numbers{{"cell", 0}, {"kind", 1}, {"w", 2}, {"plain", 3}, {"light", 4}, {"growth", 5}, {"value", 6}}));
     EXPECT_EQ(numbersOf<scene::CapStyle>(), (Numbers{{"plain", 0}, {"value", 1}, {"open", 2}}));
