@@ -22,8 +22,8 @@ Color pack(const std::array<double, 3>& rgb) {
 
 // Converts a color from Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020). In Oklch,
 // colors of equal lightness look equally light whatever their hue. If the color is outside the sRGB gamut, reduces its
-// chroma.
-Color oklch(double lightness, double chroma, double hue) {
+// chroma. `hue` is in radians.
+Color fromOklch(double lightness, double chroma, double hue) {
     for (;; chroma *= 0.95) {
         const double a = chroma * std::cos(hue);
         const double b = chroma * std::sin(hue);
@@ -40,18 +40,19 @@ Color oklch(double lightness, double chroma, double hue) {
     }
 }
 
-// A lightness in Oklch for each scheme.
+// A lightness in Oklch, 0 … 1, for each scheme.
 struct Lightness {
     double onDark, onLight;
 };
 
-// Returns a color for a scheme. On a light ground, reduces its lightness if its contrast to white is too small.
+// Returns the color for a scheme, given in Oklch. In the light scheme, reduces the lightness until the contrast to
+// white is at least kLeastContrast.
 Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
     constexpr double kLeastContrast = 3.6;
     constexpr Color kWhite = 0xffffff;
-    if (scheme == Scheme::dark) return oklch(lightness.onDark, chroma, hue);
+    if (scheme == Scheme::dark) return fromOklch(lightness.onDark, chroma, hue);
     for (double least = lightness.onLight;; least *= 0.98) {
-        const Color color = oklch(least, chroma, hue);
+        const Color color = fromOklch(least, chroma, hue);
         if (contrast(color, kWhite) >= kLeastContrast) return color;
     }
 }
@@ -90,7 +91,8 @@ void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Colo
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
 }
 
-// A diverging color scale for values from −1 to 1: blue, gray at 0, amber.
+// A color scale is a table of kScaleSteps colors for values from −1 to 1. divergingScale() is blue at −1, gray at 0 and
+// amber at 1.
 constexpr int kScaleSteps = 255;
 using ColorScale = std::array<Color, kScaleSteps>;
 ColorScale divergingScale(Scheme scheme) {
@@ -105,7 +107,7 @@ ColorScale divergingScale(Scheme scheme) {
     return scale;
 }
 
-// The scales for both schemes, indexed by the numbers of the enumerators of Scheme.
+// A color scale in each scheme. The index is the number of the enumerator of Scheme.
 using ScalePerScheme = std::array<ColorScale, kSchemes.size()>;
 ScalePerScheme scalesFor(ColorScale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
 const ColorScale& scaleOf(const ScalePerScheme& scales, Scheme scheme) {
@@ -120,8 +122,9 @@ const ScalePerScheme& divergingScales() {
 // The direction toward the light, which does not turn with the object: to the upper left, to the front and to large w.
 const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
-// A scale of one hue for the cosine of the angle between a cell's normal and the light, from −1 (turned away) to 1. The
-// lightness falls smoothly on the dark side, too, so that cells there differ from each other.
+// A color scale of one hue. The values are cosines of angles between the normals of cells and the direction toward the
+// light. The lightness also falls from 0 to −1, so that cells that are turned away from the light differ from each
+// other.
 ColorScale lightScale(Scheme scheme) {
     constexpr double kHue = 4.2;
     constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};
@@ -134,7 +137,7 @@ ColorScale lightScale(Scheme scheme) {
     return scale;
 }
 
-// A scale whose lightness grows evenly while the hue turns from blue through green to yellow.
+// A color scale whose lightness grows evenly from −1 to 1, while the hue turns from blue through green to yellow.
 ColorScale sequentialScale(Scheme scheme) {
     constexpr double kBlue = 4.8, kYellow = 1.8;
     constexpr Lightness kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
@@ -190,7 +193,7 @@ Color sequentialColor(double value, Scheme scheme) {
 }
 
 Color noValueColor() {
-    static const Color kGray = oklch(0.55, 0.01, 0);
+    static const Color kGray = fromOklch(0.55, 0.01, 0);
     return kGray;
 }
 
@@ -210,11 +213,11 @@ void CellPainter::assignColors(const slicing::Object& object, Coloring coloring,
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
         if (changed) findCenters(object);
-        assignBy(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+        colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
         if (changed) findNormals(object);
         static const ScalePerScheme kScales = scalesFor(lightScale);
-        assignBy(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
+        colorByDirection(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }
 
@@ -223,7 +226,7 @@ void CellPainter::findCenters(const slicing::Object& object) {
     slicing::findCellCenters(object, directions_);
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
-    // If all cell centers are at the origin, w is 0 for all of them.
+    // If all cell centers are at the origin, all directions become 0, and all cells get the color of w = 0.
     const bool anyAway = farthest > 1e-9 * slicing::infoOf(object).circumradius;
     for (glm::dvec4& center : directions_) center *= anyAway ? 1 / farthest : 0;
 }
@@ -238,8 +241,10 @@ void CellPainter::findNormals(const slicing::Object& object) {
     }
 }
 
-// Colors each cell by the dot product of its direction and `axis`, a unit vector in coordinates before the rotation.
-void CellPainter::assignBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
+// Gives each cell the color of `scale` at the dot product of the cell's entry in directions_ and `axis`, a unit vector
+// in coordinates before the rotation.
+void CellPainter::colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis,
+                                   std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The colors of cells, levels and values.
+// The colors of cells, of the levels of fields, and of values.
 
 #include <array>
 #include <cstddef>
@@ -21,12 +21,12 @@ using Color = std::uint32_t;
 /// Returns the color as CSS, SVG and OpenSCAD write it: "#rrggbb", in lower-case hexadecimal digits.
 std::string cssColor(Color color);
 
-/// Returns the contrast of two colors by WCAG 2.2: 1 if they have the same luminance, 21 for black and white.
+/// Returns the contrast of two colors by WCAG 2.2: from 1 (equal luminance) to 21 (black and white).
 double contrast(Color a, Color b);
 
 // The colors below have the same hues for both schemes. Those for a light background have a contrast to white of at
-// least 3.6. Where the shading of the drawing brightens them, the contrast to white and to a nearly white background is
-// still at least 3.
+// least 3.6. Shading may brighten them; their contrast to white and to a nearly white background is then still at least
+// 3.
 
 /// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
 /// of the object's cell types.
@@ -52,8 +52,8 @@ Color noValueColor();
 /// Computes the colors of an object's cells. Caches whatever does not depend on the orientation.
 class CellPainter {
   public:
-    /// Writes one color per cell to `out`. Every call must get the vector that the previous call wrote: colors that
-    /// stay the same are not written again. The colors depend only on the other arguments.
+    /// Writes one color per cell to `out`. Every call must get the vector that the previous call wrote, because colors
+    /// that stay the same are not written again.
     ///
     /// - Coloring::cell: up to 24 cells all have different colors; with more than 24 cells, those along one Hopf fiber
     ///   (a great circle) share a color.
@@ -69,7 +69,7 @@ class CellPainter {
   private:
     void findCenters(const slicing::Object& object);
     void findNormals(const slicing::Object& object);
-    void assignBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
+    void colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
 
     std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells were last colored
     Coloring coloring_ = Coloring::cell;

@@ -14,8 +14,9 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Writes to `out`, for each of `elements`, the cell that determines the color of the element. If the source of every
-// element is a cell, this cell determines the color, and `out` stays empty.
+// Writes to `out`, for each of `elements`, the cell that determines the color of the element. `sourceOf` returns the
+// source number of an element. If every element was cut from a cell, which then determines its color, leaves `out`
+// empty.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -54,8 +55,8 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
     const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
-    // On a lattice that is coarser than the one for messages (uniformStep()), thin bodies in small slices would fall
-    // apart.
+    // In full quality, no lattice is coarser than the one for messages (uniformStep()). On a coarser lattice, thin
+    // bodies in small slices would break into pieces.
     const double coarsest = quality == slicing::Quality::full ? slicing::uniformStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {
@@ -134,7 +135,7 @@ void Composer::removeHighlightColor(Scene& out) {
 }
 
 // Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the convex hull of
-// the polytope's vertices in the hyperplane, provided that this hull is a solid.
+// those vertices of the polytope that lie in the hyperplane, provided that this hull is a solid.
 void Composer::nameSection(const Object& object, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
@@ -168,7 +169,8 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
-    // The radius of the bars of the focus slice's section, and of other sections, relative to the bars of the object.
+    // The radii of the bars of sections, as multiples of the radius of the bars of the object: for the section of the
+    // focus slice, and for the other sections.
     constexpr double kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
@@ -189,8 +191,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const Style& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
-    // Without balls, the bars are joined by balls of their own radius and color, and points of clouds are as small, as
-    // in slices.
+    // If balls are hidden, balls with the radius and color of the bars join the bars, and the points of a cloud have
+    // this radius, too (see Scene::drawnBallRadius()).
     const bool isCloud = !projection.elements.ballScale.empty();
     const double pointRadius = look.parts.balls ? ball : bar;
     projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,

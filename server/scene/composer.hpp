@@ -43,7 +43,7 @@ class Composer {
                       Viewport viewport, slicing::Quality quality, Scene& scene, slicing::SurfaceDetail& out);
 
   private:
-    // All inputs of the layout. While the object turns, only `focusName` can change, so that most frames reuse the
+    // All inputs of the layout. While the object turns, only `focusName` can change; most frames therefore reuse the
     // layout.
     struct LayoutInput {
         geometry::Hyperplanes planes;
@@ -82,7 +82,7 @@ class Composer {
     const Scene* laidOutIn_ = nullptr;  // the scene that has the layout of laidOut_; null before the first layout
     std::optional<slicing::Element> highlight_;
     slicing::PartsShowingElement highlightSources_;  // the vertices and edges of slices that show highlight_
-    // A cell that has the highlight color in the scene, and the color that this cell has otherwise.
+    // The index of the cell that has the highlight color in the scene, and the color that the highlight color replaces.
     std::optional<std::pair<std::size_t, Color>> replacedColor_;
 
     DensityPlot density_;

@@ -14,9 +14,9 @@ namespace {
 // Returns the width between the margins, in viewport heights; at least half the viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep = 0.42;  // between neighboring axes of a strip or histogram, in viewport heights
+constexpr double kMaxAxisStep = 0.42;  // the maximum of CoordinatesLayout::lineStep for a strip or histogram
 constexpr double kPlotAmplitude = 0.056;
-constexpr double kStripNameRoom = 1.1;  // in heights of text
+constexpr double kStripNameRoom = 1.1;  // below the plot, for the names of the axes; in heights of text
 
 void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};

@@ -10,7 +10,7 @@ namespace oval4d::scene {
 namespace {
 
 constexpr int kMaxLevel =
-    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // bins from 0 to the circumradius
+    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // number of bins per circumradius
 constexpr int kBins = 2 * kMaxLevel + 1;
 
 // Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves

@@ -15,9 +15,9 @@
 namespace oval4d::scene {
 
 /// A density plot of the parallel coordinates of many vertices: a grid of kRows × kColumns weights. Each vertex has a
-/// line, which joins its values on neighboring axes; each weight tells how many of these lines pass its place in the
-/// grid. The axes x, y, z and w are at the columns 0, kGap, 2 kGap and 3 kGap. Row 0 is at +circumradius, the last row
-/// at −circumradius. Reuses its memory between measurements.
+/// line, which joins its values on neighboring axes; each weight measures how many of these lines pass through its
+/// place in the grid (see kLineWeight). The axes x, y, z and w are at the columns 0, kGap, 2 kGap and 3 kGap. Row 0 is
+/// at +circumradius, the last row at −circumradius. Reuses its memory between measurements.
 class DensityPlot {
   public:
     static constexpr int kGap = 64;  ///< columns from one axis to the next

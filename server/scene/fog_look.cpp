@@ -15,7 +15,7 @@ void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Sche
     out.clear();
     if (points.empty()) return;
     const double least = points.front().value, range = points.back().value - least;
-    // The color and the opacity of a control point, each component from 0 to 255.
+    // Returns the color (r, g, b) and the opacity (a) of a control point, each from 0 to 255.
     const auto look = [&](const slicing::FogPoint& point) {
         const Color color = point.color.value_or(divergingColor(2 * ((point.value - least) / range) - 1, scheme));
         return glm::dvec4(color >> 16 & 255, color >> 8 & 255, color & 255, 255 * point.opacity);

@@ -100,7 +100,7 @@ struct MatrixLayout {
     glm::dvec2 center(int row, int column) const {
         return {left + column * step + panel / 2, bottom + (3 - row) * step + panel / 2};
     }
-    /// Returns how long one unit of an object with this circumradius appears in a panel.
+    /// Returns the length in a panel, in viewport heights, of one unit of an object with this circumradius.
     double scale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
     /// The row and column (0 … 3) of a panel that shows a section; `row` is also the axis that points upward, `column`
     /// the axis that points to the right.

@@ -39,7 +39,7 @@ class Picker {
         size_ = {scene.viewport.width, scene.viewport.height};
         pixel_ = {point.x, size_.y - point.y};
         focalLength_ = 0.5 * projection_[1][1] * size_.y;
-        // The direction of the ray through the pixel, with z = −1.
+        // The direction, in view coordinates, of the ray from the eye through the pixel; its z is −1.
         const glm::dvec2 ndc = 2.0 * pixel_ / size_ - 1.0;
         ray_ = {(ndc.x + projection_[2][0]) / projection_[0][0], (ndc.y + projection_[2][1]) / projection_[1][1], -1};
     }
@@ -48,7 +48,7 @@ class Picker {
         const Parts& parts = scene_.look.parts;
         for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
             if (!scene_.placements[i].drawn) continue;
-            // Without balls, only the points of a cloud are found, not the joints of bars.
+            // If balls are hidden, the points of a cloud are still found, but not the balls that join bars.
             const bool points = parts.balls || !scene_.slices->ballScale.empty();
             pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
                  {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, parts.faces},
@@ -130,7 +130,7 @@ class Picker {
                          ElementKind::vertex);
     }
 
-    // Returns the distance of the pixel from a line segment between two pixels.
+    // Returns the distance, in pixels, of the pixel from a line segment in the picture.
     double distanceFromLine(const glm::dvec2& from, const glm::dvec2& to) const {
         const glm::dvec2 along = to - from;
         const double length = glm::dot(along, along);
@@ -138,8 +138,9 @@ class Picker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Tests the elements of slice or part `i` of the set. `where` has the area and the slice to report if an element is
-    // found.
+    // Finds the element at the pixel in slice i of `set`, or in part i of the projection; keeps it in picked_ if it is
+    // nearer than the element that picked_ has. `position` and `scale` map the units of the object to world space.
+    // `where`: the area and the slice to report.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
               const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
@@ -178,7 +179,8 @@ class Picker {
         }
     }
 
-    // Returns whether a distance in pixels is within a radius in world units at this depth.
+    // Returns whether a ball or bar with this radius (in world units) and depth is hit at a distance of `pixels` pixels
+    // from its center or axis.
     bool isWithin(double pixels, double radius, double depth) const {
         return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kHitRadius);
     }

@@ -89,8 +89,8 @@ struct Scene : Layout {
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether drawing the slices needs a depth buffer, because the order in which their shapes hide each other is not
-    /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. Then faces are
-    /// opaque, and `fill` is drawn instead of their loops.
+    /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If it does,
+    /// faces are opaque, and `fill` is drawn instead of the loops of the faces.
     bool needsDepthBuffer = false;
     slicing::FilledFaces fill;             ///< the filled faces; empty for a field, if faces are hidden, and if
                                            ///< `needsDepthBuffer` is false
@@ -104,14 +104,14 @@ struct Scene : Layout {
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
-    /// Returns the radius of the balls at the vertices of slices, in world units, before SliceSet::ballScale. Without
-    /// balls, the bars are joined by balls of their own radius and color, and the points of a cloud, which have no
-    /// bars, are as small. 0 if no balls are drawn.
+    /// Returns the radius of the balls at the vertices of slices, in world units, before SliceSet::ballScale multiplies
+    /// it. If Parts::balls is false, balls with the radius and color of the bars join the bars, and the points of a
+    /// cloud have this radius, too. Returns 0 if no balls are drawn.
     double drawnBallRadius() const {
         if (look.parts.balls) return ballRadius;
         return look.parts.bars || !slices->ballScale.empty() ? barRadius : 0;
     }
-    /// Returns the color of these balls.
+    /// Returns the color of the balls with the radius drawnBallRadius().
     Color drawnBallColor() const { return look.parts.balls ? style().ball : style().bar; }
     /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. Slices
     /// extend into this part only if the viewer has moved the camera.

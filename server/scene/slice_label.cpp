@@ -28,7 +28,8 @@ std::string fixed(double number, int decimals) {
     return digits.data();
 }
 
-// formatW() in web_client/src/format.ts writes the same text.
+// Returns a positive number as labelNumber() writes it if `decimals` is greater than kMaxPlainDecimals. formatW() in
+// web_client/src/format.ts returns the same text.
 std::string withManyDecimals(double number, int decimals) {
     constexpr int kMostDigits = 17;  // the significant digits of a double
     constexpr double kLeastWithoutExponent = 1e-4;

@@ -25,7 +25,7 @@ struct Style {
     double textHeight;  ///< the font size of labels, as a fraction of the viewport's height
 };
 
-/// Returns the style of pictures with this background. `automatic` is the same as `dark`.
+/// Returns the style of pictures with this background. The style for `automatic` is that for `dark`.
 ///
 /// Texts have a contrast (WCAG 2.2) to the background of at least 4.5, and balls, bars and lines of at least 3. Only
 /// the zero lines of the parallel coordinates on a dark background are fainter.

@@ -81,9 +81,9 @@ Color growthColor(float growth, Scheme scheme = Scheme::dark);
 /// plainColor(). Ignores colors that depend on the slice or the point.
 Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
-/// Chooses how the surfaces are drawn. The innermost level is opaque; the other levels are translucent, so that inner
-/// levels are visible through them. Only the outermost level has caps, because these cover the caps of the other
-/// levels; with CapStyle::open, no level has caps. Overwrites `out`.
+/// Chooses how the surfaces of a field are drawn in the slices by `planes`. The innermost level is opaque; the other
+/// levels are translucent, so that inner levels are visible through them. Only the outermost level has caps, because
+/// these cover the caps of the other levels; with CapStyle::open, no level has caps. Overwrites `out`.
 void chooseSurfaceLook(const fields::Field& field, const Look& look, const geometry::Hyperplanes& planes,
                        SurfaceLook& out);
 
