@@ -69,7 +69,7 @@ void OffscreenGlContext::begin(int width, int height, std::uint8_t* pixels) {
     makeCurrent();
     if (width != width_ || height != height_) resize(width, height);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        width_ = 0;  // so that the next picture allocates the buffers again
+        width_ = 0;  // not the width of any picture, so that the next begin() allocates the buffers again
         throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
                                  std::to_string(height) + " pixels");
     }

@@ -24,7 +24,8 @@ class OffscreenGlContext {
     /// Replaces the current picture with `pixels`, which have the same size and layout as the pixels given to begin().
     void replacePicture(const std::uint8_t* pixels);
 
-    /// Lets the threads of the driver begin to rasterize everything drawn so far. Does not wait for them.
+    /// Lets the threads of the driver begin to rasterize everything that has been drawn so far. Does not wait until
+    /// they have finished.
     void flush();
 
     /// Waits until the picture is drawn, and copies it to the pixels given to begin().

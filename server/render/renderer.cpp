@@ -38,9 +38,9 @@ std::string fontFile() {
 
 namespace {
 
-// With OpenGL, the patches of convex slices are drawn in batches of at least this many. Only the last batch, and the
-// last one before the projection of the whole object, may be smaller. While the threads of the driver rasterize one
-// batch, this thread prepares the next one.
+// With OpenGL, the patches (see shape_batch.hpp) of convex slices are drawn in batches of at least this many. Only the
+// last batch, and the last one before the projection of the whole object, may be smaller. While the threads of the
+// driver rasterize one batch, this thread prepares the next one.
 constexpr std::size_t kBatchPatches = 2'000;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
@@ -61,12 +61,12 @@ bool mayUseThreads() {
 /// Returns whether the slices can be drawn only with OpenGL, because they have fog.
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
-/// Returns a rectangle of the picture that contains all pixels of these shapes. The depth buffer still has the depths
-/// of earlier pictures outside of what is cleared, so the rectangle follows from the vertices that are drawn. The
-/// outline of a sphere would not do: far from the view axis, it is an ellipse, and balls of a cloud may extend beyond
-/// it.
+/// Returns a rectangle of the picture that contains all pixels of these shapes. The caller clears only this part of the
+/// depth buffer; elsewhere, depths of earlier pictures remain. The rectangle is computed from the vertices of the
+/// shapes, not from ProjectionPlacement::radius: far from the view axis, the image of a sphere is an ellipse, and balls
+/// of a cloud may extend beyond the sphere.
 PixelArea areaOf(const ProjectionShapeCollector::Layers& layers, scene::Viewport viewport) {
-    constexpr float kNearest = 1e-3F;  // a polygon with a vertex that is closer to the eye may be anywhere
+    constexpr float kNearest = 1e-3F;  // if a vertex is closer to the eye, its polygon may cover any pixel
     const glm::ivec2 size(viewport.width, viewport.height);
     const glm::vec2 most(size);
     glm::vec2 from = most, to(0);
@@ -79,7 +79,7 @@ PixelArea areaOf(const ProjectionShapeCollector::Layers& layers, scene::Viewport
             to = glm::max(to, at);
         }
     }
-    // One pixel more, for rounding.
+    // One pixel more on each side, because of rounding errors.
     const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
     const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);
     return {glm::ivec2(first), glm::ivec2(end)};
@@ -154,8 +154,8 @@ struct Renderer::Impl {
     NonconvexShapeCollector::Layers layers;
     ProjectionShapeCollector projectionCollector;
     ProjectionShapeCollector::Layers projectionLayers;
-    SurfaceBatch surfaces;                     // for drawing with OpenGL
-    std::array<SurfaceHalf, 2> surfaceHalves;  // the nearer slices; the farther slices
+    SurfaceBatch surfaces;                     // of all slices, for drawing with OpenGL
+    std::array<SurfaceHalf, 2> surfaceHalves;  // of the nearer slices; of the farther slices
     std::optional<FogPainter> fogPainter;      // made for the first picture with fog
 };
 
@@ -174,7 +174,7 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
         flushShapes();
         projectionCollector.collect(scene, projectionLayers);
         glEnable(GL_DEPTH_TEST);
-        // To clear all of the depth buffer would take longer than to draw the projection.
+        // Clears only a part, because clearing the whole depth buffer would take longer than drawing the projection.
         clearDepth(areaOf(projectionLayers, scene.viewport));
         drawProjection(projectionLayers.depths);
         glDisable(GL_DEPTH_TEST);
@@ -213,7 +213,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceHalves;
     const auto prepare = [&](SurfaceHalf& pass, SurfaceBatch::DepthHalf half) {
-        DepthRange depths;  // needed only for OpenGL
+        DepthRange depths;  // collect() needs it, but only OpenGL uses it
         pass.batch.collect(scene, depths, half);
         pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
     };
@@ -283,7 +283,8 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glDisable(GL_DEPTH_TEST);
 }
 
-// Begins drawing fog: gives the depths of opaque balls and bars to the fog painter. Leaves the depth buffer cleared.
+// Prepares for drawing fog: loads the lattices of the slices, and copies the depths of opaque balls and bars to the fog
+// painter. Leaves the depth buffer cleared.
 void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     if (!fogPainter) fogPainter.emplace();
     fogPainter->begin(scene, depths);

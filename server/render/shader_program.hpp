@@ -35,7 +35,7 @@ class ShaderProgram {
     GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws triangles in order, each given by three successive entries of `indices`, which are indices of vertices.
+    /// Draws triangles in order. Three successive entries of `indices` are the indices of the vertices of a triangle.
     /// `vertices` points to `vertexCount` vertices of the size given to the constructor. The arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 

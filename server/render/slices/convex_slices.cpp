@@ -21,7 +21,7 @@ void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, c
         return glm::dot(d, d);
     };
     const auto distance = [&](std::uint32_t i) { return distanceOf(scene.placements[i].position); };
-    // Ties are broken by index, so that equal scenes give equal pictures.
+    // Slices at the same distance are sorted by index, so that equal scenes give equal pictures.
     std::sort(placementOrder_.begin(), placementOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
         const double da = distance(a), db = distance(b);
         return da != db ? da > db : a < b;
@@ -41,7 +41,7 @@ void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, c
 }
 
 void ConvexShapeCollector::paintSlice(const SliceView& slice, ShapeBatch& out) {
-    place(slice);
+    transformVertices(slice);
     classify(slice);
     sortByDepth(slice);
     for (const Side side : {Side::away, Side::toward}) {
@@ -50,7 +50,7 @@ void ConvexShapeCollector::paintSlice(const SliceView& slice, ShapeBatch& out) {
     }
 }
 
-void ConvexShapeCollector::place(const SliceView& slice) {
+void ConvexShapeCollector::transformVertices(const SliceView& slice) {
     const SliceTransform transform(slice);
     points_.resize(slice.vertices());
     for (std::size_t i = 0; i < points_.size(); ++i)

@@ -16,8 +16,8 @@ namespace oval4d::render {
 
 /// Adds the shapes of convex slices to a batch, from back to front: the slices from far to near, and in each slice
 /// first the faces that are turned away from the eye, then the bars and balls that belong only to such faces, then the
-/// other faces, then the other bars and balls. This order is correct if slices do not overlap in space. Reuses its
-/// memory for the next picture.
+/// faces that are turned toward the eye, then the bars and balls that belong to at least one of these. This order is
+/// correct if slices do not overlap in space. Reuses its memory for the next picture.
 class ConvexShapeCollector {
   public:
     /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; this
@@ -31,7 +31,7 @@ class ConvexShapeCollector {
     enum class Side : std::uint8_t { away, toward };
 
     void paintSlice(const SliceView& slice, ShapeBatch& out);
-    void place(const SliceView& slice);
+    void transformVertices(const SliceView& slice);
     void classify(const SliceView& slice);
     void sortByDepth(const SliceView& slice);
     void paintFaces(const SliceView& slice, Side side, ShapeBatch& out);
@@ -40,7 +40,7 @@ class ConvexShapeCollector {
     std::vector<std::uint32_t> placementOrder_;          // visible slices from far to near
     std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;
-    std::vector<std::uint32_t> order_, rank_;           // vertices from far to near; the inverse permutation
+    std::vector<std::uint32_t> order_, rank_;  // the vertices from far to near; per vertex, its index in order_
     std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // edges grouped by the rank of their farther vertex
 };
 

@@ -18,8 +18,8 @@ inline float packFullyCovered(float nearness) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearness) | kCoverageBits);
 }
 
-/// Returns the part of a pixel, from 0 to 1, that solid shapes leave uncovered. `depth` is its value in the depth
-/// buffer.
+/// Returns the part of a pixel, from 0 to 1, that solid shapes leave uncovered. `depth` is the value of the pixel in
+/// the depth buffer.
 inline float uncoveredPart(float depth) {
     return 1 - static_cast<float>(std::bit_cast<std::uint32_t>(depth) & kCoverageBits) / kCoverageBits;
 }

@@ -30,7 +30,7 @@ void main() {
 }
 )";
 
-// web_client/src/picture/fog_painter.ts has the same algorithm.
+// The shader that casts the rays. web_client/src/picture/fog_painter.ts has the same algorithm.
 constexpr std::string_view kFragmentSource = R"(
 // Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
 in vec3 place;
@@ -160,7 +160,7 @@ void FogPainter::begin(const scene::Scene& scene, DepthRange range) {
     for (std::size_t i = 0; i < lattices_.size(); ++i) {
         if (!scene.placements[i].drawn || scene.slices->fogs[i].empty()) continue;
         makeTexture(GL_TEXTURE_3D, GL_LINEAR, lattices_[i]);
-        load(scene.slices->fogs[i]);
+        uploadLattice(scene.slices->fogs[i]);
         makeTexture(GL_TEXTURE_3D, GL_NEAREST, blocks_[i]);
         uploadBlockMask(scene.slices->fogs[i], scene.fog);
     }
@@ -183,7 +183,7 @@ void FogPainter::copyDepths(scene::Viewport viewport, FogOccluders occluders) {
 }
 
 // Writes the values of a lattice to the 3-D texture that is bound.
-void FogPainter::load(const slicing::SliceFog& fog) {
+void FogPainter::uploadLattice(const slicing::SliceFog& fog) {
     texels_.clear();
     texels_.reserve(2 * fog.values.size());
     for (const std::uint8_t value : fog.values) {
@@ -231,7 +231,7 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     glUniform3f(uniforms_.size, static_cast<float>(fog.size.x), static_cast<float>(fog.size.y),
                 static_cast<float>(fog.size.z));
     glUniform1f(uniforms_.step, static_cast<float>(fog.step / unit));
-    // Draws the back faces of the box, because they are visible even if the eye is inside it.
+    // Draws the back faces of the box, because they are visible even if the eye is inside the box.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glDisable(GL_DEPTH_TEST);

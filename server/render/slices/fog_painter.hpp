@@ -30,7 +30,7 @@ class FogPainter {
     FogPainter(const FogPainter&) = delete;
     FogPainter& operator=(const FogPainter&) = delete;
 
-    /// Prepares for drawing the fog of a scene: loads the lattices of its visible slices into textures. `range` is the
+    /// Prepares for drawing the fog of a scene: loads the lattices of the visible slices into textures. `range` is the
     /// range of distances that the depth buffer covers.
     void begin(const scene::Scene& scene, DepthRange range);
 
@@ -61,7 +61,7 @@ class FogPainter {
         glm::vec3 clip;   // clip coordinates x, y, w
         glm::vec3 place;  // in slice coordinates, in circumradii
     };
-    void load(const slicing::SliceFog& fog);
+    void uploadLattice(const slicing::SliceFog& fog);
     void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table);
     void deleteLattices();
 

@@ -24,15 +24,15 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const auto radius = static_cast<float>(scene.ballRadius);
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
 
-    // Items at the same depth are in the order of slice, kind and number, so that equal scenes give equal pictures.
-    // std::stable_sort would allocate memory.
-    const auto before = [](const Item& a, const Item& b) {
+    // Shapes at the same depth are sorted by slice, kind and number, so that equal scenes give equal pictures.
+    // std::stable_sort would make this unnecessary, but allocates memory.
+    const auto before = [](const SortedShape& a, const SortedShape& b) {
         return std::tie(a.slice, a.kind, a.number) < std::tie(b.slice, b.kind, b.number);
     };
-    const auto nearer = [&](const Item& a, const Item& b) {
+    const auto nearer = [&](const SortedShape& a, const SortedShape& b) {
         return a.depth != b.depth ? a.depth < b.depth : before(a, b);
     };
-    const auto farther = [&](const Item& a, const Item& b) {
+    const auto farther = [&](const SortedShape& a, const SortedShape& b) {
         return a.depth != b.depth ? a.depth > b.depth : before(a, b);
     };
     std::sort(faces_.begin(), faces_.end(), nearer);
@@ -40,17 +40,17 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     std::sort(faded_.begin(), faded_.end(), farther);
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const SkeletonStyle skeleton(scene);
-    const auto paintAll = [&](const std::vector<Item>& items, ShapeBatch& shapes) {
+    const auto paintAll = [&](const std::vector<SortedShape>& items, ShapeBatch& shapes) {
         shapes.begin(scene.style());
         shapes.setProjection(projection);
-        for (const Item& item : items) addShape(viewOf(item.slice), item, skeleton, shapes);
+        for (const SortedShape& item : items) addShape(viewOf(item.slice), item, skeleton, shapes);
     };
     paintAll(faces_, out.faces);
     paintAll(skeleton_, out.skeleton);
     paintAll(faded_, out.faded);
 }
 
-// Collects the items of a slice, and extends `depths` to include the depths of its vertices.
+// Collects the shapes of a slice, and extends `depths` to include the depths of the vertices of the slice.
 void NonconvexShapeCollector::collectShapesOf(const SliceView& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
@@ -76,12 +76,12 @@ void NonconvexShapeCollector::collectShapesOf(const SliceView& slice, DepthRange
     }
 }
 
-void NonconvexShapeCollector::add(const Item& item, Visibility visibility) {
+void NonconvexShapeCollector::add(const SortedShape& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
     if (visibility == Visibility::full) (item.kind == Kind::face ? faces_ : skeleton_).push_back(item);
 }
 
-void NonconvexShapeCollector::addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
+void NonconvexShapeCollector::addShape(const SliceView& slice, const SortedShape& item, const SkeletonStyle& skeleton,
                                        ShapeBatch& out) {
     if (item.kind == Kind::face) return addFace(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();

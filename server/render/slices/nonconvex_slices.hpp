@@ -24,25 +24,25 @@ class NonconvexShapeCollector {
     };
 
     /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are
-    /// those of Scene::fill.
+    /// taken from Scene::fill.
     void collect(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, face };
-    struct Item {
+    struct SortedShape {
         float depth;  // the distance from the eye along the view axis
         Kind kind;
         std::uint32_t slice, number;  // number: index of a face in Scene::fill, or of a vertex or edge of the slice
     };
 
     void collectShapesOf(const SliceView& slice, DepthRange& depths);
-    void add(const Item& item, slicing::Visibility visibility);
-    void addShape(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
+    void add(const SortedShape& item, slicing::Visibility visibility);
+    void addShape(const SliceView& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void addFace(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
 
     std::vector<SliceTransform> transforms_;   // one per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates
-    std::vector<Item> faces_, skeleton_, faded_;
+    std::vector<SortedShape> faces_, skeleton_, faded_;
 };
 
 }  // namespace oval4d::render

@@ -37,11 +37,11 @@ struct Paint {
     float bulge;                  ///< the radius of the shape, relative to its distance from the eye
 };
 
-// The numbers 0 … 7.
+// Returns the numbers of the lanes, 0 … 7.
 OVAL4D_AVX2 inline __m256i lanes() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-// Returns a mask of the eight pixels from column `at` on: all bits of a pixel are set if its column is one of begin …
-// end − 1.
+// Returns a mask for the eight pixels of a row from column `at` on: all bits of a pixel are set if its column is one of
+// begin … end − 1.
 OVAL4D_AVX2 inline __m256i between(int begin, int end, int at) {
     const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), lanes());
     return _mm256_andnot_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(begin), x),
@@ -136,8 +136,9 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
             if constexpr (depth == DepthUse::unused) {
                 alpha = _mm256_and_ps(alpha, inside);
             } else {
-                // A point of the shape is closer to the eye than the patch by r n. Its nearness is 1 / (d − r n), which
-                // is almost (1 + r n / d) / d for a distance d and a much smaller radius r.
+                // Let d be the distance of the patch from the eye, and r the much smaller radius of the shape. A point
+                // of the shape is closer to the eye than the patch by rn. The nearness of the point is 1 / (d − rn),
+                // which is almost (1 + rn / d) / d.
                 const __m256 patch = valueOf(rowNearness, paint.nearness, alongNearness);
                 const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
                 float* const place = canvas.nearness + row + at;
@@ -183,7 +184,7 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
     }
 }
 
-// Returns the first of these rows whose center is not below y, or the end of the rows if there is none.
+// Returns the first row of `rows` whose center is not below y, or rows.end if there is none.
 OVAL4D_AVX2 inline int firstRow(float y, const RowRange& rows) {
     const auto begin = static_cast<float>(rows.begin), end = static_cast<float>(rows.end);
     return static_cast<int>(std::ceil(std::min(end, std::max(begin, y - 0.5F))));  // `begin` if y is not a number
@@ -224,8 +225,8 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
     return rows;
 }
 
-// Returns the nearness of a face. The gradient is the mean of the gradients of the triangles of a fan, weighted by
-// their areas. `area`: twice the signed area of the polygon.
+// Returns the nearness of a face as a linear function. Its gradient is the mean of the gradients in the triangles of a
+// fan that divides the face, weighted by the areas of the triangles. `area`: twice the signed area of the polygon.
 OVAL4D_AVX2 LinearFunction nearnessOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
     float x = 0, y = 0, sumX = first.x, sumY = first.y, sum = first.nearness;
@@ -282,8 +283,8 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
 // Draws a triangle, or a quad that is almost a parallelogram, of a shape other than a face.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, DepthUse depth, float pixelSize) {
-    // Gradients follow from the differences along the diagonals. A triangle is treated as a quad whose fourth corner is
-    // equal to the first.
+    // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle is
+    // treated as a quad whose fourth corner is equal to the first.
     const PatchCorner &a = corners[0], &b = corners[1], &c = corners[2], &d = corners.size() == 4 ? corners[3] : a;
     const float x1 = c.x - a.x, y1 = c.y - a.y, x2 = d.x - b.x, y2 = d.y - b.y;
     const float area = x1 * y2 - x2 * y1;

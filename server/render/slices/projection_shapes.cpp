@@ -29,8 +29,9 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     solid_.clear();
     translucent_.clear();
     for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collectPart(scene, part);
-    // Ties are broken by index, so that equal scenes give equal pictures; std::stable_sort would allocate memory.
-    const auto farther = [](const Item& a, const Item& b) {
+    // Shapes at the same depth are sorted by part, kind and number, so that equal scenes give equal pictures.
+    // std::stable_sort would make this unnecessary, but allocates memory.
+    const auto farther = [](const SortedShape& a, const SortedShape& b) {
         return a.depth != b.depth ? a.depth > b.depth
                                   : std::tie(a.part, a.kind, a.number) < std::tie(b.part, b.kind, b.number);
     };
@@ -38,17 +39,17 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
         std::sort(items.begin(), items.end(), farther);
         shapes.begin(scene.style());
         shapes.setProjection(Projection::of(scene.camera, scene.viewport));
-        for (const Item& item : items) addShape(scene, item, shapes);
+        for (const SortedShape& item : items) addShape(scene, item, shapes);
     }
 }
 
 void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint32_t part) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPartLook& look = scene.projection.parts[part];
-    const auto add = [&](const Item& item, Visibility visibility) {
+    const auto add = [&](const SortedShape& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
-        // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. So faces must be
-        // visible behind them, and these bars are in the translucent layer.
+        // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. Faces must be
+        // visible behind these bars; the bars are therefore in the translucent layer.
         const bool solid = item.kind != Kind::face && part == 0 && visibility == Visibility::full;
         (solid ? solid_ : translucent_).push_back(item);
     };
@@ -77,7 +78,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
     }
 }
 
-void ProjectionShapeCollector::addShape(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
+void ProjectionShapeCollector::addShape(const scene::Scene& scene, const SortedShape& item, ShapeBatch& out) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPartLook& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];

@@ -29,17 +29,17 @@ class ProjectionShapeCollector {
 
   private:
     enum class Kind : std::uint8_t { ball, bar, face };
-    struct Item {
+    struct SortedShape {
         float depth;  // the distance from the eye along the view axis
         Kind kind;
         std::uint32_t part, number;  // number: the index of a vertex, edge or face in ObjectProjection::elements
     };
 
     void collectPart(const scene::Scene& scene, std::uint32_t part);
-    void addShape(const scene::Scene& scene, const Item& item, ShapeBatch& out);
+    void addShape(const scene::Scene& scene, const SortedShape& item, ShapeBatch& out);
 
     std::vector<glm::vec3> points_, corners_;  // in view coordinates
-    std::vector<Item> solid_, translucent_;
+    std::vector<SortedShape> solid_, translucent_;
 };
 
 }  // namespace oval4d::render

@@ -21,14 +21,14 @@ constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn wit
 
 /// How a shape is drawn whose radius is clamped to at least kMinRadius.
 struct ClampedRadius {
-    float scale;          ///< factor for the radius
-    float opacityFactor;  ///< factor for the opacity
+    float scale;          ///< the factor that multiplies the radius
+    float opacityFactor;  ///< the factor that multiplies the opacity
     float halfPixels;     ///< half the clamped radius in pixels
-    float edgeU;          ///< the u at which the coverage, and thus the silhouette, ends
+    float edgeU;          ///< the u, greater than 1, at which the coverage becomes 0
 };
 
-/// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
-/// for a bar and 2 for a ball.
+/// Returns how a shape is drawn. `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in
+/// which the shape is thin, 1 for a bar and 2 for a ball.
 ClampedRadius clampedRadius(float pixels, int dimensions) {
     ClampedRadius clamped{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {
@@ -68,8 +68,8 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
 
-    // The cone from the eye that is tangent to the sphere has this radius at the center, with room for the antialiased
-    // edge.
+    // The radius, at the center of the ball, of the cone from the eye that is tangent to the ball, with room for the
+    // antialiased edge.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
     const glm::vec3 c = projection_.clipXyw(center), dx = projection_.clipXyw(x) * silhouette,
                     dy = projection_.clipXyw(y) * silhouette;
@@ -192,7 +192,7 @@ void main() {
 
 /// Returns shader code that replaces h by pow(h, shininess). The code squares h repeatedly if shininess is a power of
 /// two, because pow would take longer than the rest of the shader.
-std::string highlight(double shininess) {
+std::string specularPowerCode(double shininess) {
     int squarings = 0;
     while (std::exp2(squarings) < shininess) ++squarings;
     if (std::exp2(squarings) != shininess) return "h = pow(h, " + std::to_string(shininess) + ");\n";
@@ -218,7 +218,7 @@ void main() {
     float q = 1.0 - dot(place.xy, place.xy);
     vec3 n = vec3(place.xy, sqrt(max(q, 0.0)));
     float h = max(dot(n, specular), 0.0);
-    )" + highlight(style.shininess) +
+    )" + specularPowerCode(style.shininess) +
            "vec3 lit = color.rgb * (" + std::to_string(style.ambient) + " + max(dot(n, diffuse), 0.0)) + " +
            std::to_string(style.specular) + R"( * h;
     float alpha = color.a * clamp(q * place.z + 0.5, 0.0, 1.0);

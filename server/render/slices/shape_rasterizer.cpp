@@ -26,7 +26,7 @@ constexpr float kNearPlane = 1e-3F;
 using Form = Patch::Form;
 using DepthUse = ShapeRasterizer::DepthUse;
 
-// Writes to `out` the part of a convex polygon that is in front of the eye and not too close to it.
+// Writes to `out` the part of a convex polygon that is in front of the eye, at a depth of at least kNearPlane.
 void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVertex>& out) {
     out.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -44,7 +44,7 @@ void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVert
 }  // namespace
 
 struct ShapeRasterizer::Impl {
-    /// Patches or triangles to draw.
+    /// The patches or the triangles that one call of add() has added.
     struct Layer {
         const ShapeBatch* shapes;  // null for triangles
         std::size_t first, end;    // the patches first … end − 1

@@ -63,8 +63,8 @@ class ShapeRasterizer {
     void add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
              SurfaceRasterizer::Blending blending);
 
-    /// Sets the part of the picture in which the depth buffer is used: surfaces, and shapes that use depths, must lie
-    /// in it. Must be called after begin(), which makes the part empty.
+    /// Sets the part of the picture in which the depth buffer is used. All surfaces, and all shapes with a DepthUse
+    /// other than `unused`, must lie in this part. Must be called after begin(), which makes the part empty.
     void setDepthArea(const PixelArea& area);
 
     /// Draws everything that was added. If `forkJoin` is not null, draws the upper and the lower part of the picture in

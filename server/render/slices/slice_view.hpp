@@ -55,7 +55,7 @@ struct SliceView {
         const float own = set.ballOpacity.empty() ? 1 : set.ballOpacity[firstVertex() + v];
         return own * opacity(vertexVisibility(v));
     }
-    /// Returns the factor by which the radius of the ball at vertex v differs from the usual one.
+    /// Returns the factor, usually 1, that multiplies the radius of the ball at vertex v.
     float ballScale(std::size_t v) const { return set.ballScale.empty() ? 1 : set.ballScale[firstVertex() + v]; }
     float edgeOpacity(std::size_t e) const { return opacity(edgeVisibility(e)); }
     /// Returns the factor, 0 … 1, by which the visibility of face f multiplies Scene::faceOpacity.

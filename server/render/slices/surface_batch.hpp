@@ -53,7 +53,8 @@ class SurfaceBatch {
 
   private:
     // An edge of a triangle that faces the eye. Seen from the eye, the triangle is on the left of the edge. Both ends
-    // of the edge also belong to triangles that face away. The members are indices of points and of the triangle.
+    // of the edge also belong to triangles that face away. `from` and `to` are indices of points, `triangle` is the
+    // index of the triangle.
     struct RimEdge {
         std::uint32_t from, to, triangle;
     };
@@ -71,13 +72,13 @@ class SurfaceBatch {
     std::vector<glm::vec3> points_, normals_;  // of the current slice, in view coordinates
     std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone
     std::vector<SurfaceVertex> vertices_;
-    // Three indices of vertices per triangle.
+    // Three indices of vertices per triangle. facing_ has the triangles of the current level that face the eye.
     std::vector<std::uint32_t> opaqueIndices_, translucentIndices_, facing_, fringes_;
     std::size_t fringesBegin_ = 0;
     std::vector<std::uint32_t> front_;       // the triangles of the current slice and level that face the eye
-    std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away
+    std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away from the eye
     std::vector<RimEdge> silhouette_;        // of the current slice and level
-    std::vector<glm::vec2> outward_;         // per point of the silhouette: points away from the surface in the picture
+    std::vector<glm::vec2> outward_;  // per point of the silhouette: a vector away from the surface, in the picture
 };
 
 /// Draws surfaces with diffuse and specular light.

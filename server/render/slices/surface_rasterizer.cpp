@@ -60,9 +60,9 @@ struct Lighting {
     glm::vec3 light, halfVector;
 };
 
-// Projects and lights eight vertices. Reads eight floats per vertex, which has only seven; so one more float after the
-// vertices must be readable.
-OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in, Point* out) {
+// Projects and lights eight vertices. A vertex has seven floats, but eight are read for each vertex. Therefore one more
+// float after the last vertex must be readable.
+OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVertex* in, Point* out) {
     __m256 v[kLanes];
     for (std::size_t i = 0; i < kLanes; ++i) v[i] = _mm256_loadu_ps(&in[i].clip.x);
     transpose(v);
@@ -70,7 +70,7 @@ OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in,
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
 
     const __m256 nearness = _mm256_div_ps(one, clipW);
-    // All bits of `behind` are set where the vertex cannot be projected; as a number, this is NaN.
+    // All bits of `behind` are set for a vertex that cannot be projected. A float with all bits set is NaN.
     const __m256 behind = _mm256_cmp_ps(clipW, _mm256_set1_ps(kNearPlane), _CMP_NGE_UQ);
     const auto pixel = [&](const __m256& clip, float half) OVAL4D_AVX2 {
         const __m256 halves = _mm256_set1_ps(half);
@@ -114,7 +114,7 @@ using Numbers = std::array<std::int32_t, kLanes>;
 
 // The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height, the lowest
 // first.
-struct alignas(32) SetUp {
+struct alignas(32) TriangleSetup {
     Lanes baseP, baseQ;        // the first row whose center is not below p, or q
     Numbers rowP, rowQ, rowR;  // such first rows for p, q and r, clamped to beginRow … endRow
     // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
@@ -125,8 +125,8 @@ struct alignas(32) SetUp {
     Lanes xB, xC, yB, yC, originX, originY;
 };
 
-// Exchanges the points (xA, yA) and (xB, yB) where the first one is higher.
-OVAL4D_AVX2 inline void sort(__m256& xA, __m256& yA, __m256& xB, __m256& yB) {
+// Exchanges the points (xA, yA) and (xB, yB) in each lane in which the first point is higher.
+OVAL4D_AVX2 inline void sortByHeight(__m256& xA, __m256& yA, __m256& xB, __m256& yB) {
     const __m256 isHigher = _mm256_cmp_ps(yA, yB, _CMP_GT_OQ);
     const __m256 x = _mm256_blendv_ps(xA, xB, isHigher), y = _mm256_blendv_ps(yA, yB, isHigher);
     xB = _mm256_blendv_ps(xB, xA, isHigher);
@@ -147,8 +147,8 @@ OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest
 
 // Which of eight triangles may cover pixels, one bit per triangle.
 struct TriangleMasks {
-    unsigned drawn;    // their bounding boxes contain centers of pixels, and all corners have a position
-    unsigned clipped;  // the position of a corner is NaN: it is behind the eye or too close
+    unsigned drawn;    // its bounding box contains the center of a pixel, and all its corners have positions
+    unsigned clipped;  // the position of a corner is NaN: the corner is behind the eye or too close
 };
 
 // The indices of the corners of eight triangles: `a` has the first corner of each triangle, `b` the second, `c` the
@@ -171,8 +171,8 @@ OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
             _mm256_permutevar8x32_epi32(pick(second, third, first), _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7))};
 }
 
-OVAL4D_AVX2 TriangleMasks setUp(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
-                                SetUp& out) {
+OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
+                                         TriangleSetup& out) {
     const auto& [a, b, c] = cornersOf(indices);
     const auto gather = [points](const float Point::* member, __m256i index) OVAL4D_AVX2 {
         const float* const base = &(points->*member);
@@ -187,8 +187,8 @@ OVAL4D_AVX2 TriangleMasks setUp(const SurfaceCanvas& canvas, const Point* points
     const __m256 sumY = _mm256_add_ps(_mm256_add_ps(yA, yB), yC);
     const __m256 noY = _mm256_cmp_ps(sumY, sumY, _CMP_UNORD_Q);
     const __m256i coversRows = _mm256_cmpgt_epi32(rowR, rowP);
-    // Triangles that follow each other are close together, so often all eight lie outside the rows of this canvas,
-    // which are those that this thread draws.
+    // Successive triangles are close together, so often all eight lie outside the rows of this canvas, if another
+    // thread draws the other rows.
     if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
 
     const __m256 xA = gather(&Point::x, a), xB = gather(&Point::x, b), xC = gather(&Point::x, c);
@@ -203,9 +203,9 @@ OVAL4D_AVX2 TriangleMasks setUp(const SurfaceCanvas& canvas, const Point* points
     if (masks.drawn == 0) return masks;
 
     __m256 xP = xA, yP = yA, xQ = xB, yQ = yB, xR = xC, yR = yC;
-    sort(xP, yP, xQ, yQ);
-    sort(xQ, yQ, xR, yR);
-    sort(xP, yP, xQ, yQ);
+    sortByHeight(xP, yP, xQ, yQ);
+    sortByHeight(xQ, yQ, xR, yR);
+    sortByHeight(xP, yP, xQ, yQ);
     const __m256 baseP = firstPixel(yP), baseQ = firstPixel(yQ);
     const __m256i rowQ = clampToInt(baseQ, begin, end);
     const auto putNumbers = [&](Numbers& to, __m256i from)
@@ -251,7 +251,7 @@ OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
 // Draws triangle i of eight. A register holds all quantities of one pixel, because most rows of most triangles have
 // fewer pixels than a register has lanes.
 template <Blending blending>
-OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::size_t i, const Point& pointA,
+OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i, const Point& pointA,
                              const Point& pointB, const Point& pointC) {
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
@@ -311,8 +311,8 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::s
 // clipped. Returns all triangles of `wanted` that must be clipped, also as bits.
 template <Blending blending>
 OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
-                               unsigned wanted, SetUp& lanes) {
-    const TriangleMasks masks = setUp(canvas, points, indices, lanes);
+                               unsigned wanted, TriangleSetup& lanes) {
+    const TriangleMasks masks = setUpTriangles(canvas, points, indices, lanes);
     const unsigned clipped = masks.clipped & wanted;
     // Triangles must be drawn in order, so those after a clipped one are drawn by a later call.
     unsigned drawn = masks.drawn & wanted;
@@ -343,20 +343,20 @@ void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::S
     points_.resize(end);
     const SurfaceVertex* const vertices = surfaces.vertices().data();
     std::size_t at = 0;
-    for (; at + kLanes < end; at += kLanes) prepareEight(lighting, vertices + at, points_.data() + at);
+    for (; at + kLanes < end; at += kLanes) projectAndLightEight(lighting, vertices + at, points_.data() + at);
     std::array<SurfaceVertex, kLanes + 1> lastVertices{};
     std::array<Point, kLanes> lastPoints;
     std::copy(vertices + at, vertices + end, lastVertices.begin());
-    prepareEight(lighting, lastVertices.data(), lastPoints.data());
+    projectAndLightEight(lighting, lastVertices.data(), lastPoints.data());
     std::copy_n(lastPoints.begin(), end - at, points_.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
 namespace {
 
 template <Blending blending, typename DrawClipped>
-void drawAll(const SurfaceCanvas& canvas, const Point* points, std::span<const std::uint32_t> indices,
-             const DrawClipped& drawClipped) {
-    SetUp lanes;
+void drawTriangles(const SurfaceCanvas& canvas, const Point* points, std::span<const std::uint32_t> indices,
+                   const DrawClipped& drawClipped) {
+    TriangleSetup lanes;
     std::array<std::uint32_t, 3 * kLanes> last{};
     for (std::size_t at = 0; at < indices.size(); at += 3 * kLanes) {
         const std::uint32_t* eight = indices.data() + at;
@@ -381,11 +381,11 @@ void drawAll(const SurfaceCanvas& canvas, const Point* points, std::span<const s
 void SurfaceRasterizer::draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices,
                              Blending blending) const {
     const auto clipped = [&](const std::uint32_t* corners) { drawClipped(canvas, corners, blending); };
-    if (blending == Blending::none) return drawAll<Blending::none>(canvas, points_.data(), indices, clipped);
-    drawAll<Blending::alpha>(canvas, points_.data(), indices, clipped);
+    if (blending == Blending::none) return drawTriangles<Blending::none>(canvas, points_.data(), indices, clipped);
+    drawTriangles<Blending::alpha>(canvas, points_.data(), indices, clipped);
 }
 
-// Draws the part of a triangle that is in front of the eye and not too close to it.
+// Draws the part of a triangle that is in front of the eye, at a depth of at least kNearPlane.
 void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners,
                                     Blending blending) const {
     std::array<Point, 4> polygon;
@@ -418,8 +418,8 @@ void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint
     constexpr std::array<std::uint32_t, 6> kFan{0, 1, 2, 0, 2, 3};
     const std::span<const std::uint32_t> triangles = std::span(kFan).first(3 * (count - 2));
     const auto unclipped = [](const std::uint32_t*) {};
-    if (blending == Blending::none) return drawAll<Blending::none>(canvas, polygon.data(), triangles, unclipped);
-    drawAll<Blending::alpha>(canvas, polygon.data(), triangles, unclipped);
+    if (blending == Blending::none) return drawTriangles<Blending::none>(canvas, polygon.data(), triangles, unclipped);
+    drawTriangles<Blending::alpha>(canvas, polygon.data(), triangles, unclipped);
 }
 
 double SurfaceRasterizer::estimateMeanScreenY(std::span<const std::uint32_t> indices) const {

@@ -20,10 +20,10 @@ struct SurfaceCanvas {
 };
 
 /// Draws the triangles of a SurfaceBatch on the CPU, as SurfaceProgram (surface_batch.hpp) draws them with OpenGL.
-/// Surfaces consist of many triangles with a few pixels each. Therefore setting up the triangles takes most of the
-/// time; eight of them are set up at once, and they are not sorted into bins. Colors, opacities and 1 / depth are
-/// interpolated linearly in the picture. Triangles with a common edge have no common pixels and leave no gap. Reuses
-/// its memory for the next picture. Requires AVX2 and FMA.
+/// Surfaces consist of many triangles with a few pixels each. Setting up the triangles therefore takes most of the
+/// time. So eight triangles are set up at once, and triangles are not sorted into bins. Colors, opacities and 1 / depth
+/// are interpolated linearly in the picture. Triangles with a common edge have no common pixels and leave no gap.
+/// Reuses its memory for the next picture. Requires AVX2 and FMA.
 class SurfaceRasterizer {
   public:
     /// How triangles are drawn to the picture and to the depth buffer.
