@@ -15,18 +15,18 @@ namespace oval4d::raster {
 /// Limits on the work and memory of a rasterizer process.
 struct RasterizerLimits {
     std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::FaceFiller::fill()
-    std::size_t objectBytes = 0;  ///< the maximum size of the object cache; the latest object is always kept
+    std::size_t objectBytes = 0;  ///< the maximum size of the cache of objects, which always keeps the latest
 };
 
 /// The request for one picture.
 struct DrawRequest {
-    /// The serial number of State::source. The object itself is sent in another message, and only if the process does
-    /// not have it.
+    /// The serial number of State::source. The object itself is sent in another message, and only if the rasterizer
+    /// process does not have it.
     std::uint64_t source = 0;
-    /// The serial number of State::object. This object is never sent: the process makes it from the source and the
-    /// frame of reference.
+    /// The serial number of State::object. This object is never sent: the rasterizer process makes it from the source
+    /// object and the frame of reference.
     std::uint64_t object = 0;
-    /// Of its members, only those that affect pictures are sent. The objects are not part of the message.
+    /// Only the members that affect pictures are sent, without the objects State::source and State::object.
     session::State state;
     scene::Viewport viewport;
     slicing::Quality quality = slicing::Quality::full;

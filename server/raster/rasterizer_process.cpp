@@ -34,7 +34,8 @@ process::ChildOptions childOptions(int threads, const RasterizerOptions& options
 RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& options)
     : limits_(options.limits), process_(childOptions(threads, options)) {}
 
-/// Receives messages until `answer_` is `drawn` or `failed`. Sends the object if the process lacks it.
+/// Receives messages until one of the type `drawn` or `failed` comes, and keeps its type in answer_ and its body in
+/// body_. Sends the object if the process asks for it.
 TransferResult RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
                                                 const WaitLimit& limit) {
     for (bool sent = false;; sent = true) {

@@ -47,8 +47,8 @@ class RasterizerProcess {
     /// Starts the process if it is not running, and waits until it is ready to draw and has compiled its shaders.
     void warmUp(const std::stop_token& stop);
 
-    /// Like Rasterizer::draw(), but draws into `pixels`, which is resized if necessary. The result is valid until
-    /// `pixels` is resized again.
+    /// Like Rasterizer::draw(), but draws into `pixels`, which this function resizes if necessary. The result is valid
+    /// until `pixels` is resized again.
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                                        SharedPixels& pixels, DrawTimes& times, const std::stop_token& stop);
 

@@ -28,8 +28,8 @@ namespace {
 /// (`source`), and in the frame of reference in which it was drawn last (`inFrame`).
 class RecentObjects {
   public:
-    /// Returns the object of a request, in the request's frame of reference; null if its source object is not in the
-    /// cache.
+    /// Returns the object of a request, in the frame of reference of the request; null if the source object of the
+    /// request is not in the cache.
     const slicing::Object* find(const DrawRequest& request) {
         const auto found = std::ranges::find(
             kept_, request.source, [](const KeptObject& kept) { return slicing::infoOf(kept.source).serial; });
@@ -64,21 +64,21 @@ class RecentObjects {
     std::size_t bytes_ = 0;
 };
 
-class Service {
+class RasterizerService {
   public:
-    Service(int socket, parallel::ForkJoin& forkJoin, process::Heap& heap)
+    RasterizerService(int socket, parallel::ForkJoin& forkJoin, process::Heap& heap)
         : channel_(socket), rasterizer_(&forkJoin), heap_(heap) {}
 
     void run(const process::Confinement& confinement) {
         const bool ready = attempt([&] {
-            rasterizer_.warmUp();  // before the sandbox, because it reads the font and other files
+            rasterizer_.warmUp();  // before confine(), because it reads the font and other files
             process::confine(process::Role::draw, confinement);
         });
         if (!ready) return;
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::file_descriptor) continue;  // the object that refers to it follows
+            if (type == MessageType::file_descriptor) continue;  // the object that refers to the file follows
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.state.object = *object;
@@ -90,8 +90,8 @@ class Service {
     }
 
   private:
-    /// Receives the next message, and frees memory if none comes for a while. Returns false when the connection is
-    /// closed.
+    /// Waits for the next message and receives it. Frees memory if no message comes for WorkerPool::kIdleDelay. Returns
+    /// false when the connection is closed.
     bool next(MessageType& type) {
         if (!channel_.wait({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
@@ -111,7 +111,7 @@ class Service {
     }
 
     void takeFile(int descriptor) {
-        const fields::FileHandle file(descriptor);  // not needed once it is mapped
+        const fields::FileHandle file(descriptor);  // closed at the end: a mapping does not need its descriptor
         auto mapped = fields::MappedFile::map(file.descriptor());
         mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null if mapping fails
     }
@@ -158,7 +158,7 @@ class Service {
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
                      process::Heap& heap) {
     process::initializeChild();
-    Service(socket, forkJoin, heap).run(confinement);
+    RasterizerService(socket, forkJoin, heap).run(confinement);
 }
 
 }  // namespace oval4d::raster

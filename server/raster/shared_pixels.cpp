@@ -11,7 +11,7 @@ namespace oval4d::raster {
 
 namespace {
 
-// A file larger than this multiple of the needed size is shrunk.
+// resize() shrinks a file that is more than this many times as large as the requested size.
 constexpr std::size_t kWaste = 4;
 
 void check(bool done) {
