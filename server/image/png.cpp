@@ -22,7 +22,7 @@ constexpr char kStateHeader[] = "oval4d\0\0\0\0";
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
 constexpr int kLevel = 1;
 constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-constexpr std::size_t kLarge = 1'000'000;  // bytes before compression; two cores do not encode smaller images faster
+constexpr std::size_t kLarge = 1'000'000;  // in bytes, before compression; below it, two cores are not faster
 
 void store32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -34,8 +34,8 @@ void append(Bytes& out, const void* data, std::size_t size) {
     std::memcpy(out.data() + out.size() - size, data, size);
 }
 
-/// Begins a chunk at the end of `out`, and returns the position of the chunk. endChunk() later writes its length and
-/// CRC.
+/// Begins a chunk at the end of `out`, and returns the index in `out` at which the chunk starts. endChunk() later
+/// writes the length and the CRC of the chunk.
 std::size_t beginChunk(Bytes& out, const char* type) {
     const std::size_t start = out.size();
     out.resize(start + 4);
@@ -77,11 +77,11 @@ void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     out.resize(start + stream.total_out);
 }
 
-/// Returns the Adler-32 checksum (RFC 1950) of two concatenated byte strings, from the checksums of both and the size
-/// of the second.
+/// Returns the Adler-32 checksum (RFC 1950) of two concatenated byte strings. `first` and `second` are the checksums of
+/// the two strings, and `size` is the size of the second string in bytes.
 std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::size_t size) {
     constexpr std::uint64_t kBase = 65521;
-    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // both checksums start at 1
+    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // each checksum starts at 1, which must count only once
     const std::uint64_t low = a + (second & 0xffffU);
     const std::uint64_t high = (first >> 16U) + (second >> 16U) + size % kBase * a;
     return static_cast<std::uint32_t>(((high % kBase) << 16U) | (low % kBase));

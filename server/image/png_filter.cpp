@@ -79,7 +79,7 @@ void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint
 
 #endif
 
-/// Returns row y of an image, counted from the top.
+/// Returns the RGBA pixels of row y of an image; row 0 is the top of the image.
 const std::uint8_t* rowOf(const image::ImageView& image, int y) {
     return image.pixels.data() +
            static_cast<std::size_t>(image.height - 1 - y) * static_cast<std::size_t>(image.width) * 4;
@@ -98,8 +98,8 @@ void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     }
 }
 
-/// Does the work of makeFilteredRows() for an image with alpha. Such images are not part of a stream that must be fast,
-/// so this does not process several pixels at a time.
+/// Does the work of makeFilteredRows() for an image with alpha. Such images need not be encoded as fast as the pictures
+/// of a live view, so this function processes one byte at a time.
 void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
     const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
     out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
@@ -110,7 +110,7 @@ void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std:
         divideByAlpha(rowOf(image, y), row);
         *at++ = y == 0 ? kSub : kPaeth;
         for (std::size_t i = 0; i < bytes; ++i) {
-            // The row above the first one counts as zeros. Then Paeth predicts the left neighbor, as Sub does.
+            // The row above row 0 counts as zeros, so that Paeth predicts the left neighbor in row 0, as Sub does.
             const int left = i < 4 ? 0 : row[i - 4], upperLeft = i < 4 ? 0 : above[i - 4];
             *at++ = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], upperLeft));
         }
@@ -132,7 +132,7 @@ void makeFilteredRows(const image::ImageView& image, int from, int to, std::vect
         const std::uint8_t* row = rowOf(image, y);
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
-        for (std::size_t c = 0; c < 3; ++c) {  // no left neighbor: the prediction is the upper neighbor
+        for (std::size_t c = 0; c < 3; ++c) {  // the first pixel has no left neighbor: Paeth predicts the upper one
             at[1 + c] = static_cast<std::uint8_t>(row[c] - (y == 0 ? 0 : above[c]));
         }
         if (y == 0) {
