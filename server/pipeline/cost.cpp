@@ -16,7 +16,7 @@ double elementTotal(const slicing::Object& object) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
 
-/// Returns the approximate number of elements that a hyperplane cuts, out of n. The elements form a three-dimensional
+/// Returns approximately how many of n elements of a polytope a hyperplane cuts. The elements form a three-dimensional
 /// boundary, which the hyperplane cuts in a two-dimensional surface: hence the exponent 2/3.
 double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
 

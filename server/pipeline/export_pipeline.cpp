@@ -26,7 +26,8 @@ namespace oval4d::pipeline {
 namespace {
 
 template <typename Choices, typename Value>
-Result<std::monostate> choose(const std::string& name, const std::string& value, const Choices& choices, Value& into) {
+Result<std::monostate> parseChoice(const std::string& name, const std::string& value, const Choices& choices,
+                                   Value& into) {
     if (const auto found = text::valueNamed(choices, value)) {
         into = *found;
         return std::monostate{};
@@ -45,7 +46,7 @@ MillimeterRange sizeRangeOf(const exports::Format& format) {
                      : MillimeterRange{exports::kMinSize, exports::kMaxSize};
 }
 
-Result<std::monostate> takeSize(const std::string& text, const MillimeterRange& bounds, double& size) {
+Result<std::monostate> parseSize(const std::string& text, const MillimeterRange& bounds, double& size) {
     const char* const end = text.data() + text.size();
     double value = 0;
     const auto [stopped, fault] = std::from_chars(text.data(), end, value);
@@ -58,7 +59,7 @@ Result<std::monostate> takeSize(const std::string& text, const MillimeterRange& 
     return std::monostate{};
 }
 
-Result<std::monostate> takeAt(const std::string& text, std::vector<double>& at) {
+Result<std::monostate> parseChosenW(const std::string& text, std::vector<double>& at) {
     auto list = session::evaluateList(text);
     if (!list) return Error{list.error().code, "at: " + list.error().message};
     at = std::move(*list);
@@ -70,7 +71,7 @@ Error wrongFit(int maxSlices, const std::string& given) {
             "fit must be a whole number of slices from 1 to " + std::to_string(maxSlices) + ", not " + given};
 }
 
-Result<std::monostate> takeFit(const std::string& text, int maxSlices, std::optional<int>& fit) {
+Result<std::monostate> parseFittedSlices(const std::string& text, int maxSlices, std::optional<int>& fit) {
     const auto value = session::evaluate(text);
     if (!value) return Error{value.error().code, "fit: " + value.error().message};
     if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
@@ -181,7 +182,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                                                   text::outsideBoundsText(least, most, " millimeters", request.size)};
     }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
-    std::optional<slicing::Element> element;  // the highlighted element, if only this is exported
+    std::optional<slicing::Element> element;  // the highlighted element, if it is exported alone
     if (request.contents == exports::ExportContents::highlight && request.format->canContain(request.contents)) {
         element = state.look.highlight;
         if (!element) {
@@ -190,7 +191,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                          "17 on the command line or highlight=cell:17 in a query"};
         }
     }
-    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file shows what the user has chosen
+    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file shows the user's look
     const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContents::oval ||
                                             request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
@@ -231,7 +232,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     look.coloring = state.look.coloring;
     look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
     look.field = state.look.field;
-    if (!hasOwnLook) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
+    if (!hasOwnLook) look.parts.faces = isField;  // no other format reads Scene::fill
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(PictureWorkLimits().fillSteps);
@@ -244,7 +245,8 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
     if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color
-    // The drawing of the focus slice has the layout of a single slice, but the focus point of the matrix view.
+    // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
+    // also shows the focus point, as this view does.
     if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {
@@ -267,17 +269,17 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
             hasContents = true;
-            done = choose(name, value, exports::kExportContents, request.contents);
+            done = parseChoice(name, value, exports::kExportContents, request.contents);
         } else if (name == "at") {
-            done = takeAt(value, request.chosenW);
+            done = parseChosenW(value, request.chosenW);
         } else if (name == "fit") {
-            done = takeFit(value, maxSlices, request.fittedSlices);
+            done = parseFittedSlices(value, maxSlices, request.fittedSlices);
         } else if (name == "body") {
-            done = choose(name, value, exports::kBodies, request.body);
+            done = parseChoice(name, value, exports::kBodies, request.body);
         } else if (name == "label") {
-            done = choose(name, value, exports::kLabels, request.label);
+            done = parseChoice(name, value, exports::kLabels, request.label);
         } else if (name == "size") {
-            done = takeSize(value, sizeRangeOf(format), request.size);
+            done = parseSize(value, sizeRangeOf(format), request.size);
         } else {
             rest.emplace_back(std::move(name), std::move(written));
         }

@@ -11,8 +11,8 @@ namespace oval4d::pipeline {
 /// calls. May be used by one thread at a time.
 class FocusSectionNamer {
   public:
-    /// Slices the object at the focus and names the slice. A name is empty if the slice has none; names are valid until
-    /// the process ends. Takes at most about as long as one slice of a picture.
+    /// Cuts the focus slice of the object and names it. A name is empty if the slice has no such name. Names are valid
+    /// until the process ends. Takes at most about as long as one slice of a picture.
     slicing::SectionNamePair names(const session::State& state);
 
   private:

@@ -12,14 +12,15 @@ scene::Viewport usualViewport(const FrameLimits& limits) {
     const int height = std::max(limits.minSide, std::min(usual.height, limits.maxHeight));
     const double pixels = static_cast<double>(width) * height;
     const double scale = std::min(1.0, std::sqrt(static_cast<double>(limits.maxPixels) / pixels));
-    // Returns the largest side up to `side` that a picture may have beside a side of this length.
+    // Returns the greatest length, at most `side`, of the other side of a picture that has a side of the length
+    // `length`.
     const auto beside = [&limits](int length, int side) {
         return std::max(limits.minSide, static_cast<int>(std::min<std::int64_t>(side, limits.maxPixels / length)));
     };
     scene::Viewport out;
     out.height = std::max(limits.minSide, static_cast<int>(height * scale));
     out.width = beside(out.height, width);
-    out.height = beside(out.width, out.height);  // shorter if the width cannot be
+    out.height = beside(out.width, out.height);  // reduced if the width has its minimum
     return out;
 }
 

@@ -15,7 +15,7 @@ struct FrameLimits {
 };
 
 /// Returns the size of a picture for which none is given: that of a default scene::Viewport, or as near to it as the
-/// limits allow. If they allow no size at all, checkViewport() refuses the result.
+/// limits allow. If the limits allow no size at all, checkViewport() refuses the result.
 scene::Viewport usualViewport(const FrameLimits& limits);
 
 /// Returns the viewport if it is within the limits, else the error `out_of_range`, whose message says what is allowed.

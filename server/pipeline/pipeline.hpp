@@ -46,7 +46,7 @@ class Pipeline {
 
     /// Returns the names of the section in the focus slice, for the `state` message. There are two, because the slice
     /// may have a name, such as "icosahedron", and so may the convex hull of those of its vertices that are vertices of
-    /// the object (see slicing::SectionNamePair). Each of them is empty if there is no such name.
+    /// the object (see slicing::SectionNamePair). A name that does not exist is empty.
     slicing::SectionNamePair nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the

@@ -27,8 +27,8 @@ class PipelinePool {
         Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job
     };
 
-    /// The pipelines use `forkJoin`. Idle workers free their memory, and return it to the system with `heap`.
-    /// `forkJoin` and `heap` must outlive the pool.
+    /// The pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return it to the operating
+    /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
     PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
     /// Queues a job; returns false, and drops the job, if the queue is full. See WorkerPool::post().
