@@ -28,7 +28,8 @@ struct alignas(cmsghdr) AncillaryData {
 // The interval at which a wait checks for a stop request.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
-/// Waits for a poll(2) event; returns false if the time limit passes or a stop is requested first.
+/// Waits until `event`, an event of poll(2), happens. Returns false if the time limit passes or a stop is requested
+/// first.
 bool waitFor(int socket, short event, const WaitLimit& limit) {
     using std::chrono::milliseconds;
     const milliseconds longest =

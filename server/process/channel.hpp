@@ -66,8 +66,7 @@ class Channel {
     TransferResult receive(MessageType& type, std::string& body, int* file = nullptr, const WaitLimit& limit = {},
                            std::size_t maxBytes = kNoLimit) const;
 
-    /// Waits until a message can be received or the other end is closed. Returns false if neither happens within the
-    /// limit.
+    /// Waits until a message can be received or the other end is closed. Returns false if the limit is reached first.
     bool wait(const WaitLimit& limit) const;
 
   private:

@@ -59,7 +59,8 @@ class Environment {
 // for the end of a killed process, which may be delayed, for example by a debugger.
 constexpr auto kExitTimeout = 1s;
 
-/// Waits for a process to exit; returns false after kExitTimeout.
+/// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process has not exited
+/// after kExitTimeout.
 bool waitForExit(pid_t process, int& status) {
     const auto limit = Clock::now() + kExitTimeout;
     for (auto pause = 100us;; pause *= 2) {
@@ -168,7 +169,8 @@ void ChildProcess::converse(const Conversation& conversation, const std::stop_to
 }
 
 void initializeChild() {
-    // A terminal or a container sends these signals to all processes, but the server decides when its children end.
+    // A terminal or a container sends SIGINT and SIGTERM to all processes, but the server decides when its children
+    // end.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // a child that hangs or is stopped would not notice that its socket is closed

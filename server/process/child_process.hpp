@@ -38,7 +38,7 @@ struct ChildOptions {
 };
 
 /// Thrown when a conversation fails because the process was lost and the conversation must not be repeated, or because
-/// the new process was lost, too.
+/// the process that replaced it was lost, too.
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
@@ -50,10 +50,10 @@ class ProcessLost : public std::runtime_error {
     bool hung_;
 };
 
-/// A child process that runs this program. It is started on demand, and a new process replaces it if it is lost. It
-/// ends when this object is destroyed or the server ends. The process inherits only one file descriptor of the server,
-/// standard error (the log). It inherits the environment variables of the server, but only OVAL4D_FONT of those named
-/// OVAL4D_…, because the others may hold secrets. Not thread-safe: one thread at a time may use an object.
+/// A child process that runs this program. The process is started on demand, and a new process replaces it if it is
+/// lost. It ends when this object is destroyed or the server ends. The process inherits only one file descriptor of the
+/// server, standard error (the log). It inherits the environment variables of the server, but only OVAL4D_FONT of those
+/// named OVAL4D_…, because the others may hold secrets. Not thread-safe: one thread at a time may use an object.
 class ChildProcess {
   public:
     /// A conversation: sends messages to the process and receives its replies within the limit. Returns the result of

@@ -10,7 +10,7 @@ namespace {
 
 // Thresholds in bytes. If they are not set, glibc raises its own thresholds step by step, to at most these values, when
 // large blocks are freed.
-constexpr int kMapThreshold = 32 << 20;  // each larger block is mapped separately, and unmapped when it is freed
+constexpr int kMapThreshold = 32 << 20;  // a block of at least this size is mapped, and unmapped when it is freed
 constexpr int kTrimThreshold = 2 * kMapThreshold;
 
 }  // namespace
@@ -19,7 +19,7 @@ Heap::Heap() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
     // In a build with a sanitizer, mallopt does not reach glibc's allocator, so the first malloc_trim initializes this
-    // allocator. Several threads must not do that at once, so it is done here.
+    // allocator. Several threads must not initialize it at once, so the constructor initializes it.
     malloc_trim(0);
 }
 

@@ -147,9 +147,11 @@ class Filter {
     std::unique_ptr<void, decltype(&seccomp_release)> context_;
 };
 
-scmp_arg_cmp is(unsigned argument, std::uint64_t value) { return {argument, SCMP_CMP_EQ, value, 0}; }
-scmp_arg_cmp hasAll(unsigned argument, std::uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, bits}; }
-scmp_arg_cmp hasNone(unsigned argument, std::uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, 0}; }
+scmp_arg_cmp argumentIs(unsigned argument, std::uint64_t value) { return {argument, SCMP_CMP_EQ, value, 0}; }
+scmp_arg_cmp argumentHasAll(unsigned argument, std::uint64_t bits) {
+    return {argument, SCMP_CMP_MASKED_EQ, bits, bits};
+}
+scmp_arg_cmp argumentHasNone(unsigned argument, std::uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, 0}; }
 
 #ifdef OVAL4D_SANITIZED
 constexpr bool kSanitized = true;
@@ -157,7 +159,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
+void limitResource(decltype(RLIMIT_AS) resource, rlim_t most) {
     rlimit now{};
     if (getrlimit(resource, &now) != 0) return;
     now.rlim_max = std::min(now.rlim_max, most);
@@ -165,7 +167,7 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
     setrlimit(resource, &now);
 }
 
-/// Returns the private writable memory in use, in bytes: what RLIMIT_DATA limits, and the stack.
+/// Returns the private writable memory in use, in bytes: the memory that RLIMIT_DATA limits, and the stack.
 std::size_t dataInUse() {
     std::array<std::size_t, 6> pages{};  // size, resident, shared, text, lib, data
     std::ifstream statm("/proc/self/statm");
@@ -173,14 +175,14 @@ std::size_t dataInUse() {
     return pages.back() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Returns whether a filter can be set on this system; if not, sets `why` to the reason.
+/// Returns whether a filter of system calls can be set on this system. If it cannot, sets `why` to the reason.
 bool canFilter(std::string& why) {
     if (kSanitized) {
         why = "this is a build with a sanitizer";
         return false;
     }
-    // Only a trial shows whether this works, because the filter of a container may forbid setting another filter. The
-    // trial filter applies to one temporary thread, and ends with this thread.
+    // Only a trial shows whether a filter can be set, because the filter of a container may forbid setting another one.
+    // The trial filter applies to one temporary thread, and ends with this thread.
     std::thread([&why] {
         try {
             Filter filter(SCMP_ACT_ALLOW, false);
@@ -196,14 +198,14 @@ bool canFilter(std::string& why) {
 void filterSystemCalls(Role role) {
     Filter filter(SCMP_ACT_ERRNO(EPERM), true);
     filter.add(SCMP_ACT_ALLOW, kCommonCalls);
-    for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, kChildSocket)});
-    for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, STDERR_FILENO)});
+    for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
+    for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, STDERR_FILENO)});
     // abort() sends a signal to its own process.
     const auto own = static_cast<std::uint64_t>(getpid());
-    for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, own)});
-    filter.add(SCMP_ACT_ALLOW, "fcntl", {is(1, F_GETFL)});
+    for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, own)});
+    filter.add(SCMP_ACT_ALLOW, "fcntl", {argumentIs(1, F_GETFL)});
     // Lets the process read its own resource limits, but not change them: the new limit must be a null pointer.
-    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});
+    filter.add(SCMP_ACT_ALLOW, "prlimit64", {argumentIs(0, 0), argumentIs(2, 0)});
     // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
     // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
@@ -212,16 +214,16 @@ void filterSystemCalls(Role role) {
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == Role::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
-        for (const std::uint64_t flag : kNotTogether) filter.add(SCMP_ACT_ALLOW, "mmap", {hasNone(3, flag)});
+        for (const std::uint64_t flag : kNotTogether) filter.add(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(3, flag)});
         filter.add(SCMP_ACT_ALLOW, kThreadCalls);
         constexpr std::uint64_t kThread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
-        filter.add(SCMP_ACT_ALLOW, "clone", {hasAll(0, kThread)});
-        filter.add(SCMP_ACT_ALLOW, "prctl", {is(0, PR_SET_NAME)});
+        filter.add(SCMP_ACT_ALLOW, "clone", {argumentHasAll(0, kThread)});
+        filter.add(SCMP_ACT_ALLOW, "prctl", {argumentIs(0, PR_SET_NAME)});
     } else {
         filter.add(SCMP_ACT_ALLOW, "mremap", {});
-        filter.add(SCMP_ACT_ALLOW, "mprotect", {hasNone(2, PROT_EXEC)});
+        filter.add(SCMP_ACT_ALLOW, "mprotect", {argumentHasNone(2, PROT_EXEC)});
         for (const std::uint64_t flag : kNotTogether)
-            filter.add(SCMP_ACT_ALLOW, "mmap", {hasNone(2, PROT_EXEC), hasNone(3, flag)});
+            filter.add(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(2, PROT_EXEC), argumentHasNone(3, flag)});
     }
     filter.add(SCMP_ACT_KILL_PROCESS, kIntruderCalls);
     filter.load();
@@ -229,11 +231,12 @@ void filterSystemCalls(Role role) {
 
 /// Sets the resource limits, and disables core dumps, which would contain clients' data.
 void limitResources(const Confinement& limits) {
-    limit(RLIMIT_CORE, 0);
+    limitResource(RLIMIT_CORE, 0);
     if (kSanitized) return;
-    // Mapped files do not count, because they may be larger than the memory.
-    if (limits.memory > 0) limit(RLIMIT_DATA, dataInUse() + limits.memory);
-    if (limits.files > 0) limit(RLIMIT_NOFILE, limits.files);
+    // Limits RLIMIT_DATA and not RLIMIT_AS, because RLIMIT_AS also counts mapped files, which may be larger than the
+    // memory.
+    if (limits.memory > 0) limitResource(RLIMIT_DATA, dataInUse() + limits.memory);
+    if (limits.files > 0) limitResource(RLIMIT_NOFILE, limits.files);
 }
 
 }  // namespace
