@@ -26,8 +26,8 @@ struct ExportLimits {
     int slices = 201;
 };
 
-/// Why an export produces no file: the cause, and a text for the user. ExportRefused carries it to exportScene(), which
-/// returns it.
+/// Why an export produces no file: the cause, and a text for the user. ExportRefused carries the refusal to
+/// exportScene(), which returns it.
 struct ExportRefusal {
     enum class Cause : std::uint8_t {
         no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
@@ -54,7 +54,7 @@ class Budget {
     /// Returns whether the time limit is exceeded or a stop is requested.
     bool mustStop() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
     /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call this
-    /// function often; nothing else interrupts them.
+    /// function often, because nothing else interrupts them.
     void checkTime() const {
         if (stop_.stop_requested())
             throw ExportRefused{
@@ -67,7 +67,7 @@ class Budget {
         }
     }
     /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
-    /// ExportLimits::triangles, or if ExportLimits::grantTotalBytes refuses the memory for them.
+    /// ExportLimits::triangles, or if ExportLimits::grantTotalBytes refuses the memory for the triangles.
     void checkTrianglesAndMemory(std::size_t total) const {
         if (total > limits_.triangles) {
             throw ExportRefused{

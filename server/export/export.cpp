@@ -94,7 +94,7 @@ class Exporter {
 
     std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
-        std::vector<int> empty, thin;  // the slices that are left out
+        std::vector<int> empty, thin;  // the slices without bodies, which are left out
         const scene::Color color = request_.body == Body::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == Body::skeleton) prepareSkeleton();
@@ -138,7 +138,8 @@ class Exporter {
         return isCell ? scene_.cellColors[element_->index] : scene::style().ball;
     }
 
-    /// Returns whether nothing of the object is in the hyperplane of a slice.
+    /// Returns whether the hyperplane of slice i contains no point of the object or, for the bodies of a field, no
+    /// surface.
     bool isEmpty(int i) const {
         if (hasSurfaces_) return slices_.surfaces[static_cast<std::size_t>(i)].triangles.empty();
         return slices_.vertexCount(i) == 0;
@@ -257,7 +258,8 @@ class Exporter {
                                                                 (isCell ? ", or too little for this size" : "") +
                                                                 "; choose body=skeleton, its balls and bars"}};
     }
-    /// Throws ExportRefused if the whole polytope is only a few grid steps large, because it is far from its origin.
+    /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most a few grid steps large, as
+    /// it is if it is far from its origin.
     void refuseTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         Box box;
@@ -313,7 +315,7 @@ class Exporter {
     std::optional<slicing::Element> element_;  // the element that is exported alone; absent for other contents
     SkeletonRadii radii_;
     double cube_ = 0;
-    bool hasSurfaces_ = false;  // whether the bodies are those inside the surfaces of a field
+    bool hasSurfaces_ = false;  // whether the bodies are those that the surfaces of a field enclose
     std::vector<std::string> warnings_;
 };
 

@@ -23,16 +23,16 @@ struct ExportedFile {
 };
 
 /// Returns a file with the slices of `scene` or with a drawing of it. The slices must have been cut from `object`
-/// rotated by `orientation`. `scene` must meet a requirement for some values of ExportRequest::contents:
+/// rotated by `orientation`. For some values of ExportRequest::contents, `scene` must meet a requirement:
 /// - focus: it contains only the focus slice.
 /// - oval: its view shows all slices (see scene::showsAllSlices()).
-/// - highlight: its Look::highlight is the element to export, and its only slice is this element
-/// (see slicing::writeElementAsSlice()).
+/// - highlight: its Look::highlight is the element to export, and its only slice is this element (see
+///   slicing::writeElementAsSlice()).
 /// - projection: for a drawing, it shows the projection; for bodies, its only slice is the projection.
 /// - matrix: it shows the matrix.
 ///
 /// The slice set must contain the surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the
-/// solid bodies of a field, unless an element of the field's box is exported.
+/// solid bodies of a field, unless the contents are ExportContents::highlight, an element of the field's box.
 ///
 /// Bodies are closed and 2-manifold: every edge belongs to exactly two triangles, which traverse it in opposite
 /// directions. Their normals point outward. They are in millimeters, unless the format requires meters.

@@ -38,7 +38,7 @@ struct ExportRequest {
     /// height.
     double size = 60;
     Label label = Label::none;
-    /// For ExportContents::oval: slices that replace those of the session; at most one of `chosenW` and `fittedSlices`
+    /// For ExportContents::oval: slices that replace those of the session. At most one of `chosenW` and `fittedSlices`
     /// is given.
     /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see
     ///   ObjectInfo::originInFile), and in this order.

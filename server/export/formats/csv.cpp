@@ -87,7 +87,7 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     return out;
 }
 
-// Returns a table of the values of w at which there are vertices, with the number of vertices at each.
+// Returns a table of the values of w at which there are vertices, with the number of vertices at each value.
 std::string criticalCsv(const SceneInput& source) {
     std::string out = "w,vertices\n";
     std::vector<double> heights;

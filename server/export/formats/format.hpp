@@ -50,7 +50,7 @@ struct SceneInput {
 /// format with bodies, writeScene for a data format, writeDrawing for a figure format.
 struct Format {
     /// How the bodies of several slices are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D
-    /// printer; `oval`: as in the oval view.
+    /// printer (see arrangeOnPlate()); `oval`: as in the picture (see arrangeInOval()).
     enum class Arrangement { none, plate, oval };
     /// The kinds of objects that files of the format can contain.
     enum class Objects { all, fields, polytopes_and_points };
@@ -62,7 +62,7 @@ struct Format {
     std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
     bool readsSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
-    /// background. Otherwise, the scene has the default look with the colors, levels and fog of the picture.
+    /// background. If false, the scene has the default look, but the colors, levels and fog of the picture.
     bool showsPicture = false;
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;

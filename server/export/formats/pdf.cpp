@@ -33,8 +33,8 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// libharu writes numbers beyond ±32,767 as ±32,767, which would bend lines that reach so far beyond the page, as those
-// of slices close to the eye do. Lines and polygons are therefore cut at ±kFarthest, in the units of the drawing.
+// libharu writes numbers beyond ±32,767 as ±32,767. This would bend lines that reach so far beyond the page, such as
+// lines of slices close to the eye. Lines and polygons are therefore cut at ±kFarthest, in the units of the drawing.
 constexpr double kFarthest = 30'000;
 
 // Returns how far a position is inside one of the four bounds of a coordinate axis, at ±kFarthest; less than 0 outside.

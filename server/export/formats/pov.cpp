@@ -128,7 +128,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     out += " }\n}\n";
 }
 
-/// Where a slice or a part of the projection stands, and how its balls and bars are drawn.
+/// The place of a slice or of a part of the projection, and how its balls and bars are drawn.
 struct PovPart {
     glm::dvec3 position;
     double scale;                  ///< world units per unit of the object
@@ -188,8 +188,9 @@ class PovWriter {
     }
 
     /// Appends the camera. POV-Ray looks from `location` through the points direction + x · right + y · up, where x and
-    /// y are −1/2 … 1/2. It does not ask whether these vectors are left-handed, as its own are, or right-handed. If the
-    /// image has another shape than the picture, the larger `right` or `up` shows more, and the picture is not cut off.
+    /// y are −1/2 … 1/2. POV-Ray also accepts right-handed vectors, although its own coordinates are left-handed. If
+    /// the image has another aspect ratio than the picture, `right` or `up` is lengthened, so that the image shows the
+    /// whole picture.
     void appendCamera(std::string& out) const {
         const scene::Camera& camera = scene_.camera;
         const double aspect = static_cast<double>(scene_.viewport.width) / scene_.viewport.height;
@@ -286,12 +287,12 @@ class PovWriter {
         }
     }
 
-    /// Adds the smooth level set of a level, or its flat caps. Each is a mesh of its own, because the points where they
-    /// meet have the normals and the colors of the level set in the one, and those of the caps in the other.
+    /// Adds the smooth level set of a level, or its flat caps. The level set and the caps are separate meshes, because
+    /// the points where they meet have different normals and colors in each.
     void addSurface(std::size_t slice, const PovPart& part, const scene::SurfaceLook::Level& level, bool ofCaps) {
         const slicing::SliceSurface& surface = set_.surfaces[slice];
         PovMesh mesh;
-        std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);  // of the points in the mesh
+        std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);  // per point of the surface
         std::vector<std::uint32_t> textureOf;                                    // per point of the mesh
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
             if (surface.levelIndex(t) != level.index || surface.isCap(t) != ofCaps) continue;
@@ -347,8 +348,9 @@ class PovWriter {
         }
     }
 
-    /// Ends a ball or bar. A ray of sight crosses its surface twice, and each crossing lets the square root of the
-    /// light pass, so that both together have the opacity.
+    /// Appends the texture and the closing brace of a ball or bar. A line of sight crosses the surface of the shape
+    /// twice. Each crossing lets the fraction √(1 − opacity) of the light pass, so that the shape as a whole has the
+    /// opacity `opacity`.
     void endShape(scene::Color color, double opacity) {
         const std::uint32_t texture = textures_.numberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
         objects_ += " texture { " + PovTextures::nameOf(texture) + " } }\n";
@@ -369,7 +371,7 @@ class PovWriter {
         }
     }
 
-    // Font 2 of POV-Ray is a sans-serif; its digits are 0.73 high.
+    // Font 2 of POV-Ray is a sans-serif font, whose digits are 0.73 high at the size 1.
     static constexpr std::string_view kLabelMacro = R"(
 // Top: the center of the label's top edge.
 #macro Label(Text, Top, Size, Color)

@@ -22,12 +22,12 @@ std::string attribute(std::string_view name, const std::string& value) {
 }
 std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
 
-std::string opacityOf(std::string_view name, double opacity) {
+std::string opacityAttribute(std::string_view name, double opacity) {
     return opacity < 1 ? attribute(name, opacity) : std::string();
 }
 
 /// Returns the opacities of the image (DensityImage::alphas) as SVG paths. The opacities are rounded to multiples of
-/// 1/kTones. For each of them except 0, there is one path, with the outlines of all pixels of this opacity.
+/// 1/kTones. Each opacity except 0 has one path, with the outlines of all pixels of this opacity.
 std::string densityPaths(const DensityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
@@ -68,8 +68,8 @@ struct ElementWriter {
         return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
                attribute("stroke", scene::cssColor(line.color)) + attribute("stroke-width", line.width) +
                (line.roundEnds ? attribute("stroke-linecap", "round") : "") +
-               opacityOf("stroke-opacity", line.opacity) + attribute("x1", line.from.x) + attribute("y1", line.from.y) +
-               attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
+               opacityAttribute("stroke-opacity", line.opacity) + attribute("x1", line.from.x) +
+               attribute("y1", line.from.y) + attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
     }
     std::string operator()(const FilledPolygon& polygon) const {
         std::string corners;
@@ -78,11 +78,12 @@ struct ElementWriter {
             corners += number(corner.x) + ',' + number(corner.y);
         }
         return "<polygon" + attribute("fill", scene::cssColor(polygon.color)) +
-               opacityOf("fill-opacity", polygon.opacity) + attribute("points", corners) + "/>\n";
+               opacityAttribute("fill-opacity", polygon.opacity) + attribute("points", corners) + "/>\n";
     }
     std::string operator()(const Disk& disk) const {
-        return "<circle" + attribute("fill", scene::cssColor(disk.color)) + opacityOf("fill-opacity", disk.opacity) +
-               attribute("cx", disk.center.x) + attribute("cy", disk.center.y) + attribute("r", disk.radius) + "/>\n";
+        return "<circle" + attribute("fill", scene::cssColor(disk.color)) +
+               opacityAttribute("fill-opacity", disk.opacity) + attribute("cx", disk.center.x) +
+               attribute("cy", disk.center.y) + attribute("r", disk.radius) + "/>\n";
     }
     std::string operator()(const TextLine& line) const {
         return "<text font-family=\"DejaVu Sans, sans-serif\" text-anchor=\"middle\"" +

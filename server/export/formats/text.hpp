@@ -10,7 +10,7 @@
 
 namespace oval4d::exports {
 
-/// Appends the shortest decimal text that reads back as the same number.
+/// Appends the shortest decimal text from which the same number can be read.
 void append(std::string& out, double number);
 void append(std::string& out, float number);
 /// Appends three numbers separated by spaces.

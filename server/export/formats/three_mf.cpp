@@ -21,7 +21,8 @@ void check(LIB3MFRESULT result, const char* what) {
 template <typename Thing>
 using Owned = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 
-// Calls `make(&pointer)`, which creates a lib3mf object, and returns the object as an owning pointer.
+// Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to the object. `what`: the
+// message of the exception if this fails.
 template <typename Thing, typename Make>
 Owned<Thing> owned(const char* what, Make&& make) {
     Thing* made = nullptr;

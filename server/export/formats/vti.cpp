@@ -27,7 +27,8 @@ struct Lattice {
     std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
 };
 
-/// Returns a lattice that fills the bounding box of the domain's slice. Neighboring points are at most `step` apart.
+/// Returns a lattice that fills the bounding box of the domain's slice. Along each axis, neighboring points are at most
+/// `step` apart.
 Lattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;
     for (const glm::dvec3& vertex : slices.vertices) {
@@ -79,7 +80,7 @@ std::vector<float> sample(const fields::Field& field, const Lattice& lattice, co
 }  // namespace
 
 std::string vti(const SceneInput& source) {
-    constexpr int kCells = 128;  // across the diameter of the circumscribed sphere
+    constexpr int kCells = 128;  // the number of lattice cells along the diameter of the circumscribed sphere
     const slicing::SliceSet& slices = *source.scene.slices;
     const auto refuse = [](std::string message) {
         throw ExportRefused{{ExportRefusal::Cause::no_body, std::move(message)}};
@@ -89,7 +90,7 @@ std::string vti(const SceneInput& source) {
     }
     const fields::Field& field = *slicing::fieldIn(source.object);
     const Lattice lattice = latticeOf(slices, 2 * field.circumradius / kCells);
-    source.budget.checkBytes(3 * sizeof(float) * lattice.size());  // more than the values and their Base64 text need
+    source.budget.checkBytes(3 * sizeof(float) * lattice.size());  // enough for the values and their Base64 text
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     const std::vector<float> values = sample(field, lattice, toFunction, slices.planes.w(0), source.budget);
 

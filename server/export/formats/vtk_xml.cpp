@@ -15,7 +15,7 @@ std::string vtkFile(std::string_view type, std::string_view attributes, std::str
 
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes) {
-    // The size of the data in bytes comes first, and is encoded together with the data.
+    // In VTK's format, the size of the data in bytes precedes the data, and both are encoded as one Base64 text.
     std::string data;
     data.reserve(sizeof(std::uint64_t) + bytes.size());
     put(data, std::uint64_t{bytes.size()});

@@ -16,7 +16,7 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The elements of slices that the file lists: those of the highest dimension.
+/// The kind of elements of slices that the file lists: the kind of the highest dimension.
 enum class Elements : std::uint8_t { vertices, edges, faces };
 
 Elements elementsOf(const slicing::Object& object) {
@@ -29,7 +29,7 @@ struct PolyData {
     Elements elements = Elements::faces;
     std::vector<float> points, normals;               // three numbers for each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
-    std::vector<std::int64_t> corners, ends;          // the points of the elements; each element's end in `corners`
+    std::vector<std::int64_t> corners, ends;          // per corner: its point; per element: its end in `corners`
     std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
     std::vector<double> w, level;
     std::vector<std::uint8_t> cap;
@@ -151,7 +151,7 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
     appendVtkArray(out, name, components, std::span<const Number>(numbers));
 }
 
-std::string written(const PolyData& data, bool isField, bool hasSecond) {
+std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
     const auto countOf = [&](Elements elements) {
         return "=\"" + std::to_string(data.elements == elements ? data.ends.size() : 0) + '"';
     };
@@ -206,7 +206,7 @@ std::string vtp(const SceneInput& source) {
         source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
                                                     slicing::infoOf(source.object).originInFile.w));
     }
-    return vtkFile("PolyData", "", written(data, isField, isField && field->second != nullptr));
+    return vtkFile("PolyData", "", pieceElement(data, isField, isField && field->second != nullptr));
 }
 
 }  // namespace oval4d::exports

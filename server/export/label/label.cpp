@@ -37,7 +37,8 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh, indexed by cell. Omits faces without area, and faces with several boundary loops.
+/// Returns the faces of the mesh; the key of a face is its cell. Omits faces without area, and faces with several
+/// boundary loops.
 std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, Face> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -69,7 +70,7 @@ std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
 }
 
 /// Returns the placement with the largest letters that leave the margin free on this face. The text runs along `right`
-/// or, if it would then be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
+/// or, if the letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
 /// result.
 TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};

@@ -107,7 +107,7 @@ class Pen {
     std::vector<Contour>* out_ = nullptr;
 };
 
-/// Removes consecutive repetitions of a point in a closed contour.
+/// Removes points that are equal to the previous point of a closed contour.
 void removeDuplicates(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

@@ -151,7 +151,8 @@ class HalfEdges {
         }
     }
 
-    // Gives each fan of triangles a point of its own, from which the half-edges of the fan start.
+    // If several fans of triangles share a point, gives each fan a point of its own, at which the half-edges of the fan
+    // start.
     void separateFans(std::span<const glm::dvec3> points) {
         std::vector<bool> seen(origins_.size());
         std::vector<std::uint32_t> pointOf(origins_.size());
@@ -180,8 +181,8 @@ class HalfEdges {
     }
 
     // Collapses an edge into its origin, and returns true. Returns false and changes nothing if the ends of the edge
-    // have a common neighbor that is not a corner of a triangle at the edge, or if this part of the surface is a
-    // tetrahedron.
+    // have a common neighbor that is not a corner of a triangle at the edge, or if the connected part of the surface is
+    // a tetrahedron.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -219,7 +220,7 @@ class HalfEdges {
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
     // Flips an edge: replaces it by an edge between the two other corners of its triangles. Changes nothing if these
-    // corners are already neighbors, or if a new triangle would be degenerate.
+    // corners are already joined by an edge, or if a new triangle would be degenerate.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];

@@ -12,8 +12,9 @@ namespace {
 using GridPoint = std::array<std::int64_t, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Incremental convex hull: for each point, the triangles visible from it are replaced by a fan from the point to the
-// boundary of the hole. Triangles coplanar with the point are kept, so that no new triangle is degenerate.
+// Incremental convex hull: for each point, the triangles that are visible from the point are removed, and a fan of
+// triangles from the point to the boundary of the hole replaces them. Triangles coplanar with the point are kept, so
+// that no new triangle is degenerate.
 class Hull {
   public:
     Hull(const std::vector<glm::dvec3>& points, double step) {

@@ -75,7 +75,7 @@ class MarchingTetrahedra {
 
   private:
     // Sets `inside_` for the block at `corner`: whether each corner of the block's cubes is inside. The cubes of a
-    // block are the cubes whose lowest corner is in the block. Therefore they also have corners in adjacent blocks.
+    // block are the cubes whose lowest corner is in the block. Some of their corners are therefore in adjacent blocks.
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {

@@ -4,8 +4,8 @@
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
 // tetrahedron is a triangle or a quadrilateral. It has one corner on each tetrahedron edge that joins an inside point
 // to an outside point. The polygons that share a corner form one ring, because the tetrahedra that share the edge on
-// which it lies form one ring. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever
-// the field is.
+// which this corner lies form one ring. Therefore the surface is closed and 2-manifold and does not intersect itself,
+// whatever the field is.
 
 #include <array>
 #include <cstdint>
@@ -82,8 +82,8 @@ inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 
-/// Returns a function that finds crossings by linear interpolation of the values of `field`. The EdgeCrossing::cell of
-/// these crossings is kNoCell. `field` must outlive the function.
+/// Returns a function that finds crossings by linear interpolation of the values of `field` at the ends of an edge. The
+/// EdgeCrossing::cell of these crossings is kNoCell. `field` must outlive the function.
 FindCrossing linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

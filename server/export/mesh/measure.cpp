@@ -13,7 +13,7 @@ namespace {
 // distance of a vertex of the slice from the mean of its vertices.
 constexpr double kRoundingError = 1e-12;
 
-struct Mean {
+struct WeightedMean {
     glm::dvec3 sum{0};
     double weight = 0;
     void add(const glm::dvec3& at, double by) {
@@ -29,15 +29,15 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     const std::size_t count = slices.vertexCount(i);
     if (count == 0) return out;
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
-    Mean ofPoints;
+    WeightedMean ofPoints;
     for (std::size_t v = 0; v < count; ++v) ofPoints.add(points[v], 1);
-    // Coordinates relative to the mean of the points minimize cancellation.
+    // The following sums use coordinates relative to the mean of the points, which keeps rounding errors small.
     const glm::dvec3 base = ofPoints.sum / ofPoints.weight;
     double extent = 0;
     for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], base));
 
-    Mean ofVolume;
-    Mean ofArea;
+    WeightedMean ofVolume;
+    WeightedMean ofArea;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1];) {
         const std::uint32_t cell = slices.faceSource[f];
         glm::dvec3 area(0);
@@ -65,7 +65,7 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
         out.area += size;
         if (signedArea != 0) ofArea.add(moment / signedArea, size);
     }
-    Mean ofEdges;
+    WeightedMean ofEdges;
     for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
         const auto [a, b] = slices.edges[e];
         ofEdges.add((points[a] + points[b]) / 2.0 - base, glm::distance(points[a], points[b]));
@@ -73,7 +73,9 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     out.hasCentroid = true;
     out.volume = ofVolume.weight;
     if (std::abs(out.volume) <= kRoundingError * extent * extent * extent) out.volume = 0;
-    const Mean& mean = out.volume != 0 ? ofVolume : ofArea.weight > kRoundingError * extent * extent ? ofArea : ofEdges;
+    const WeightedMean& mean = out.volume != 0                                    ? ofVolume
+                               : ofArea.weight > kRoundingError * extent * extent ? ofArea
+                                                                                  : ofEdges;
     out.centroid = mean.weight != 0 ? base + mean.sum / mean.weight : base;
     return out;
 }

@@ -22,9 +22,9 @@ glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
 }
 
 bool isClosedManifold(const Mesh& mesh) {
-    // `fans` has, for each point, one entry for each triangle around it: the next and the previous corner of the
-    // triangle, counted from the point. In the ring around the point, the triangle whose previous corner is c is
-    // followed by the triangle whose next corner is c. The entries of point p begin at begin[p].
+    // `fans` has, for each point, one entry for each triangle at the point: the corner that follows the point in the
+    // triangle, and the corner that precedes it. In the ring of triangles around the point, the triangle in which c
+    // precedes the point comes before the triangle in which c follows it. The entries of point p begin at begin[p].
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];

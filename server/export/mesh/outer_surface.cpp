@@ -52,14 +52,15 @@ class OuterSurface {
         return marchTetrahedra(
             field,
             [&](const glm::ivec3& inside, const glm::ivec3& outside) {
-                return cross(field.positionOf(inside), field.positionOf(outside));
+                return findCrossing(field.positionOf(inside), field.positionOf(outside));
             },
             grid, budget_);
     }
 
   private:
-    // A crossing of a line with a triangle. `at` is its position on the line: x in fill(), and in cross() the fraction
-    // of the way from the outside point to the inside point. `windingChange` is the change of the winding number there.
+    // A crossing of a line with a triangle. `at` is the position of the crossing on the line: in fill(), its x; in
+    // findCrossing(), the fraction of the way from the outside point to the inside point. `windingChange` is the change
+    // of the winding number at the crossing.
     struct Hit {
         double at;
         int windingChange;
@@ -80,7 +81,7 @@ class OuterSurface {
         return p.y <= row.y ? -1 : 1;
     }
 
-    /// Sets the inside points of the field to −1, line by line along x.
+    /// Sets the values of all points inside the surface to −1, line by line along x.
     void fill(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<Hit>> lines;
         for (const FanTriangle& triangle : triangles_) {
@@ -151,8 +152,8 @@ class OuterSurface {
     }
 
     /// Returns the crossing at which the winding number first becomes nonzero on the way from `outside` to `inside`. If
-    /// rounding errors hide all crossings, returns the middle of the way, without a cell.
-    EdgeCrossing cross(const glm::dvec3& inside, const glm::dvec3& outside) const {
+    /// rounding errors hide all crossings, returns the middle of the way and kNoCell.
+    EdgeCrossing findCrossing(const glm::dvec3& inside, const glm::dvec3& outside) const {
         std::vector<std::uint32_t> near;
         const glm::ivec3 least = boxAt(glm::min(inside, outside));
         const glm::ivec3 most = boxAt(glm::max(inside, outside));

@@ -28,8 +28,9 @@ struct Capsule {
 };
 
 /// Adds a capsule to a field of distances: lowers the values of the points near the capsule to their distances from the
-/// capsule, where these are less. These points include all that share a cube with a point inside the capsule.
-void include(const Capsule& capsule, SampledField& field) {
+/// capsule, where these are less. The points near the capsule include all corners of each cube that has a corner inside
+/// the capsule.
+void addCapsule(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
     const glm::ivec3 most = field.floorIndex(glm::max(capsule.from, capsule.to) + reach) + 1;
@@ -38,7 +39,8 @@ void include(const Capsule& capsule, SampledField& field) {
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
             const glm::dvec3 row = field.positionOf({0, j, k});
-            // The part of the capsule's axis whose y and z are within reach of this line, as fractions of the axis.
+            // The part of the capsule's axis whose y and z differ by at most `reach` from those of this line: from
+            // `low` to `high`, as fractions of the axis.
             double low = 0;
             double high = 1;
             for (const int axis : {1, 2}) {
@@ -93,7 +95,7 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
             area += 2 * std::numbers::pi * radii.bar * std::max(0.0, length - 2 * radii.ball);
         }
     }
-    constexpr double kPerSquare = 9;  // measured: triangles on an area of radii.bar²
+    constexpr double kPerSquare = 9;  // the number of triangles on an area of radii.bar², as measured
     return kPerSquare * area / (radii.bar * radii.bar);
 }
 
@@ -104,7 +106,7 @@ Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Skel
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTime();
-        include(capsule, field);
+        addCapsule(capsule, field);
     }
     return marchTetrahedra(field, linearCrossing(field), grid, budget);
 }

@@ -23,7 +23,7 @@ std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::u
 }
 
 /// Returns the normal of a face; its length is twice the face's area.
-glm::dvec3 crossOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
+glm::dvec3 doubleAreaNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const auto corners = cornersOf(slices, face);
     const glm::dvec3 base = points[corners[0]];
@@ -34,13 +34,13 @@ glm::dvec3 crossOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
 }
 
 /// Returns the unit normal of a face; zero if the face has no area.
-glm::dvec3 directionOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
-    const glm::dvec3 normal = crossOf(slices, i, face);
+glm::dvec3 unitNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_t face) {
+    const glm::dvec3 normal = doubleAreaNormalOfFace(slices, i, face);
     const double length = glm::length(normal);
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-/// Returns whether the whole slice is on the inner side of every face.
+/// Returns whether the whole slice is on the inner side of every face, except for rounding errors.
 bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const std::size_t count = slices.vertexCount(i);
@@ -50,8 +50,9 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
         budget.checkTime();
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
-        glm::dvec3 normal = crossOf(slices, i, f);
-        // The normal of a sliver, a face with almost no area, is unreliable. The tests of its neighbors are sufficient.
+        glm::dvec3 normal = doubleAreaNormalOfFace(slices, i, f);
+        // The normal of a sliver, a face with almost no area, is unreliable. The tests of the neighboring faces
+        // suffice.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
         for (std::size_t v = 0; v < count; ++v) {
@@ -61,10 +62,11 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     return true;
 }
 
-/// The vertices of a slice in millimeters, rounded to the grid; equal points are merged.
-class Welded {
+/// The vertices of a slice, in millimeters and rounded to the grid. Vertices that become equal are merged into one
+/// point.
+class WeldedVertices {
   public:
-    Welded(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
+    WeldedVertices(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
         std::map<std::tuple<double, double, double>, std::uint32_t> known;
         for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
             const glm::dvec3 point = grid.snap(slices.vertices[v] * scale);
@@ -73,7 +75,8 @@ class Welded {
             index_.push_back(at->second);
         }
     }
-    /// Converts a loop of vertices of the slice to indices into points(), without edges of length zero.
+    /// Converts the corners of a face, indices of vertices of the slice, to indices into points(). Omits edges of
+    /// length zero.
     Loop loop(std::span<const std::uint32_t> corners) const {
         Loop out;
         for (const std::uint32_t corner : corners) {
@@ -111,7 +114,7 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& b
 }
 
 Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
-    const Welded welded(slices, i, scale, grid);
+    const WeldedVertices welded(slices, i, scale, grid);
     Mesh mesh;
     mesh.points = welded.points();
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
@@ -129,7 +132,7 @@ Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const
     Mesh hull = hullOf(faces.points, grid, &budget);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
-        normals.emplace_back(directionOf(slices, i, f), slices.faceSource[f]);
+        normals.emplace_back(unitNormalOfFace(slices, i, f), slices.faceSource[f]);
     for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
         budget.checkTime();
         const glm::dvec3 normal = doubleAreaNormalOf(hull, hull.triangles[t]);
