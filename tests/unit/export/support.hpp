@@ -35,9 +35,9 @@ using namespace exports;
 
 using Key = std::tuple<float, float, float>;
 
-/// Expects a mesh that can be printed: every edge lies in two triangles, once in each direction; the triangles around
-/// every point form one ring; the volume is positive. Like the software of a 3-D printer, identifies points by their
-/// float32 coordinates and not by their indices.
+/// Expects that a mesh can be printed: every edge belongs to two triangles, which traverse it in opposite directions;
+/// the triangles around every point form one ring; the volume is positive. Like the software of a 3-D printer,
+/// identifies points by their float32 coordinates and not by their indices.
 inline void expectPrintable(const Mesh& mesh) {
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
@@ -61,7 +61,7 @@ inline void expectPrintable(const Mesh& mesh) {
     ASSERT_NEAR(volume, volumeOf(mesh), 1e-9 * std::abs(volume));
 }
 
-/// The default limits, but for the time: a slow machine may take as long as it needs.
+/// The default limits, but with 24 hours of time, so that no export fails on a slow machine.
 inline const ExportLimits kUnhurried{.time = std::chrono::hours(24)};
 
 inline const Budget& unhurried() {
@@ -136,14 +136,14 @@ inline std::string bytesOf(std::variant<ExportedFile, ExportRefusal> made) {
     return std::get<ExportedFile>(std::move(made)).bytes;
 }
 
-/// Slices a polytope, exports the slices, and returns what bytesOf() returns.
+/// Slices a polytope and exports the slices. Returns the bytes of the file, or "refused: " and the reason.
 inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
                           const ExportLimits& limits = kUnhurried) {
     return bytesOf(exported(polytope, orientation, planes, request, limits));
 }
 
-/// Returns two polytopes as one, with the second translated by `by`.
+/// Returns a polytope that consists of `a`, and of `b` translated by `by`.
 inline polytopes::Polytope compound(const polytopes::Polytope& a, const polytopes::Polytope& b, const glm::dvec4& by) {
     std::vector<glm::dvec4> vertices = a.vertices;
     for (const auto& v : b.vertices) vertices.push_back(v + by);

@@ -32,7 +32,7 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Returns the cache that all tests of the program share.
+/// Returns the cache of polytopes that all tests of the program share.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;
     return kCache;
@@ -73,8 +73,8 @@ inline geometry::Rotation ontoW(const glm::dvec4& direction) {
             glm::dquat(1, 0, 0, 0)};
 }
 
-/// Expects that the lists are equally long, and that each point of `one` has a point of `other` at a distance of less
-/// than `tolerance`.
+/// Expects that the lists are equally long, and that for each point of `one`, a point of `other` is less than
+/// `tolerance` away.
 inline void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vector<glm::dvec4>& other,
                              double tolerance) {
     ASSERT_EQ(one.size(), other.size());
@@ -96,7 +96,7 @@ inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     for (const auto& a : p) {
         for (const auto& b : q) vertices.emplace_back(a, b);
     }
-    geometry::JaggedArray faces;  // n·m squares, then m copies of p, then n copies of q
+    geometry::JaggedArray faces;  // n · m rectangles, then m copies of p, then n copies of q
     for (std::uint32_t i = 0; i < n; ++i) {
         for (std::uint32_t j = 0; j < m; ++j) {
             faces.add(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});

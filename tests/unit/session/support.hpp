@@ -18,7 +18,8 @@ namespace oval4d::session {
 
 inline const geometry::ObjectInfo& infoOf(const State& state) { return slicing::infoOf(state.object); }
 
-/// Executes a command on the calling thread, with the polytope cache of the test program.
+/// Executes a command, and loads the objects that it needs on the calling thread, with the polytope cache of the test
+/// program.
 inline Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits = {}) {
     ObjectLoader loader(limits, support::cache());
     return apply(session, command, limits, loader);
@@ -73,8 +74,8 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     EXPECT_TRUE(session == before) << done.error().message;
 }
 
-/// Applies a command as a server does; returns how many times the server must wait for an object that is loaded
-/// separately.
+/// Applies a command as a server does, and sets `done` to the result. Returns how many times the server must wait for
+/// `loader` to load an object.
 inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
     for (int orders = 0;; ++orders) {
         const Session before = session;

@@ -30,7 +30,7 @@ inline polytopes::Polytope rectifiedFiveCell() {
     return polytope;
 }
 
-/// Returns the one slice of `p`, rotated by `orientation`, at this w.
+/// Returns the slice at this w of `p` rotated by `orientation`, as the only slice of a set.
 inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rotation& orientation, double w) {
     slicing::SliceSet out;
     slicing::CellComplexSlicer slicer;
@@ -58,7 +58,7 @@ inline double volumeOf(const slicing::SliceSet& s, int slice) {
 
 /// Returns the hypervolume as the integral of the slices' volumes over w. Between two neighboring w of vertices, the
 /// volume of the section is a cubic polynomial in w, which Simpson's rule integrates exactly. The rule also evaluates
-/// the degenerate sections through vertices, so that the result is correct only if these are correct, too.
+/// the degenerate sections through vertices. The result is therefore correct only if these sections are correct, too.
 inline double hypervolumeBySlices(const polytopes::Polytope& p, const geometry::Rotation& orientation) {
     std::vector<double> levels;
     for (const auto& v : p.vertices) levels.push_back(orientation(v).w);

@@ -51,7 +51,7 @@ TEST(Codec, DecodesWhatItEncodes) {
     std::size_t own = 0;
     for (int round = 0; round < 60; ++round) {
         Session session;
-        wander(session, random, round);
+        applyRandomCommands(session, random, round);
         ObjectTable table;
         const Session back =
             decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
@@ -75,10 +75,10 @@ TEST(Codec, AppliesTheHead) {
     for (int round = 0; round < 40; ++round) {
         Session session;
         ObjectTable table;
-        wander(session, random, 20);
+        applyRandomCommands(session, random, 20);
         const std::string whole = encodeWhole(session, 1000, table.keyOf);
         const Session before = session;
-        wander(session, random, round % 5);
+        applyRandomCommands(session, random, round % 5);
         const Session back = decodeSession(whole, encodeHead(session, table.keyOf), table.objectOf, support::cache());
         EXPECT_EQ(back.revision, session.revision);
         if (session.revision == before.revision) {
@@ -215,7 +215,7 @@ TEST(Codec, KeepsTheBackground) {
 TEST(Codec, LimitsUndoSteps) {
     std::mt19937 random(6);
     Session session;
-    wander(session, random, 200);
+    applyRandomCommands(session, random, 200);
     ObjectTable table;
     const Session back = decodeSession(encodeWhole(session, 7, table.keyOf), "", table.objectOf, support::cache());
     ASSERT_EQ(back.undoSteps.size(), 7U);
@@ -321,7 +321,7 @@ TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
 TEST(Codec, SurvivesDamage) {
     std::mt19937 random(7);
     Session session;
-    wander(session, random, 30);
+    applyRandomCommands(session, random, 30);
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     ObjectTable table;
     const std::string whole = encodeWhole(session, 100, table.keyOf);

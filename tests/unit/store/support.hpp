@@ -19,14 +19,15 @@ inline void share(const slicing::Object& one, slicing::Object& other) {
     if (encodeObjectRecord(one) == encodeObjectRecord(other)) other = one;
 }
 
-/// Makes `other` refer to the objects of `one` that are equal to its own. A state has a source object and the image of
-/// this object in the frame of reference; the images are equal if the sources and the frames are.
+/// Where an object of `other` is equal to that of `one`, makes `other` refer to the object of `one`. A state has a
+/// source object and the image of this object in the frame of reference; the images are equal if the sources and the
+/// frames are.
 inline void share(const session::State& one, session::State& other) {
     share(one.source, other.source);
     if (one.source == other.source && one.referenceFrame == other.referenceFrame) other.object = one.object;
 }
 
-/// Returns whether the sessions are equal. Objects that were built separately are equal if their encodings are equal.
+/// Returns whether the sessions are equal. Two objects count as equal if their encodings are equal.
 inline bool same(const session::Session& one, session::Session other) {
     if (one.undoSteps.size() != other.undoSteps.size() || one.redoSteps.size() != other.redoSteps.size()) return false;
     share(one.current, other.current);
@@ -54,7 +55,7 @@ inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed
 }
 
 /// Applies random commands: keys, settings, loads, undo, redo and rotations.
-inline void wander(session::Session& session, std::mt19937& random, int steps) {
+inline void applyRandomCommands(session::Session& session, std::mt19937& random, int steps) {
     const std::string keys = "234567rtykjKJhl0G[]{}u.nNompfbe";
     std::uniform_real_distribution<double> angle(-7, 7);
     for (int i = 0; i < steps; ++i) {

@@ -35,7 +35,7 @@ inline nlohmann::json fitting(std::string_view text) {
     return message;
 }
 
-/// Returns what `write` writes with a writer of the class W.
+/// Calls `write` with a writer of the class W, and returns the bytes that it writes.
 template <typename W, typename Write>
 std::string written(Write write) {
     std::string out = "what was there before";
