@@ -33,7 +33,10 @@ double pixelsPerUnitOf(const Scene& scene) { return scene.matrix.scale(scene.cir
 class Picker {
   public:
     Picker(const Scene& scene, const slicing::Object& object, glm::dvec2 point)
-        : scene_(scene), counts_(slicing::elementCounts(object)), view_(scene.camera.view()) {
+        : scene_(scene),
+          counts_(slicing::elementCounts(object)),
+          drawsFaces_(scene.look.parts.faces && slicing::fieldIn(object) == nullptr),
+          view_(scene.camera.view()) {
         const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
         projection_ = scene.camera.projection(aspect);
         size_ = {scene.viewport.width, scene.viewport.height};
@@ -51,7 +54,7 @@ class Picker {
             // If balls are hidden, the points of a cloud are still found, but not the balls that join bars.
             const bool points = parts.balls || !scene_.slices->ballScale.empty();
             pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
-                 {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, parts.faces},
+                 {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, drawsFaces_},
                  {{}, PictureArea::slice, i});
         }
     }
@@ -214,6 +217,7 @@ class Picker {
 
     const Scene& scene_;
     const std::array<std::size_t, 4> counts_;
+    const bool drawsFaces_;  // whether slices have faces; those of the box of a field are not drawn
     const glm::dmat4 view_;
     glm::dmat4 projection_;
     glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner

@@ -1,13 +1,16 @@
 // What a picture shows at a point.
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "fields/formula_field.hpp"
 #include "scene/composer.hpp"
 #include "scene/pick.hpp"
 #include "slicing/slicer.hpp"
@@ -26,7 +29,9 @@ struct Picture {
     Scene scene;
 
     Picture(const char* name, const Look& look, const geometry::Rotation& orientation, int count = 21)
-        : object(support::shared(name)) {
+        : Picture(support::shared(name), look, orientation, count) {}
+    Picture(slicing::Object shown, const Look& look, const geometry::Rotation& orientation, int count = 21)
+        : object(std::move(shown)) {
         const double radius = slicing::infoOf(object).circumradius;
         slicing::Slicer().sliceWithoutSurfaces(object, orientation,
                                                {-(count - 1) / 2, count, 2 * radius / std::max(count - 1, 1)}, slices);
@@ -157,6 +162,24 @@ TEST(Pick, FindsFacesBarsAndNothing) {
         const glm::dvec3 middle = 0.5 * (s.vertices[s.vertexBegin[10] + a] + s.vertices[s.vertexBegin[10] + b]);
         const auto hit = picture.at(picture.project(picture.scene.scale * middle));
         ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->element.kind, ElementKind::face) << "the bars of a slice are cut from 2-faces";
+    }
+}
+
+// The box of a field has bars and balls, but no faces, so that its bars are found behind its front.
+TEST(Pick, FindsNoFacesOfTheBoxOfAField) {
+    Look look;
+    look.view = View::single;
+    look.field.levels = {0.25};
+    auto field = fields::fieldFromFormula("ball", "x^2+y^2+z^2+w^2", {glm::dvec4(-1), glm::dvec4(1)});
+    Picture picture(std::make_shared<const fields::Field>(*std::move(field)), look, {}, 1);
+    const auto& s = picture.slices;
+    ASSERT_EQ(s.faceCount(0), 6U) << "the slice of the box is a cube";
+    EXPECT_FALSE(picture.at(picture.project(glm::dvec3(0)))) << "the middle of the cube";
+    for (std::uint32_t e = 0; e < s.edges.size(); ++e) {
+        const glm::dvec3 middle = 0.5 * (s.vertices[s.edges[e][0]] + s.vertices[s.edges[e][1]]);
+        const auto hit = picture.at(picture.project(picture.scene.scale * middle));
+        ASSERT_TRUE(hit) << e;
         EXPECT_EQ(hit->element.kind, ElementKind::face) << "the bars of a slice are cut from 2-faces";
     }
 }
