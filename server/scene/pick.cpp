@@ -84,10 +84,12 @@ class Picker {
             const glm::dvec2& p = section->points[i];
             return center + scale * (row < column ? glm::dvec2(p.y, p.x) : p);
         };
-        double nearest = std::max(scene_.matrix.pointRadius * size_.y, kHitRadius);
+        double nearest = std::numeric_limits<double>::max();
         const bool balls = scene_.look.parts.balls || !section->ballScale.empty();
         for (std::size_t i = 0; balls && i < section->points.size(); ++i) {
+            const double own = section->ballScale.empty() ? 1 : section->ballScale[i];
             const double distance = glm::distance(pixelAt(i), pixel_);
+            if (distance > std::max(scene_.matrix.pointRadius * size_.y * own, kHitRadius)) continue;
             if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
             nearest = distance;
             picked_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};

@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "fields/formula_field.hpp"
+#include "geometry/point_cloud.hpp"
 #include "scene/composer.hpp"
 #include "scene/pick.hpp"
 #include "slicing/slicer.hpp"
@@ -121,6 +122,27 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
         EXPECT_FALSE(matrixPointAt(picture.scene, {720 * diagonal.x, 720 * (1 - diagonal.y)}));
         EXPECT_FALSE(matrixPointAt(picture.scene, {720 * layout.left - 1, 360}));
     }
+}
+
+TEST(Pick, FindsPointsOfACloudInTheMatrixAsFarAsTheyAreDrawn) {
+    Look look;
+    look.view = View::matrix;
+    const auto cloud = std::make_shared<const geometry::PointCloud>(
+        geometry::makePointCloud("dots", {{0, 0, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 0}}, {0.5, 0, 0}));
+    Picture picture(cloud, look, {}, 1);
+    const MatrixLayout& layout = picture.scene.matrix;
+    ASSERT_EQ(picture.scene.sectionMatrix.sections[0].ballScale.size(), 3U);
+    const double radius = layout.pointRadius * picture.scene.sectionMatrix.sections[0].ballScale[0];
+    ASSERT_GT(radius * 720, 6) << "larger than what is found in any case";
+    const auto at = [&](double distance) {
+        const glm::dvec2 place = layout.center(1, 0) + glm::dvec2(0, distance);
+        return picture.at({720 * place.x, 720 * (1 - place.y), 0});
+    };
+    const auto hit = at(0.9 * radius);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->area, PictureArea::matrix);
+    EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, 0}));
+    EXPECT_FALSE(at(1.1 * radius));
 }
 
 TEST(Pick, FindsFacesBarsAndNothing) {
