@@ -257,6 +257,31 @@ test("pointing: the label stays within a narrow drawing, and stars and point clo
     await close();
 });
 
+test("pointing: elements are found far from the middle of the projection and of a slice", async () => {
+    const settings = { polytope: "600-cell", view: "single", eye: 1.05 };
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned(settings);
+    const turned = await script.request({ type: "toward", element: "vertex", immediately: true });
+    await presented(page, turned.revision);
+    const { scene, projection } = await picture();
+    const { position, scale, parts } = projection;
+    const middleAt = project(scene, position, size);
+    const fromMiddle = ([x, y]) => Math.hypot(x - middleAt[0], y - middleAt[1]);
+    const places = worldPoints({ scale }, { position, vertices: parts[0].vertices }).map((at) => project(scene, at, size));
+    await moveTo(...places.reduce((best, at) => (fromMiddle(at) > fromMiddle(best) ? at : best)));
+    await labeled(page, /^Vertex \d+ /);
+
+    const data = "CLOUD\n0 0 0 0 5\n1 0 0 0 0.001\n"; // the ball of the first point is larger than the cloud
+    await script.request({ type: "load", name: "large point", format: "cloud", data });
+    const shown = await script.request({ type: "set", polytope: "large point", view: "oval", projection: "off" });
+    await presented(page, shown.revision);
+    const { scene: oval, slices } = await picture();
+    const [x, y, z] = slices.find(({ focus }) => focus).position;
+    await moveTo(...project(oval, [x - 4 * oval.scale, y, z], size));
+    await labeled(page, /^Vertex 0 /);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointing: a right click or a long press opens the menu of an element, which acts on it", async () => {
     const { page, script, size, picture, moveTo, errors, close } = await openTurned({}, { hasTouch: true });
     const menu = page.locator("#element-menu");

@@ -24,6 +24,7 @@ interface PickableMesh {
     slice?: Slice;
     position: Vector;
     scale: number;
+    magnification: number; // by how much vertices may be farther from `position` than scale · circumradius, at most
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
@@ -64,23 +65,28 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
         if (!drawn || vertices.length === 0) continue;
         const hasFaces = shown.faces && !scene.surfaces; // the box of a field has none
         const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces };
-        meshes.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
+        const placed = { position, scale, magnification: 1, distance: distance(position) };
+        meshes.push({ elements: slice, slice, ...placed, ...look });
     }
     for (const part of projection?.parts ?? []) {
-        const { position, scale: partScale } = projection!;
+        const { position, scale: partScale, kind, eye: eyeW } = projection!;
         const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
-        meshes.push({ elements: part, position, scale: partScale, ...look, distance: distance(position) });
+        // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
+        const magnification = kind === "perspective" ? eyeW / Math.sqrt(eyeW ** 2 - 1) : 1;
+        const placed = { position, scale: partScale, magnification, distance: distance(position) };
+        meshes.push({ elements: part, ...placed, ...look });
     }
     return meshes;
 }
 
-/** Whether the point can be within the mesh: a quick test with the circumscribed sphere. */
+/** Whether the point can be within the mesh: a quick test with a sphere around it. */
 function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamera, x: number, y: number): boolean {
-    const { position, scale, ball } = mesh;
+    const { position, scale, magnification, ball, elements } = mesh;
     const center = viewCamera.project(position);
     const depth = viewCamera.depthOf(position);
-    const kMagnified = 2; // a projection from four dimensions in perspective reaches beyond the circumradius
-    const radius = kMagnified * scale * scene.circumradius + kBallRise * ball;
+    const kRoom = 2; // for elements that are hit beside their centers, and for the camera's perspective
+    const largest = elements.balls?.scale.reduce((most, one) => Math.max(most, one), 1) ?? 1;
+    const radius = kRoom * magnification * scale * scene.circumradius + kBallRise * ball * largest;
     if (!center || depth <= radius) return true;
     return Math.hypot(center.x - x, center.y - y) <= (viewCamera.pixelsPerUnit * radius) / (depth - radius);
 }
