@@ -199,11 +199,12 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
     const double reach = arrangement.reach;
     if (count == 1) return besideFocusSlice(reach, aspect);
     switch (view) {
-        case View::oval:
-            break;
         case View::single:
         case View::matrix:
             return besideFocusSlice(reach, aspect);
+        case View::oval:
+            if (count > 2) break;
+            [[fallthrough]];  // two slices stand in a row
         case View::strip:
             return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
         case View::column:

@@ -108,6 +108,21 @@ TEST(Arrangement, ofAColumnIsARowTurnedByAQuarter) {
     }
 }
 
+TEST(Arrangement, ofTwoSlicesHasTheProjectionBesideThem) {
+    for (const scene::ViewRow& view : scene::kViews) {
+        if (!view.showsAllSlices) continue;
+        for (const double aspect : {0.5625, 1.0, 16.0 / 9}) {
+            SCOPED_TRACE(testing::Message() << view.name << ", " << aspect);
+            const scene::Arrangement made = scene::arrangementOf(view.value, 2, 0.05, aspect, roomOf(aspect, true));
+            const auto placement = scene::projectionBeside(view.value, made, 2, aspect);
+            ASSERT_TRUE(placement.shown);
+            EXPECT_GT(placement.radius, 0.25 * made.reach);
+            for (const double u : {-1.0, 1.0})
+                EXPECT_GT(glm::distance(placement.position, made.positionAt(u)), placement.radius + made.reach);
+        }
+    }
+}
+
 TEST(Arrangement, ofAGridIsReadFromLeftToRightAndFromTopToBottom) {
     constexpr double kBallRadius = 0.05;
     for (const int count : {2, 3, 10, 21, 61, 201}) {
