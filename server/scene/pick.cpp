@@ -177,9 +177,11 @@ class Picker {
             if (isWithin(glm::distance(from + t * along, pixel_), sizes.bar, depth))
                 add(depth - sizes.bar, elementOf(set.edgeSource[e], ElementKind::face, counts_[2], ElementKind::edge));
         }
-        for (std::uint32_t f = set.faceBegin[i]; sizes.faces && f < set.faceBegin[i + 1]; ++f) {
+        // The loops that were cut from one cell are a single face; see FilledFaces.
+        for (std::uint32_t f = set.faceBegin[i], end = f; sizes.faces && f < set.faceBegin[i + 1]; f = end) {
+            while (end < set.faceBegin[i + 1] && set.faceSource[end] == set.faceSource[f]) ++end;
             if (isHidden(scene_.visibilities.face(set.faceSource[f]))) continue;
-            if (const auto depth = depthOfFace(set, f))
+            if (const auto depth = depthOfFace(set, f, end))
                 add(*depth, elementOf(set.faceSource[f], ElementKind::cell, counts_[3], ElementKind::face));
         }
     }
@@ -195,26 +197,28 @@ class Picker {
         return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
     }
 
-    // Returns the depth at which the ray through the pixel meets the polygon. Returns an empty optional if the ray
-    // misses the polygon, or if a corner is behind the eye. A point is inside the polygon if the winding number is not
-    // 0.
-    std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t f) const {
-        const std::uint32_t begin = set.cornerBegin[f], end = set.cornerBegin[f + 1];
+    // Returns the depth at which the ray through the pixel meets the face with the loops firstLoop … endLoop − 1.
+    // Returns an empty optional if the ray misses the face, or if a corner is behind the eye. A point is inside the
+    // face if the sum of the winding numbers of the loops is not 0.
+    std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t firstLoop, std::uint32_t endLoop) const {
         int winding = 0;
         glm::dvec3 area(0);
-        for (std::uint32_t c = begin; c < end; ++c) {
-            const glm::dvec3& p = points_[set.corners[c]];
-            const glm::dvec3& q = points_[set.corners[c + 1 < end ? c + 1 : begin]];
-            area += glm::cross(p, q);
-            if (p.z >= 0 || q.z >= 0) return std::nullopt;
-            const glm::dvec2 a = pixelOf(p) - pixel_, b = pixelOf(q) - pixel_;
-            const double cross = a.x * b.y - a.y * b.x;
-            if (a.y <= 0 && b.y > 0 && cross > 0) ++winding;
-            if (a.y > 0 && b.y <= 0 && cross < 0) --winding;
+        for (std::uint32_t loop = firstLoop; loop < endLoop; ++loop) {
+            const std::uint32_t begin = set.cornerBegin[loop], end = set.cornerBegin[loop + 1];
+            for (std::uint32_t c = begin; c < end; ++c) {
+                const glm::dvec3& p = points_[set.corners[c]];
+                const glm::dvec3& q = points_[set.corners[c + 1 < end ? c + 1 : begin]];
+                area += glm::cross(p, q);
+                if (p.z >= 0 || q.z >= 0) return std::nullopt;
+                const glm::dvec2 a = pixelOf(p) - pixel_, b = pixelOf(q) - pixel_;
+                const double cross = a.x * b.y - a.y * b.x;
+                if (a.y <= 0 && b.y > 0 && cross > 0) ++winding;
+                if (a.y > 0 && b.y <= 0 && cross < 0) --winding;
+            }
         }
         const double across = glm::dot(area, ray_);
         if (winding == 0 || across == 0) return std::nullopt;
-        return glm::dot(area, points_[set.corners[begin]]) / across;
+        return glm::dot(area, points_[set.corners[set.cornerBegin[firstLoop]]]) / across;
     }
 
     const Scene& scene_;

@@ -188,6 +188,26 @@ TEST(Pick, FindsFacesBarsAndNothing) {
     }
 }
 
+TEST(Pick, FindsNoFaceInTheHoleOfAFace) {
+    Look look;
+    look.view = View::single;
+    look.parts.balls = look.parts.bars = false;
+    Picture picture("8-cell", look, {}, 1);
+    slicing::SliceSet& s = picture.slices;
+    s.vertices = {{-0.9, -0.9, 0}, {0.9, -0.9, 0}, {0.9, 0.9, 0}, {-0.9, 0.9, 0},
+                  {-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+    s.vertexBegin = {0, 8};
+    s.edgeBegin = {0, 0};
+    s.faceBegin = {0, 2};
+    s.cornerBegin = {0, 4, 8};
+    s.corners = {0, 1, 2, 3, 4, 7, 6, 5};  // a square, and a smaller one in the opposite direction
+    s.faceSource = {3, 3};
+    EXPECT_FALSE(picture.at(picture.project(glm::dvec3(0))));
+    const auto hit = picture.at(picture.project(picture.scene.scale * glm::dvec3(0.7, 0, 0)));
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, 3}));
+}
+
 // The box of a field has bars and balls, but no faces, so that its bars are found behind its front.
 TEST(Pick, FindsNoFacesOfTheBoxOfAField) {
     Look look;
