@@ -40,6 +40,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
     status_ = RunStatus::working;
     numbers_.clear();
     caps_.clear();
+    w = movedIntoDomain(w);
     for (std::size_t axis = 0; axis < 4; ++axis) {
         heights_[axis].clear();
         for (int i = 0; i < lattice_.pointCounts()[static_cast<int>(axis)]; ++i)
@@ -54,6 +55,27 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
     out.firstCap = out.triangles.size();
     out.triangles.insert(out.triangles.end(), caps_.begin(), caps_.end());
     return std::monostate{};
+}
+
+// Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a w just inside the domain. Without this, no
+// lattice point would be below the hyperplane at the lower end of the domain, because points in it count as above it,
+// and, if w is rounded, none might be above it at the upper end.
+double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
+    constexpr double kNear = 1e-9, kParallel = 1e-12;  // relative to the extent of the domain along w
+    double least = 0, greatest = 0;
+    std::array<double, 4> extents{};  // of the domain's sides along w
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const int last = lattice_.pointCounts()[static_cast<int>(axis)] - 1;
+        const auto [low, high] = std::minmax({lattice_.positionTerm(axis, 0).w, lattice_.positionTerm(axis, last).w});
+        least += low;
+        greatest += high;
+        extents[axis] = high - low;
+    }
+    const double extent = greatest - least, nearby = kNear * extent;
+    const auto tilted = std::ranges::count_if(extents, [&](double each) { return each > kParallel * extent; });
+    if (tilted > 1) return w;  // the hyperplane contains no facet
+    if (std::abs(w - least) <= nearby) return least + nearby;
+    return std::abs(w - greatest) <= nearby ? greatest - nearby : w;
 }
 
 // Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most as large as

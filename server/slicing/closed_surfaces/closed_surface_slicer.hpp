@@ -61,7 +61,8 @@ class ClosedSurfaceSlicer {
     ClosedSurfaceSlicer(const fields::Field& field, const geometry::Rotation& orientation, int cells = kFormulaCells)
         : lattice_(field, orientation, cells) {}
 
-    /// Slices the rotated field by the hyperplane at `w`. Overwrites `out`, which is incomplete after an error. Error:
+    /// Slices the rotated field by the hyperplane at `w`. If the hyperplane contains a facet of the domain, the slice
+    /// is the limit of those inside the domain. Overwrites `out`, which is incomplete after an error. Error:
     /// `too_large` if there are more than Options::maxTriangles triangles, or if `mustStop` returns true. Throws what
     /// `mustStop` throws.
     Result<std::monostate> slice(double w, const Options& options, ClosedSurface& out);
@@ -95,6 +96,7 @@ class ClosedSurfaceSlicer {
         bool positive;                                         // whether its signed volume is positive: see sectionOf()
     };
 
+    double movedIntoDomain(double w) const;
     void visit(const CellRange& range);
     bool meetsHyperplane(const CellRange& range) const;
     bool touchesBoundary(const CellRange& range) const;

@@ -242,8 +242,9 @@ TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
         EXPECT_TRUE(exactSlice(slicer, 0, 0.5, Inside::above).triangles.empty());
         EXPECT_TRUE(exactSlice(slicer, 0, -1).triangles.empty());
         EXPECT_TRUE(exactSlice(slicer, 1.5, 1).triangles.empty()) << "beside the domain";
-        EXPECT_TRUE(exactSlice(slicer, -1, 1).triangles.empty()) << "lattice points in the hyperplane are above it";
-        EXPECT_NEAR(measureSurface(exactSlice(slicer, 1, 1)).volume, 8, 1e-12);
+        for (const double end : {-1.0, 1.0, std::nextafter(-1.0, -2.0), std::nextafter(1.0, 2.0)})
+            EXPECT_NEAR(measureSurface(exactSlice(slicer, end, 1)).volume, 8, 1e-12) << "a facet of the domain";
+        EXPECT_TRUE(exactSlice(slicer, -1.001, 1).triangles.empty()) << "just beside the domain";
     }
     const fields::Field nothing = constant(NAN, {3, 3, 3, 3});
     ClosedSurfaceSlicer slicer(nothing, {});
