@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -31,7 +33,17 @@ class OpenFile {
     explicit OpenFile(const FileContents& file) {
         // The library does not change the bytes, although their type is not const.
         auto* const bytes = const_cast<std::byte*>(file.bytes.data());
-        status_ = nc_open_mem("field", NC_NOWRITE, file.bytes.size(), bytes, &id_);
+        const std::size_t size = file.bytes.size();
+        status_ = nc_open_mem("field", NC_NOWRITE, size, bytes, &id_);
+        // libnetcdf 4.9 reads the header of a file of the classic format in parts of growing size. If the header takes
+        // more than about half of the file, a part would end behind the file, which the library refuses with EPERM. So
+        // small files are followed by as many zeros.
+        constexpr std::size_t kMostPadded = std::size_t{1} << 20U;
+        if (status_ == EPERM && size <= kMostPadded) {
+            padded_.assign(file.bytes.begin(), file.bytes.end());
+            padded_.resize(2 * size);
+            status_ = nc_open_mem("field", NC_NOWRITE, padded_.size(), padded_.data(), &id_);
+        }
     }
     ~OpenFile() {
         if (status_ == NC_NOERR) nc_close(id_);
@@ -43,6 +55,7 @@ class OpenFile {
     int id() const { return id_; }
 
   private:
+    std::vector<std::byte> padded_;  // the file and zeros, if they are needed
     int id_ = -1, status_;
 };
 

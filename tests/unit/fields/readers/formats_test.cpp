@@ -311,6 +311,24 @@ TEST(Netcdf, PackedCoordinatesAreUnpacked) {
     EXPECT_EQ(std::vector(values.begin(), values.end()), (std::vector<float>{3, 4, 5, 0, 1, 2}));  // y decreases
 }
 
+TEST(Netcdf, HeadersMayBeLongerThanTheValues) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    for (const std::size_t length : {0, 20, 100, 300, 3000, 40'000}) {
+        SCOPED_TRACE(length);
+        int file = 0, dimension = 0, variable = 0;
+        check(nc_create(path.c_str(), NC_CLOBBER, &file));
+        check(nc_def_dim(file, "x", 3, &dimension));
+        check(nc_def_var(file, "f", NC_FLOAT, 1, &dimension, &variable));
+        check(nc_put_att_text(file, variable, "comment", length, std::string(length, 'a').c_str()));
+        check(nc_enddef(file));
+        const std::array<float, 3> samples{1, 2, 4};
+        check(nc_put_var_float(file, variable, samples.data()));
+        check(nc_close(file));
+        EXPECT_EQ(readOrFail(readFile(path)).samples.values()[2], 4);
+    }
+}
+
 TEST(Netcdf, ValuesNeverWrittenAreMissing) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
