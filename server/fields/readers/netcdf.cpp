@@ -158,6 +158,7 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
         format.min = range[0];
         format.max = range[1];
     }
+    format.roundLimitsToType();
     format.scale = first("scale_factor", 1);
     format.offset = first("add_offset", 0);
     return format;

@@ -135,6 +135,19 @@ bool NumberFormat::isPlain() const {
     return scale == 1 && offset == 0 && missing.empty() && min == -kInfinity && max == kInfinity;
 }
 
+double NumberFormat::roundedToType(double number) const {
+    // The greatest float in few digits, 3.4028235e38, is slightly greater than this float.
+    constexpr double kMost{std::numeric_limits<float>::max()}, kRoundedToMost = kMost * (1 + 0x1p-25);
+    if (type != NumberType::f4 || !(std::abs(number) < kRoundedToMost)) return number;
+    return double{static_cast<float>(std::clamp(number, -kMost, kMost))};
+}
+
+void NumberFormat::roundLimitsToType() {
+    for (double& number : missing) number = roundedToType(number);
+    min = roundedToType(min);
+    max = roundedToType(max);
+}
+
 void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:

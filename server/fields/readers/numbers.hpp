@@ -29,6 +29,12 @@ struct NumberFormat {
 
     /// Returns whether all stored numbers stand for themselves.
     bool isPlain() const;
+
+    /// Returns the number of the type that is closest to `number`; currently rounds only to 32-bit floats. Files state
+    /// numbers in another type than they store them, as a double or in decimal notation: no 32-bit float equals 0.1.
+    double roundedToType(double number) const;
+    /// Applies roundedToType() to `missing`, `min` and `max`.
+    void roundLimitsToType();
 };
 
 /// Returns the format of a NumPy type string, such as "<f4": a byte order (< little, > big, = or | that of this

@@ -285,6 +285,7 @@ void applyAttributes(ZarrArray& array) {
         array.format.min = range[0];
         array.format.max = range[1];
     }
+    array.format.roundLimitsToType();
     array.format.scale = first("scale_factor", 1);
     array.format.offset = first("add_offset", 0);
 }
@@ -388,11 +389,12 @@ Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) cons
     }
     auto fill = fillIn(**metadata, array->format);
     if (!fill) return fill.error();
-    array->fill = *fill;
+    array->fill = array->format.roundedToType(*fill);
     applyAttributes(*array);
     // An array with _ARRAY_DIMENSIONS was written by xarray. In version 2, xarray stores the attribute _FillValue as
     // fill_value, so samples with this value are missing.
-    if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill)) array->format.missing.push_back(*fill);
+    if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill))
+        array->format.missing.push_back(array->fill);
     auto valid = checked(std::move(*array));
     if (!valid) return valid.error();
     return std::optional(std::move(*valid));

@@ -347,6 +347,28 @@ TEST(Netcdf, ValuesNeverWrittenAreMissing) {
     EXPECT_FALSE(field.boxIsKnown);
 }
 
+TEST(Netcdf, LimitsAreRoundedToTheTypeOfTheNumbers) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    const double missing[2] = {-999.9, 3.4028235e38}, most = 0.1;
+    int file = 0, dimension = 0, variable = 0;
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_def_dim(file, "x", 4, &dimension));
+    check(nc_def_var(file, "f", NC_FLOAT, 1, &dimension, &variable));
+    check(nc_put_att_double(file, variable, "missing_value", NC_DOUBLE, 2, missing));
+    check(nc_put_att_double(file, variable, "valid_max", NC_DOUBLE, 1, &most));
+    check(nc_enddef(file));
+    const std::array<float, 4> stored{-999.9F, 0.1F, std::numeric_limits<float>::max(), -999.8F};
+    check(nc_put_var_float(file, variable, stored.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path));
+    const auto values = field.samples.values();
+    EXPECT_TRUE(std::isnan(values[0]));
+    EXPECT_EQ(values[1], 0.1F);
+    EXPECT_TRUE(std::isnan(values[2]));
+    EXPECT_EQ(values[3], -999.8F);
+}
+
 TEST(Hdf5, FindsDatasetsByTheirPath) {
     const auto samples = numbers();
     const auto bytes = hdf5(samples);

@@ -47,6 +47,20 @@ TEST(Zarr, EmptyArraysWithCoordinatesAreNamed) {
     EXPECT_EQ(field.error().message, "the array is empty");
 }
 
+TEST(Zarr, LimitsAreRoundedToTheTypeOfTheNumbers) {
+    const auto field =
+        readFiles({{".zarray", zarray("[6]", "[4]", "1e20")},
+                   {".zattrs", R"({"_ARRAY_DIMENSIONS":["x"],"missing_value":[-999.9,3.4028235e38],"valid_max":1e30})"},
+                   {"0", chunkOf({1e20F, 2, -999.9F, 1e30F})}});
+    ASSERT_TRUE(field) << field.error().message;
+    const auto values = field->samples.values();
+    EXPECT_TRUE(std::isnan(values[0]));
+    EXPECT_EQ(values[1], 2);
+    EXPECT_TRUE(std::isnan(values[2]));
+    EXPECT_EQ(values[3], 1e30F);
+    EXPECT_TRUE(std::isnan(values[4])) << "in a missing chunk";
+}
+
 TEST(Zarr, EscapedQuotesDoNotEndStrings) {
     const std::string name = R"("long_name":"a 6\" \\\"layer\" \\")";
     std::string metadata = zarray("[4]", "[2]", R"("NaN")");
