@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "fields/readers/axis_mapping.hpp"
+#include "fields/readers/cf_conventions.hpp"
 #include "fields/readers/gzip.hpp"
 #include "fields/readers/hdf5.hpp"
 #include "fields/readers/netcdf.hpp"
@@ -63,6 +64,7 @@ void setSeriesBox(ReadField& series, std::span<const double> times, const ReadOp
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
+    if (known) static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
     series.box.min.w = known ? times.front() : 0;
     series.box.max.w = known ? times.back() : last;
     if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);

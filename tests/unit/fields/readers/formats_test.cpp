@@ -535,5 +535,41 @@ TEST(FieldSeries, JoinsFilesAlongW) {
     EXPECT_EQ(seriesFiles(folder / "none").error().code, ErrorCode::not_found);
 }
 
+// A variable f(time, x) of one moment.
+std::string netcdfOfMoment(double time) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, coordinate = 0, variable = 0;
+    std::array<int, 2> dimensions{};
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_def_dim(file, "time", 1, &dimensions[0]));
+    check(nc_def_dim(file, "x", 2, &dimensions[1]));
+    check(nc_def_var(file, "time", NC_DOUBLE, 1, dimensions.data(), &coordinate));
+    check(nc_def_var(file, "f", NC_FLOAT, 2, dimensions.data(), &variable));
+    check(nc_enddef(file));
+    const std::array<float, 2> samples{1, 2};
+    check(nc_put_var_double(file, coordinate, &time));
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    return readFile(path);
+}
+
+TEST(FieldSeries, WarnsOfUnevenTimes) {
+    const auto seriesOf = [](const std::vector<double>& times) {
+        std::vector<FileContents> files;
+        for (const double time : times) files.push_back(FileContents::copyOf(netcdfOfMoment(time)));
+        return readSeries(files, {});
+    };
+    for (const auto& [times, warnings] :
+         {std::pair{std::vector{3.0, 5.0, 7.0}, 0U}, {std::vector{3.0, 4.0, 7.0}, 1U}}) {
+        const auto series = seriesOf(times);
+        ASSERT_TRUE(series) << series.error().message;
+        EXPECT_EQ(series->box.min.w, 3);
+        EXPECT_EQ(series->box.max.w, 7);
+        EXPECT_EQ(series->warnings.size(), warnings);
+    }
+    EXPECT_NE(seriesOf({3, 4, 7})->warnings.front().find("not evenly spaced"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace oval4d::fields::test
