@@ -165,12 +165,17 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
 }
 
 // Returns the coordinate variable of one of the variable's dimensions: the variable that has the dimension's name, and
-// has no other dimension. The name does not suffice: a variable may be named like a dimension that it does not have,
-// and a dimension of a group may be named like a dimension of an outer group.
+// has no other dimension. It may be in the variable's group or an outer one. The name does not suffice: a variable may
+// be named like a dimension that it does not have, and a dimension of a group may be named like a dimension of an outer
+// group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
-    auto found = variableNamed(variable.group, dimensionName(variable.group, dimension));
-    if (!found || found->dimensions != std::vector{dimension}) return {};
-    return found;
+    const std::string name = dimensionName(variable.group, dimension);
+    int group = variable.group;
+    do {
+        auto found = variableNamed(group, name);
+        if (found && found->dimensions == std::vector{dimension}) return found;
+    } while (nc_inq_grp_parent(group, &group) == NC_NOERR);
+    return {};
 }
 
 // Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
@@ -184,22 +189,49 @@ bool isAuxiliary(const Variable& variable) {
            (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
 }
 
+// Returns the file's groups: the outermost one, which is the file itself, then those within it.
+std::vector<int> groupsOf(int file) {
+    constexpr std::size_t kMaxGroups = 10'000;
+    std::vector<int> groups{file};
+    for (std::size_t i = 0; i < groups.size() && groups.size() < kMaxGroups; ++i) {
+        int count = 0;
+        if (nc_inq_grps(groups[i], &count, nullptr) != NC_NOERR || count <= 0) continue;
+        std::vector<int> inner(static_cast<std::size_t>(count));
+        if (nc_inq_grps(groups[i], &count, inner.data()) == NC_NOERR)
+            groups.insert(groups.end(), inner.begin(), inner.end());
+    }
+    return groups;
+}
+
+// Returns the path of a variable, as variableAtPath() takes it.
+std::string pathOf(const Variable& variable, int file) {
+    std::size_t length = 0;
+    if (variable.group == file || nc_inq_grpname_full(variable.group, &length, nullptr) != NC_NOERR)
+        return variable.name;
+    std::string path(length, '\0');
+    if (nc_inq_grpname_full(variable.group, &length, path.data()) != NC_NOERR) return variable.name;
+    return path.substr(path.starts_with('/') ? 1 : 0) + '/' + variable.name;
+}
+
 Result<Variable> defaultVariable(int file, ReadField& field) {
-    int count = 0;
-    if (nc_inq_nvars(file, &count) != NC_NOERR) return badField("the file's variables cannot be read");
     Variable chosen;
     std::size_t candidates = 0;
-    for (int id = 0; id < count; ++id) {
-        const auto variable = variableAt(file, id);
-        if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 || isAuxiliary(*variable))
-            continue;
-        ++candidates;
-        if (variable->dimensions.size() > chosen.dimensions.size()) chosen = *variable;
+    for (const int group : groupsOf(file)) {
+        int count = 0;
+        if (nc_inq_nvars(group, &count) != NC_NOERR) return badField("the file's variables cannot be read");
+        for (int id = 0; id < count; ++id) {
+            const auto variable = variableAt(group, id);
+            if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 ||
+                isAuxiliary(*variable))
+                continue;
+            ++candidates;
+            if (variable->dimensions.size() > chosen.dimensions.size()) chosen = *variable;
+        }
     }
     if (candidates == 0) return badField("the file has no variable of real numbers with 1 to 4 dimensions");
     if (candidates > 1) {
-        field.warnings.push_back("of " + std::to_string(candidates) + " variables, " + text::inQuotes(chosen.name) +
-                                 " is shown");
+        field.warnings.push_back("of " + std::to_string(candidates) + " variables, " +
+                                 text::inQuotes(pathOf(chosen, file)) + " is shown");
     }
     return chosen;
 }

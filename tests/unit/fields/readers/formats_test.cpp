@@ -283,6 +283,34 @@ TEST(Netcdf, TheDimensionOfAGroupIsNotTheOuterOneOfTheSameName) {
     EXPECT_FALSE(field.boxIsKnown);
 }
 
+TEST(Netcdf, VariablesAndCoordinatesMayBeInGroups) {
+    const std::array<float, 6> samples{1, 2, 3, 4, 5, 6};
+    const std::array<double, 3> at{10, 20, 30};
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, outer = 0, inner = 0, coordinate = 0, flat = 0, variable = 0;
+    std::array<int, 2> dimensions{};
+    check(nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &file));
+    check(nc_def_dim(file, "y", 2, &dimensions[0]));
+    check(nc_def_dim(file, "x", 3, &dimensions[1]));
+    check(nc_def_grp(file, "run", &outer));
+    check(nc_def_grp(outer, "last", &inner));
+    check(nc_def_var(file, "x", NC_DOUBLE, 1, &dimensions[1], &coordinate));
+    check(nc_def_var(outer, "mean", NC_FLOAT, 1, &dimensions[1], &flat));
+    check(nc_def_var(inner, "f", NC_FLOAT, 2, dimensions.data(), &variable));
+    check(nc_enddef(file));
+    check(nc_put_var_double(file, coordinate, at.data()));
+    check(nc_put_var_float(inner, variable, samples.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path));
+    EXPECT_EQ(field.shape, (Shape{3, 2, 1, 1}));
+    EXPECT_EQ(field.box, (Box{{10, 0, 0, 0}, {30, 1, 0, 0}}));
+    EXPECT_TRUE(field.boxIsKnown);
+    ASSERT_EQ(field.warnings.size(), 1);
+    EXPECT_NE(field.warnings.front().find("run/last/f"), std::string::npos) << field.warnings.front();
+    EXPECT_EQ(readOrFail(readFile(path), {.variable = "run/last/f"}).box, field.box);
+}
+
 TEST(Netcdf, PackedCoordinatesAreUnpacked) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
