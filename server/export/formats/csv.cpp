@@ -5,6 +5,7 @@
 
 #include "export/formats/text.hpp"
 #include "export/mesh/measure.hpp"
+#include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 #include "slicing/element.hpp"
@@ -46,6 +47,15 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
 
+// Returns the size of the tables in which a ClosedSurfaceSlicer has two numbers for each index along each axis of an
+// array. Those of a formula are small.
+std::size_t tableBytes(const fields::Field& field) {
+    std::size_t indices = 0;
+    if (field.array)
+        for (const std::size_t samples : field.array->shape()) indices += samples;
+    return 2 * sizeof(double) * indices;
+}
+
 std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     const geometry::Hyperplanes& planes = source.scene.slices->planes;
     const slicing::FieldSettings& settings = source.scene.look.field;
@@ -56,6 +66,7 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
+    source.budget.checkBytes(tableBytes(field));
     slicing::ClosedSurfaceSlicer slicer(field, source.orientation);
     slicing::ClosedSurface surface;
     slicing::ClosedSurfaceSlicer::Options options{

@@ -54,14 +54,12 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
         for (int i = 0; i < pointCounts_[a]; ++i) {
             const double t = static_cast<double>(i) / (pointCounts_[a] - 1);
             coordinates_[axis].push_back(glm::mix(field.box.min[a], field.box.max[a], t));
-            positionTerms_[axis].push_back((t - 0.5) * size[a] * toSlice[a]);
         }
+        sides_[axis] = size[a] * toSlice[a];
     }
     positive_ = glm::determinant(toSlice) > 0;
-    // The terms computed above are relative to the center of the box, but positions are relative to field.center, the
-    // origin of the object.
-    const glm::dvec4 shift = toSlice * (field.box.center() - field.center);
-    for (glm::dvec4& term : positionTerms_[0]) term += shift;
+    // Positions are relative to field.center, the origin of the object.
+    shift_ = toSlice * (field.box.center() - field.center);
 }
 
 fields::Bounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {

@@ -39,8 +39,10 @@ class FieldLattice {
                (positionTerm(2, point.z) + positionTerm(3, point.w));
     }
     /// Returns the contribution of the index along one axis to the position of a point.
-    const glm::dvec4& positionTerm(std::size_t axis, int index) const {
-        return positionTerms_[axis][static_cast<std::size_t>(index)];
+    glm::dvec4 positionTerm(std::size_t axis, int index) const {
+        const double fraction = static_cast<double>(index) / (pointCounts_[static_cast<int>(axis)] - 1);
+        const glm::dvec4 term = (fraction - 0.5) * sides_[axis];
+        return axis == 0 ? term + shift_ : term;
     }
     /// Returns whether the axes of the lattice are a positively oriented basis in the coordinates of the rotated
     /// object.
@@ -59,7 +61,8 @@ class FieldLattice {
   private:
     const fields::Field& field_;
     glm::ivec4 pointCounts_{2};
-    std::array<std::vector<glm::dvec4>, 4> positionTerms_;
+    std::array<glm::dvec4, 4> sides_{};               // of the domain, in the coordinates of the rotated object
+    glm::dvec4 shift_{0};                             // the center of the domain in these coordinates
     std::array<std::vector<double>, 4> coordinates_;  // per axis and index: the function's coordinate
     bool positive_ = true;
 };

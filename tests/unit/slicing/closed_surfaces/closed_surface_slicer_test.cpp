@@ -1,5 +1,7 @@
 #include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -369,6 +371,20 @@ TEST(ClosedSurfaceSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
         sum += (ws.back() - ws.front()) / kSlices * measureSurface(exactSlice(slicer, w, 0)).volume;
     }
     EXPECT_NEAR(sum / bodyVolume(simplices, 0, Inside::below), 1, 1e-4);
+}
+
+TEST(ClosedSurfaceSlicer, ALongAxisTakesLittleMemory) {
+    std::mt19937 random(37);
+    constexpr std::size_t kSamples = std::size_t{1} << 20U;
+    const fields::Field field = randomArray({kSamples, 1, 1, 1}, {glm::dvec4(-1), glm::dvec4(1)}, random);
+    const auto used = [] {
+        const auto info = mallinfo2();
+        return info.uordblks + info.hblkhd;
+    };
+    const std::size_t before = used();
+    const ClosedSurfaceSlicer slicer(field, {});
+    EXPECT_LT(used(), before + 2 * sizeof(double) * kSamples);
+    EXPECT_LT(glm::distance(slicer.lattice().position(glm::ivec4(0)), glm::dvec4(-1)), 1e-12);
 }
 
 TEST(ClosedSurfaceSlicer, IsBoundedAndCancelable) {
