@@ -115,7 +115,7 @@ async def test_names_of_dimensions_and_attributes(shared, version):
             assert field["box"] == [[0, 4.5], [0, 7], [1, 6], [1000, 1180]]
             assert field["range"] == [float(packed.min()) * 0.5 + 2, float(packed.max()) * 0.5 + 2]
         refused = await refusal(shared, name, variable="q")
-        assert refused.code == "not_found" and "did you mean" in str(refused).lower() or refused.code == "out_of_range"
+        assert refused.code == "not_found"
 
 
 @pytest.mark.parametrize("version", [2, 3])

@@ -269,7 +269,7 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
         std::vector<std::string_view> names;
         const auto chosen = zarr.chooseArray();
         if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
-        return Error{ErrorCode::out_of_range,
+        return Error{ErrorCode::not_found,
                      "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
     }
     ZarrArray& array = **found;

@@ -33,9 +33,9 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// remain.
 ///
 /// Errors: `bad_field` if the metadata are not valid, or if a chunk is damaged or does not have the stated size;
-/// `out_of_range` if there is no array at `options.variable`, if a group does not list its arrays, or if `options.axes`
-/// does not fit the array; `unsupported_format` for other types, compressors and filters; `too_large`; and those of
-/// `folder`.
+/// `not_found` if there is no array at `options.variable`; `out_of_range` if a group does not list its arrays, or if
+/// `options.axes` does not fit the array; `unsupported_format` for other types, compressors and filters; `too_large`;
+/// and those of `folder`.
 Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -61,6 +61,14 @@ TEST(Zarr, LimitsAreRoundedToTheTypeOfTheNumbers) {
     EXPECT_TRUE(std::isnan(values[4])) << "in a missing chunk";
 }
 
+TEST(Zarr, AMissingVariableIsNotFound) {
+    const Files group{{".zgroup", R"({"zarr_format":2})"}, {"f/.zarray", zarray("[2]", "[2]")}};
+    ASSERT_TRUE(readFiles(group, "f"));
+    const auto field = readFiles(group, "g");
+    ASSERT_FALSE(field);
+    EXPECT_EQ(field.error().code, ErrorCode::not_found);
+}
+
 TEST(Zarr, EscapedQuotesDoNotEndStrings) {
     const std::string name = R"("long_name":"a 6\" \\\"layer\" \\")";
     std::string metadata = zarray("[4]", "[2]", R"("NaN")");
