@@ -185,6 +185,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                               .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
+    // The source of a section's face that is a 2-face of the object is not a cell.
+    for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
 
     projection.scale = out.projectionPlacement.objectRadius / out.circumradius;
     const double ball = out.projectionPlacement.ballRadius, bar = out.projectionPlacement.barRadius;

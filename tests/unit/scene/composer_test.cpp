@@ -1,6 +1,8 @@
 // What a scene contains: the colors of its cells and the parts of the projection.
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -62,6 +64,22 @@ TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
     const Scene none = composed("24-cell", 21, {}, look);
     EXPECT_EQ(none.projection.parts[0].ballRadius, 0);
     EXPECT_EQ(none.projection.parts[0].barRadius, 0);
+}
+
+TEST(ObjectProjection, colorsTheSectionThatIsACellByItsNeighbors) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    const Scene s = composed("8-cell", 3, {}, look, 1, 1);  // w = 1 holds a whole cell
+    const slicing::SliceSet& elements = s.projection.elements;
+    ASSERT_EQ(s.projection.faceCells.size(), elements.faceSource.size());
+    ASSERT_EQ(elements.faceCount(1), 6U);
+    for (std::uint32_t f = elements.faceBegin[1]; f < elements.faceBegin[2]; ++f) {
+        ASSERT_GE(elements.faceSource[f], 8U) << "a 2-face, not a cell";
+        const std::uint32_t cell = s.projection.faceCells[f];
+        ASSERT_LT(cell, s.cellColors.size());
+        const auto faces = named("8-cell").cells[cell];
+        EXPECT_EQ(std::ranges::count(faces, elements.faceSource[f] - 8), 1) << "the cell has the 2-face";
+    }
 }
 
 TEST(Cloud, isShownWithoutBallsAndBars) {
