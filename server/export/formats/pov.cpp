@@ -91,6 +91,8 @@ struct PovMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<std::uint32_t, 3>> textures;  ///< per triangle: the numbers of its corners' textures
+    /// Whether light from behind shines on a triangle as light from the front does, as on faces in pictures.
+    bool isLitFromBehind = false;
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t texture) {
         triangles.push_back({a, b, c});
@@ -125,7 +127,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
         out += ",\n<" + std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(c) + ">";
         for (const std::uint32_t texture : mesh.textures[t]) out += ", " + std::to_string(places.at(texture));
     }
-    out += " }\n}\n";
+    out += mesh.isLitFromBehind ? " }\ndouble_illuminate\n}\n" : " }\n}\n";
 }
 
 /// The place of a slice or of a part of the projection, and how its balls and bars are drawn.
@@ -246,6 +248,7 @@ class PovWriter {
     template <typename CellOf>
     void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPart& part, double opacity, CellOf cellOf) {
         PovMesh mesh;
+        mesh.isLitFromBehind = true;
         for (std::uint32_t v = set.vertexBegin[slice]; v < set.vertexBegin[slice + 1]; ++v)
             mesh.points.push_back(part(set.vertices[v]));
         for (std::uint32_t f = set.faceBegin[slice]; f < set.faceBegin[slice + 1]; ++f) {
@@ -263,6 +266,7 @@ class PovWriter {
     void addPieces(std::size_t slice, const PovPart& part) {
         const slicing::FilledFaces& fill = scene_.fill;
         PovMesh mesh;
+        mesh.isLitFromBehind = true;
         for (std::uint32_t f = fill.faceBegin[slice]; f < fill.faceBegin[slice + 1]; ++f) {
             const double own = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(fill.faces[f].source));
             if (own == 0) continue;

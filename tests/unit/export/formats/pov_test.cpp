@@ -116,6 +116,7 @@ TEST(Pov, hasTheBallsBarsAndFacesOfTheSlices) {
     EXPECT_EQ(occurrences(pov.text, "texture_list { 6,"), 3U);
     EXPECT_EQ(occurrences(pov.text, "face_indices { 12,"), 3U);
     EXPECT_EQ(occurrences(pov.text, "normal_vectors"), 0U) << "faces are flat";
+    EXPECT_EQ(occurrences(pov.text, " }\ndouble_illuminate\n}\n"), 3U) << "and as bright with the light behind them";
     EXPECT_EQ(occurrences(pov.text, "finish { Matte }"), 6U) << "each texture is declared once";
     EXPECT_EQ(occurrences(pov.text, ", 0.54> } finish { Matte }"), 6U) << "the opacity on a dark ground is 0.46";
     EXPECT_EQ(occurrences(pov.text, "finish { Shiny }"), 2U) << "of balls and bars";
@@ -171,6 +172,7 @@ TEST(Pov, hasSmoothSurfacesOfFields) {
     const SlicedBall ball({0, 1, 0.5});
     const std::string text = bytesOf(ball.exported(PovOfPolytope::oval()));
     EXPECT_EQ(occurrences(text, "mesh2 {"), 1U) << "the ball has no caps";
+    EXPECT_EQ(occurrences(text, "double_illuminate"), 0U);
     const auto points = vectorsInList(text, "vertex_vectors"), normals = vectorsInList(text, "normal_vectors");
     ASSERT_GT(points.size(), 1000U);
     ASSERT_EQ(normals.size(), points.size());
