@@ -550,6 +550,8 @@ class Client:
                     setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
                 if number in self._waiting:
                     framed = kind == "done" and number in self._wants_bytes
+                    # The call may still be in another thread. The next frame is no answer to it.
+                    self._wants_bytes.discard(number)
                     if framed:
                         pictures.clear()
                     self._waiting[number] = (self._binary, message.get("warnings", [])) if framed else message

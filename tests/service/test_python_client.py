@@ -207,6 +207,17 @@ def test_only_pictures_of_the_stream_are_acknowledged(server, monkeypatch):
         wait_until(lambda: {"type": "shown", "revision": 0} in sent, "the picture of the stream to be acknowledged")
 
 
+def test_a_picture_of_the_stream_right_after_the_answer_to_a_call_is_not_held(server):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        frame = oval.frame(32, 18)
+        oval._waiting[1000] = None  # a call, whose thread does not run before the next picture arrives
+        oval._wants_bytes.add(1000)
+        assert oval._receive(frame) == []
+        assert oval._receive('{"type":"done","id":1000,"revision":0}') == []
+        assert oval._receive(frame) == [(0, frame)]
+
+
 def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
     from IPython.core.displaypub import CapturingDisplayPublisher
