@@ -21,7 +21,7 @@ export type Parts = State["shown"];
 /** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
 export type Orbit = State["camera"];
 /** The number of slices, the distance between them, and their position along w. */
-export type SliceSettings = State["slices"];
+export type HyperplaneSettings = State["slices"];
 /** An element of a polytope, numbered from 0 among those of its kind. */
 export type PolytopeElement = NonNullable<State["highlight"]>;
 

@@ -21,9 +21,10 @@ using geometry::CellType;
 /// A 4-D polytope: a cell complex that is the boundary of a body, or of several. makePolytope() builds it. Threads and
 /// sessions share it as a const object. If it was built from a name, its center is the origin.
 struct Polytope : geometry::CellComplex {
-    /// The 2-faces around each edge, in cyclic order (several cycles are stored one after another): 2-face f is stored
-    /// as 2 f + 1 if its vertex loop traverses the edge from the edge's first vertex to its second, else as 2 f. The
-    /// cell between an entry s and the next entry of its cycle is faceCells[s / 2][1 − s mod 2].
+    /// The 2-faces around each edge, in cyclic order: 2-face f is stored as 2 f + 1 if its vertex loop traverses the
+    /// edge from the edge's first vertex to its second, else as 2 f. The cell between an entry s and the next entry of
+    /// its cycle is faceCells[s / 2][1 − s mod 2]. If several bodies meet in an edge, it has several cycles, one after
+    /// another; a cycle ends with the entry that is followed by the cell before its first entry.
     geometry::JaggedArray edgeFaces;
 
     std::size_t cellCount() const { return cells.size(); }

@@ -30,7 +30,7 @@ std::string fixed(double number, int decimals) {
 
 // Returns a positive number as labelNumber() writes it if `decimals` is greater than kMaxPlainDecimals. formatW() in
 // web_client/src/format.ts returns the same text.
-std::string withManyDecimals(double number, int decimals) {
+std::string withExponentIfSmall(double number, int decimals) {
     constexpr int kMostDigits = 17;  // the significant digits of a double
     constexpr double kLeastWithoutExponent = 1e-4;
     std::array<char, 48> digits{};
@@ -54,7 +54,7 @@ int labelDecimals(const geometry::Hyperplanes& planes) {
 std::string labelNumber(double w, int decimals) {
     if (std::abs(w) < 0.5 * std::pow(10, -decimals)) return "0";
     return (w < 0 ? "\u2212" : "") +
-           (decimals > kMaxPlainDecimals ? withManyDecimals(std::abs(w), decimals) : fixed(std::abs(w), decimals));
+           (decimals > kMaxPlainDecimals ? withExponentIfSmall(std::abs(w), decimals) : fixed(std::abs(w), decimals));
 }
 
 }  // namespace oval4d::scene

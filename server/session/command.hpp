@@ -61,7 +61,7 @@ struct LoadObject {
     std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
     /// Whether the command belongs to the undo step of the previous command, as while a user edits a formula. If it
     /// does, and if a field replaces a field, FieldSettings stay the same; if both fields also have the same
-    /// circumradius, SliceSettings and the focus point stay the same, too.
+    /// circumradius, HyperplaneSettings and the focus point stay the same, too.
     bool continues = false;
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().
@@ -118,10 +118,10 @@ struct Set {
     std::optional<double> pace;               ///< ReferenceFrame::pace
     std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
     std::optional<glm::dmat4> orientation;
-    std::optional<int> count;       ///< SliceSettings::count, which is odd
-    std::optional<double> spacing;  ///< SliceSettings::spacing
-    std::optional<int> focus;       ///< SliceSettings::focus
-    std::optional<double> offset;   ///< SliceSettings::offset
+    std::optional<int> count;       ///< HyperplaneSettings::count, which is odd
+    std::optional<double> spacing;  ///< HyperplaneSettings::spacing
+    std::optional<int> focus;       ///< HyperplaneSettings::focus
+    std::optional<double> offset;   ///< HyperplaneSettings::offset
     std::optional<double> focusW;   ///< w of the focus slice, in the coordinates of the object's file: sets focus and
                                     ///< offset (see moveFocusTo())
     std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:

@@ -24,7 +24,7 @@ constexpr double kSpacingFactor = 1.1;
 
 void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
 
-// Returns the indices n (see SliceSettings) of the first and the last hyperplane that intersect the object.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;

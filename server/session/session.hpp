@@ -26,20 +26,20 @@ namespace oval4d::session {
 /// The objects loaded into a session, by name.
 using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
 
-/// Bounds of SliceSettings.
+/// Bounds of HyperplaneSettings.
 inline constexpr double kMinSpacing = 1e-6, kMaxSpacing = 10;  ///< as multiples of the object's circumradius
 inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
 inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
 
 /// The hyperplanes that cut the object into slices: w = offset + n · spacing, for `count` consecutive integers n.
-struct SliceSettings {
+struct HyperplaneSettings {
     int count = 21;      ///< odd; n is from focus − h to focus + h, where h = (count − 1) / 2
     double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the object's units
     int focus = 0;       ///< f, the index of the focus slice
     double offset = 0;   ///< w of the hyperplane n = 0, in the object's units
-    bool operator==(const SliceSettings&) const = default;
+    bool operator==(const HyperplaneSettings&) const = default;
 };
-void visitStoredMembers(serialization::ReadOrWritten<SliceSettings> auto& slices, auto& visit) {
+void visitStoredMembers(serialization::ReadOrWritten<HyperplaneSettings> auto& slices, auto& visit) {
     auto& [count, spacing, focus, offset] = slices;
     visit.member(0, count);
     visit.member(1, spacing, geometry::Range::finite());
@@ -74,7 +74,7 @@ struct State {
     geometry::Rotation orientation;
     double alpha, beta;  ///< the angles of the rotation keys, in radians
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
-    SliceSettings slices;
+    HyperplaneSettings slices;
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
@@ -123,7 +123,7 @@ double spanningSpacing(const slicing::Object& object, int count);
 
 /// Limits on a session. Each can be set by an option of the server.
 struct Limits {
-    int maxSlices = 201;                    ///< the maximum of SliceSettings::count
+    int maxSlices = 201;                    ///< the maximum of HyperplaneSettings::count
     std::size_t maxUndo = 1000;             ///< undo steps
     std::size_t maxUndoBytes = 64U << 20U;  ///< bytes of objects and cell type lists that only undo steps use
     std::size_t maxLoaded = 8;              ///< objects loaded into one session

@@ -115,10 +115,11 @@ void forEachSetting(const Visitor& visit) {
     plain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
 
     const auto slices = &State::slices;
-    withOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &SliceSettings::count), never);
-    withOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &SliceSettings::spacing), never);
-    withOwnCode({"focus", "slices"}, &Set::focus, at(slices, &SliceSettings::focus), by_reset_or_another_object);
-    withOwnCode({"offset", "slices"}, &Set::offset, at(slices, &SliceSettings::offset), by_reset_or_another_object);
+    withOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &HyperplaneSettings::count), never);
+    withOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &HyperplaneSettings::spacing), never);
+    withOwnCode({"focus", "slices"}, &Set::focus, at(slices, &HyperplaneSettings::focus), by_reset_or_another_object);
+    withOwnCode({"offset", "slices"}, &Set::offset, at(slices, &HyperplaneSettings::offset),
+                by_reset_or_another_object);
     withOwnCode({"w", "slices"}, &Set::focusW, NotInState{}, never);
     withOwnCode(
         {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
@@ -143,11 +144,10 @@ void forEachSetting(const Visitor& visit) {
     plain({"eye"}, at(look, projection, &Projection::eye),
           NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
     const auto field = &Look::field;
-    using Field = slicing::FieldSettings;
-    withOwnCode({"levels"}, &Set::levels, at(look, field, &Field::levels), by_another_object, true);
-    withOwnCode({"inside"}, &Set::inside, at(look, field, &Field::inside), by_another_object, true);
+    withOwnCode({"levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), by_another_object, true);
+    withOwnCode({"inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), by_another_object, true);
     plain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
-    withOwnCode({"fog"}, &Set::fog, at(look, field, &Field::fog), by_another_object, true);
+    withOwnCode({"fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
     withOwnCode({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
     withOwnCode({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);

@@ -231,16 +231,17 @@ class StateReader : public MemberReader {
     const ObjectListDecoder& objects_;
 };
 
-// --- Checks of members together with other members or the object
+// --- Checks of a state whose members have been read
 //
-// These limits are at least as wide as those that the server enforces for clients. Without them, a damaged record could
-// produce, for example, a state with a million slices instead of an error.
+// They concern single members, and how members fit each other and the object. Their limits are at least as wide as
+// those that the server enforces for clients. Without them, a damaged record could produce, for example, a state with a
+// million slices instead of an error.
 
 // Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, they may
 // exceed these limits by this fraction.
 constexpr double kSlack = 1e-9;
 
-void check(const session::SliceSettings& slices, double circumradius) {
+void check(const session::HyperplaneSettings& slices, double circumradius) {
     constexpr int kMaxSlices = 100'001;
     const auto& [count, spacing, focus, offset] = slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0)

@@ -49,7 +49,7 @@ function formatRounded(value: number, decimals: number): string {
     if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
     const size = Math.abs(value);
     if (size < 0.5 * 10 ** -decimals) return "0";
-    const text = withManyDecimals(size, decimals)
+    const text = withExponentIfSmall(size, decimals)
         .replace(/(\.\d*?)0+(e|$)/, "$1$2")
         .replace(/\.(e|$)/, "$1");
     return value < 0 ? kMinus + text : text;
@@ -61,7 +61,7 @@ function exponentOf(value: number): number {
 }
 
 /** A positive number with more than kMaxPlainDecimals decimals, as in server/scene/slice_label.cpp. */
-function withManyDecimals(size: number, decimals: number): string {
+function withExponentIfSmall(size: number, decimals: number): string {
     const exponent = exponentOf(size);
     const atMost = (most: number, wanted: number): number => Math.max(0, Math.min(most, wanted));
     if (size >= 1e-4) return size.toFixed(atMost(decimals, kMostDigits - 1 - exponent));
@@ -79,7 +79,7 @@ export function formatW(w: number, spacing: number): string {
     if (decimals > kMaxPlainDecimals) {
         const size = Math.abs(w);
         if (size < 0.5 * 10 ** -decimals) return "0";
-        return (w < 0 ? kMinus : "") + withManyDecimals(size, decimals);
+        return (w < 0 ? kMinus : "") + withExponentIfSmall(size, decimals);
     }
     const text = new Intl.NumberFormat("en-US", {
         minimumFractionDigits: decimals,

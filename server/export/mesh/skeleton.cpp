@@ -101,8 +101,8 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const RoundingGrid& grid, const Budget& budget) {
-    // The offset keeps the points of the field off the symmetry planes of the polytope, where many values would be
-    // equal.
+    // The offset keeps the sample points off the symmetry planes of the polytope. There, many samples could be exactly
+    // 0 at once, and triangles with corners at such points degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTime();

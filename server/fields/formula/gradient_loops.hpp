@@ -44,13 +44,13 @@ class GradientLoops : private ValueLoops<Math> {
   private:
     using OperandForm = Instruction::OperandForm;
     using Size = std::size_t;
-    using Base::binary;
     using Base::choosesFirst;
     using Base::compute;
     using Base::halfIntegerPower;
     using Base::integerPower;
     using Base::isHalfInteger;
     using Base::map;
+    using Base::powerOrAtan2;
     using Base::sign;
     using typename Base::Array;
     using typename Base::Number;
@@ -201,7 +201,7 @@ class GradientLoops : private ValueLoops<Math> {
                 return ValueAndPartials{0, x / squares, -y / squares};
             },
             instruction, out, a, b, size);
-        binary(instruction, out.value, a, b, size);
+        powerOrAtan2(instruction, out.value, a, b, size);
     }
 
     // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a, which is 0 for a = 0 < b.
@@ -211,7 +211,7 @@ class GradientLoops : private ValueLoops<Math> {
             fill([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b, size);
             Math::unary(Operation::log, out.byB, out.byB, size);
         }
-        binary(instruction, out.value, a, b, size);
+        powerOrAtan2(instruction, out.value, a, b, size);
         if (instruction.axesOfB != 0) {
 #pragma omp simd
             for (Size i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
@@ -225,7 +225,7 @@ class GradientLoops : private ValueLoops<Math> {
         }
         float exponents[kGradientBlockPoints];
         for (Size i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
-        Math::binary(Operation::power, out.byA, a, exponents, size);
+        Math::powerOrAtan2(Operation::power, out.byA, a, exponents, size);
         for (Size i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
     }
 

@@ -63,7 +63,7 @@ struct VectorMath {
                 return;
         }
     }
-    static void binary(Operation operation, float* out, const float* a, const float* b, std::size_t size) {
+    static void powerOrAtan2(Operation operation, float* out, const float* a, const float* b, std::size_t size) {
         if (operation == Operation::power) {
             map<pow8>(out, a, b, size);
         } else {

@@ -43,7 +43,7 @@ struct PortableMath {
                 return;
         }
     }
-    static void binary(Operation operation, float* out, const float* a, const float* b, std::size_t size) {
+    static void powerOrAtan2(Operation operation, float* out, const float* a, const float* b, std::size_t size) {
         if (operation == Operation::power) {
             for (std::size_t i = 0; i < size; ++i) out[i] = ::powf(a[i], b[i]);
         } else {

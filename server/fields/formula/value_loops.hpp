@@ -9,11 +9,11 @@
 
 namespace oval4d::fields {
 
-/// `Math` must have static functions unary(operation, out, a, size) for exp, log, sin …, and binary(operation, out, a,
-/// b, size) for power and atan2. It must be a type that only the including source file has, for example in an anonymous
-/// namespace: if several files instantiated the same template, the linker would keep one copy (by the one-definition
-/// rule), possibly one with instructions that this processor lacks. For the same reason, nothing here calls inline
-/// functions of other headers.
+/// `Math` must have static functions unary(operation, out, a, size) for exp, log, sin …, and
+/// powerOrAtan2(operation, out, a, b, size). It must be a type that only the including source file has, for example in
+/// an anonymous namespace: if several files instantiated the same template, the linker would keep one copy (by the
+/// one-definition rule), possibly one with instructions that this processor lacks. For the same reason, nothing here
+/// calls inline functions of other headers.
 template <typename Math>
 class ValueLoops {
   public:
@@ -110,7 +110,7 @@ class ValueLoops {
                            size);
             case Operation::power:
             case Operation::atan2:
-                return binary(instruction, out, a, b, size);
+                return powerOrAtan2(instruction, out, a, b, size);
             default:
                 return Math::unary(instruction.operation, out, a, size);
         }
@@ -136,7 +136,7 @@ class ValueLoops {
     }
 
     // power or atan2; NaN if an operand is NaN, unlike C's pow.
-    static void binary(const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
+    static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
         const auto number = static_cast<float>(instruction.number);
         if (instruction.operation == Operation::power && instruction.form == OperandForm::register_and_number &&
             isHalfInteger(number))
@@ -146,7 +146,7 @@ class ValueLoops {
             for (Size i = 0; i < size; ++i) numbers[i] = number;
             (instruction.form == OperandForm::register_and_number ? b : a) = numbers;
         }
-        Math::binary(instruction.operation, results, a, b, size);
+        Math::powerOrAtan2(instruction.operation, results, a, b, size);
 #pragma omp simd
         for (Size i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
     }

@@ -460,7 +460,8 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     auto& connections = context.services.metrics.connections;
     try {
         AddressAccountPtr client = context.services.clients.findOrCreate(peer.address());
-        // Many clients share the connections of a trusted proxy; each request names its client in X-Forwarded-For.
+        // The limit of connections per client does not apply to a trusted proxy, because its connections serve many
+        // clients: each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
         const auto admission = context.connections.admit(*client, 0, isProxy);
         co_await std::make_shared<HttpConnection>(std::move(socket), std::move(context), std::move(client), admission)

@@ -64,7 +64,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Notes that the session has reached a new revision.
     void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
-    /// Makes the next pictures of a field drafts, as if the session changed in quick succession.
+    /// Makes the pictures of a field drafts until the session rests, as after changes in quick succession (see
+    /// DraftTiming).
     void beginDrafts() { draftTiming_.begin(); }
     /// Notes that a client shows the picture of this revision, and sends the next one.
     void pictureShown(const Peer& peer, std::uint64_t ofRevision);

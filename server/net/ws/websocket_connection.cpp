@@ -81,8 +81,9 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
     stream_.auto_fragment(false);
 }
 
-/// Closes the connection if no hello arrives in time. If the time ends while a hello is being handled, which may take
-/// long because the session is read from the store, handleHello() closes the connection after a failure.
+/// Closes the connection if no hello arrives in time. Does nothing if the time ends while a hello is being handled,
+/// which may take long because the session is read from the store; if this hello fails, handleHello() closes the
+/// connection.
 void WebSocketConnection::startHelloTimer() {
     helloDeadline_.expires_after(toSteadyDuration(services_.options.helloTimeout));
     helloDeadline_.async_wait([weak = weak_from_this()](boost::system::error_code canceled) {

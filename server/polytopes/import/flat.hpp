@@ -23,9 +23,10 @@ template <std::size_t Dimension>
 class Flat {
   public:
     static constexpr std::size_t kCorners = Dimension + 1;
-    using Corners = std::array<std::uint32_t, kCorners>;
+    using SimplexCorners = std::array<std::uint32_t, kCorners>;
 
-    Flat(const Corners& corners, std::span<const glm::dvec4> points) : corners_(corners), origin_(points[corners[0]]) {
+    Flat(const SimplexCorners& corners, std::span<const glm::dvec4> points)
+        : corners_(corners), origin_(points[corners[0]]) {
         for (std::size_t j = 0; j < Dimension; ++j) {
             glm::dvec4 rest = points[corners.at(j + 1)] - origin_;
             for (std::size_t i = 0; i < j; ++i) {
@@ -39,7 +40,7 @@ class Flat {
         }
     }
 
-    const Corners& corners() const { return corners_; }
+    const SimplexCorners& corners() const { return corners_; }
     /// Returns the volume of the simplex times the factorial of its dimension.
     double volume() const { return volume_; }
     /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
@@ -85,7 +86,7 @@ class Flat {
     }
 
   private:
-    Corners corners_;
+    SimplexCorners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
     // Entry j: the edge from corner 0 to corner j + 1, as coordinates along axes_.

@@ -174,10 +174,10 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
 }
 
 // The layouts of vertices, 2-faces and cells.
-using Layouts = std::array<Layout, 3>;
+using RecordLayouts = std::array<Layout, 3>;
 
 // Reads the records after the header. `file` is a copy, which begins after the header.
-PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& layouts) {
+PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
     // The greatest sizes bound memory. If there are cells, a loop may pass through a vertex more than once; repair()

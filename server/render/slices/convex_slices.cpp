@@ -40,7 +40,7 @@ void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, c
     paintProjectionIfDue(-1);
 }
 
-void ConvexShapeCollector::paintSlice(const SliceView& slice, ShapeBatch& out) {
+void ConvexShapeCollector::paintSlice(const SliceRef& slice, ShapeBatch& out) {
     transformVertices(slice);
     classify(slice);
     sortByDepth(slice);
@@ -50,7 +50,7 @@ void ConvexShapeCollector::paintSlice(const SliceView& slice, ShapeBatch& out) {
     }
 }
 
-void ConvexShapeCollector::transformVertices(const SliceView& slice) {
+void ConvexShapeCollector::transformVertices(const SliceRef& slice) {
     const SliceTransform transform(slice);
     points_.resize(slice.vertices());
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -59,7 +59,7 @@ void ConvexShapeCollector::transformVertices(const SliceView& slice) {
 
 /// Determines which faces are turned toward the eye, and which edges and vertices belong to at least one of these
 /// faces.
-void ConvexShapeCollector::classify(const SliceView& slice) {
+void ConvexShapeCollector::classify(const SliceRef& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
     faceSide_.resize(slice.faces());
@@ -83,7 +83,7 @@ void ConvexShapeCollector::classify(const SliceView& slice) {
 
 /// Sorts vertices from far to near, and groups edges by their farther vertex. Drawn in this order, a bar covers the
 /// ball at its far end, and the ball at its near end covers the bar.
-void ConvexShapeCollector::sortByDepth(const SliceView& slice) {
+void ConvexShapeCollector::sortByDepth(const SliceRef& slice) {
     order_.resize(slice.vertices());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -102,7 +102,7 @@ void ConvexShapeCollector::sortByDepth(const SliceView& slice) {
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 
-void ConvexShapeCollector::paintFaces(const SliceView& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintFaces(const SliceRef& slice, Side side, ShapeBatch& out) {
     const auto opacity = static_cast<float>(slice.scene.faceOpacity);
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
@@ -116,7 +116,7 @@ void ConvexShapeCollector::paintFaces(const SliceView& slice, Side side, ShapeBa
     }
 }
 
-void ConvexShapeCollector::paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out) {
     const SkeletonStyle skeleton(slice.scene);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];

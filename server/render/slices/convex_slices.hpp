@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "render/slices/shape_batch.hpp"
-#include "render/slices/slice_view.hpp"
+#include "render/slices/slice_ref.hpp"
 #include "scene/scene.hpp"
 #include "slicing/slice_set.hpp"
 
@@ -30,12 +30,12 @@ class ConvexShapeCollector {
   private:
     enum class Side : std::uint8_t { away, toward };
 
-    void paintSlice(const SliceView& slice, ShapeBatch& out);
-    void transformVertices(const SliceView& slice);
-    void classify(const SliceView& slice);
-    void sortByDepth(const SliceView& slice);
-    void paintFaces(const SliceView& slice, Side side, ShapeBatch& out);
-    void paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out);
+    void paintSlice(const SliceRef& slice, ShapeBatch& out);
+    void transformVertices(const SliceRef& slice);
+    void classify(const SliceRef& slice);
+    void sortByDepth(const SliceRef& slice);
+    void paintFaces(const SliceRef& slice, Side side, ShapeBatch& out);
+    void paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out);
 
     std::vector<std::uint32_t> placementOrder_;          // visible slices from far to near
     std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates

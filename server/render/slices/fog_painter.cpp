@@ -12,7 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "render/slices/slice_view.hpp"
+#include "render/slices/slice_ref.hpp"
 
 namespace oval4d::render {
 
@@ -203,7 +203,7 @@ void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogT
 void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part) {
     if (lattices_[slice] == 0) return;
     const slicing::SliceFog& fog = scene.slices->fogs[slice];
-    const SliceView view{*scene.slices, scene, toView_, slice};
+    const SliceRef view{*scene.slices, scene, toView_, slice};
     const SliceTransform transform(view);
     const double unit = scene.circumradius;
     const glm::dvec3 reach = fog.step * glm::dvec3(fog.size - 1);

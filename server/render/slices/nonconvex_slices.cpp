@@ -12,7 +12,7 @@ using slicing::Visibility;
 
 void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const glm::dmat4 toView = scene.camera.view();
-    const auto viewOf = [&](std::size_t slice) { return SliceView{*scene.slices, scene, toView, slice}; };
+    const auto viewOf = [&](std::size_t slice) { return SliceRef{*scene.slices, scene, toView, slice}; };
     transforms_.clear();
     points_.resize(scene.slices->vertices.size());
     for (auto* items : {&faces_, &skeleton_, &faded_}) items->clear();
@@ -51,7 +51,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 }
 
 // Collects the shapes of a slice, and extends `depths` to include the depths of the vertices of the slice.
-void NonconvexShapeCollector::collectShapesOf(const SliceView& slice, DepthRange& depths) {
+void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];
@@ -81,7 +81,7 @@ void NonconvexShapeCollector::add(const SortedShape& item, Visibility visibility
     if (visibility == Visibility::full) (item.kind == Kind::face ? faces_ : skeleton_).push_back(item);
 }
 
-void NonconvexShapeCollector::addShape(const SliceView& slice, const SortedShape& item, const SkeletonStyle& skeleton,
+void NonconvexShapeCollector::addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton,
                                        ShapeBatch& out) {
     if (item.kind == Kind::face) return addFace(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
@@ -96,7 +96,7 @@ void NonconvexShapeCollector::addShape(const SliceView& slice, const SortedShape
                     slice.edgeOpacity(item.number), out);
 }
 
-void NonconvexShapeCollector::addFace(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+void NonconvexShapeCollector::addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::FilledFaces& fill = slice.scene.fill;
     const slicing::FilledFaces::Face& face = fill.faces[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * face.normal);

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "render/slices/shape_batch.hpp"
-#include "render/slices/slice_view.hpp"
+#include "render/slices/slice_ref.hpp"
 
 namespace oval4d::render {
 
@@ -35,10 +35,10 @@ class NonconvexShapeCollector {
         std::uint32_t slice, number;  // number: index of a face in Scene::fill, or of a vertex or edge of the slice
     };
 
-    void collectShapesOf(const SliceView& slice, DepthRange& depths);
+    void collectShapesOf(const SliceRef& slice, DepthRange& depths);
     void add(const SortedShape& item, slicing::Visibility visibility);
-    void addShape(const SliceView& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
-    void addFace(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
+    void addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
+    void addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out);
 
     std::vector<SliceTransform> transforms_;   // one per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates

@@ -13,7 +13,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "render/color.hpp"
-#include "render/slices/slice_view.hpp"
+#include "render/slices/slice_ref.hpp"
 
 namespace oval4d::render {
 

@@ -177,7 +177,7 @@ TEST(CommandLine, SettingsOfOneLineAreCombined) {
     EXPECT_EQ(now.alpha, 0.1);
     EXPECT_EQ(now.beta, -0.2);
     EXPECT_EQ(now.step, 0.01);
-    EXPECT_EQ(now.slices, (SliceSettings{11, 0.2, -2})) << "the focus counts more than w of the point";
+    EXPECT_EQ(now.slices, (HyperplaneSettings{11, 0.2, -2})) << "the focus counts more than w of the point";
     EXPECT_TRUE(now.turning);
     EXPECT_EQ(now.look, (scene::Look{scene::View::single,
                                      {false, false, false, false},

@@ -15,7 +15,7 @@
 namespace oval4d::render {
 
 /// A reference to one slice of a scene. The arguments v, e and f are indices of vertices, edges and faces of the slice.
-struct SliceView {
+struct SliceRef {
     const slicing::SliceSet& set;
     const scene::Scene& scene;
     const glm::dmat4& toView;  ///< from world coordinates to view coordinates
@@ -67,7 +67,7 @@ struct SliceView {
 /// Transforms slice coordinates (in the units of the object, from the origin of the slice) to view coordinates.
 class SliceTransform {
   public:
-    explicit SliceTransform(const SliceView& slice)
+    explicit SliceTransform(const SliceRef& slice)
         : turn_(glm::dmat3(slice.toView) * slice.scene.scale),
           origin_(slice.toView * glm::dvec4(slice.scene.placements[slice.number].position, 1)) {}
     glm::vec3 operator()(const glm::dvec3& point) const { return turn_ * glm::vec3(point) + origin_; }
