@@ -55,6 +55,20 @@ test("loading: a file that begins with CLOUD is shown as points", async () => {
     await close();
 });
 
+// The server recognizes these as 4OFF files, too; see tests/wild/glued.txt.
+test("loading: a 4OFF file needs no extension, whatever follows its keyword or ends its lines", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const texts = { "glued.txt": simplex.replace("4OFF\n5", "4OFF5"), "returns.txt": simplex.replaceAll("\n", "\r") };
+    for (const [name, text] of Object.entries(texts)) {
+        await page.setInputFiles("#file", [file(name, text)]);
+        const { polytope } = await script.until((one) => one.polytope.name === name, name);
+        assert.deepEqual([polytope.vertices, polytope.edges, polytope.faces, polytope.cells], [5, 10, 10, 5], name);
+        await page.waitForSelector("#loading", { state: "hidden" });
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("loading: an object far from the origin turns about its center, or about the origin", async () => {
     const { page, script, errors, close } = await openWithScript();
     const far = Array.from({ length: 8 }, (_, i) => [0, 0, 0, 5e6].map((c, k) => c + (k === i >> 1 ? 1 - 2 * (i & 1) : 0)));

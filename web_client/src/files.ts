@@ -68,11 +68,14 @@ export async function readState(file: File, limit: number): Promise<State | unde
     throw new FileError('The JSON object is not a state of oval4d, whose "type" is "state".');
 }
 
-/** The format, from the keyword at the start (after any comments), or else from the file name extension. */
+/**
+ * The format, from the keyword at the start (after any comments), or else from the file name extension. The server
+ * recognizes the keywords in the same way (isOff() in off4.hpp).
+ */
 function formatOf(name: string, data: string): LoadContent["format"] {
-    const [, first = ""] = /^(?:\s|#[^\n]*(?:\n|$))*([^\s#]*)/.exec(data) ?? [];
+    const [, first = ""] = /^(?:\s|#[^\r\n]*(?:[\r\n]|$))*([^\s#]*)/.exec(data) ?? [];
     if (/^cloud$/i.test(first)) return "cloud";
-    return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
+    return /^[stcn\d_-]*off[_-]*(?:\d|$)/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
 }
 
 /** The name under which a file is loaded: at most the last kMaxNameLength characters of the file's name; never "". */

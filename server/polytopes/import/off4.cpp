@@ -249,7 +249,13 @@ bool listsCells(std::string_view text) {
 }
 
 bool isOff(std::string_view text) {
-    return text::normalizedName(Tokenizer(text).next()).find(kKeyword) != std::string::npos;
+    const std::string word = text::normalizedName(Tokenizer(text).next());
+    const std::size_t at = word.find(kKeyword);
+    if (at == std::string::npos) return false;
+    const std::string_view letters = std::string_view(word).substr(0, at);
+    const std::string_view rest = std::string_view(word).substr(at + kKeyword.size());
+    return letters.find_first_not_of("stcn0123456789") == std::string_view::npos &&
+           (rest.empty() || text::isDigit(rest.front()));
 }
 
 }  // namespace oval4d::polytopes

@@ -32,7 +32,9 @@ Off4 readOff4(std::string_view text, std::size_t maxVertices);
 /// has no cells, the header has only three counts. Reads only the header. Throws a FileError if it is malformed.
 bool listsCells(std::string_view text);
 
-/// Returns whether the first word of the file contains "OFF" in upper or lower case, as in 4OFF, COFF or 4off.
+/// Returns whether the first word of the file is a keyword of the OFF formats, in upper or lower case, even one that
+/// readOff4() refuses: "OFF" after digits and letters of ST, C and N, as in 4OFF, COFF or nOFF. The number of vertices
+/// may follow in the same word, but no other text: "offset" may name a column of a table.
 bool isOff(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -63,6 +63,10 @@ TEST(Load, TheFirstWordTellsTheFormat) {
     EXPECT_EQ(detectFormat(kPentachoron), "off");
     EXPECT_EQ(detectFormat("1 0 0 0\n"), "points");
     EXPECT_EQ(detectFormat(""), "points");
+    for (const char* keyword : {"4OFF", "4off5", "STCN4OFF", "OFF", "COFF", "4nOFF"})
+        EXPECT_EQ(detectFormat(std::string(keyword) + " 10 10 5\n"), "off") << keyword;
+    for (const char* header : {"offset x y z w", "cutoff,x,y,z,w", "Coffee, by taste", "Offline run of May"})
+        EXPECT_EQ(detectFormat(std::string(header) + "\n0 1 2 3 4\n"), "points") << header;
     for (const std::string keyword : {"CLOUD", "cloud", "# from a simulation\nCLOUD # of two points"}) {
         const std::string text = keyword + "\n1 0 0 0\n0 1 0 0 0.25\n";
         ASSERT_EQ(detectFormat(text), "cloud");
