@@ -5,6 +5,7 @@
 #include <ranges>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "session/history.hpp"
@@ -24,11 +25,17 @@ constexpr double kSpacingFactor = 1.1;
 
 void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
 
-// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object; for a
+// point cloud, whose slices have a thickness, of those that are nearest to the first and the last point.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
     const auto [count, spacing, focus, offset] = state.slices;
+    if (std::holds_alternative<slicing::CloudPtr>(state.object)) {
+        // As in CloudSlicer, a point half way between two hyperplanes belongs to the upper one.
+        return {static_cast<int>(std::floor((least - offset) / spacing + 0.5)),
+                static_cast<int>(std::floor((most - offset) / spacing + 0.5))};
+    }
     return {static_cast<int>(std::ceil((least - slack - offset) / spacing)),
             static_cast<int>(std::floor((most + slack - offset) / spacing))};
 }

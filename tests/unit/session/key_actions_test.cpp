@@ -240,6 +240,23 @@ TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
     EXPECT_EQ(session.current.slices.focus, -3) << "any other key ends a sequence and acts by itself";
 }
 
+// A slice of a point cloud contains the points within half a spacing of its hyperplane.
+TEST(Keys, TwoGsGoToTheFirstPointsOfACloud) {
+    Session session;
+    must(session, LoadObject{"two points", "cloud", "0 0 0 -0.96\n0 0 0 0.97\n"});
+    line(session, "set spacing=0.1");
+    press(session, "gg");
+    EXPECT_EQ(session.current.slices.focus, -10);
+    press(session, "G");
+    EXPECT_EQ(session.current.slices.focus, 10);
+    must(session, LoadObject{"one point", "cloud", "0 0 0 0.96\n"});
+    line(session, "set spacing=0.1");
+    press(session, "gg");
+    EXPECT_EQ(session.current.slices.focus, 10);
+    press(session, "G");
+    EXPECT_EQ(session.current.slices.focus, 10) << "the slice below has no point";
+}
+
 TEST(Keys, AnglesStayWithinAFullTurn) {
     Session session;
     line(session, "set step=1");
