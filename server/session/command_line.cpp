@@ -144,13 +144,13 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
 
 // "highlight cell 17" is short for "set highlight=cell:17".
 Result<Command> highlightLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    if (words.size() != 2) return oneSetting("highlight", rest);
+    if (joinedWords(words, ":").size() != 2) return oneSetting("highlight", rest);
     return oneSetting("highlight", std::string(words[0]) + ':' + std::string(words[1]));
 }
 
 // "boost x 0.6" is short for "set boost=0.6,0,0".
 Result<Command> boostLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    if (words.size() != 2) return oneSetting("boost", rest);
+    if (joinedWords(words, ",").size() != 2) return oneSetting("boost", rest);
     const std::size_t axis = words[0].size() == 1 ? std::string_view("xyz").find(words[0]) : std::string_view::npos;
     if (axis == std::string_view::npos) {
         return bad(ErrorCode::bad_expression,

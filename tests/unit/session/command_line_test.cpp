@@ -237,6 +237,8 @@ TEST(CommandLine, ActsOnTheHighlightedElement) {
     const glm::dvec4 direction =
         slicing::directionOf(session.current.object, {slicing::ElementKind::cell, 5}, {0, 0, 0, 1});
     EXPECT_GT(glm::normalize(session.current.ongoingTurnToward->goal(direction)).w, 1 - 1e-9);
+    line(session, "highlight cell: 4");
+    EXPECT_EQ(session.current.look.highlight, (slicing::Element{slicing::ElementKind::cell, 4}));
     line(session, "highlight none");
     expectRefused(session, CommandLine{"hide"}, ErrorCode::bad_expression, "kind");
 }

@@ -24,6 +24,11 @@ TEST(ReferenceFrames, CommandsAndSettingsChangeThem) {
     EXPECT_EQ(session.current.referenceFrame.boost, glm::dvec3(-std::sqrt(0.5), 0, 0)) << "it replaces the former one";
     line(session, "boost 0.1,0.2,0.3");
     EXPECT_EQ(session.current.referenceFrame.boost, glm::dvec3(0.1, 0.2, 0.3));
+    for (const char* spaced : {"boost 0.3, 0.2,0.1", "boost 0.3,0.2 ,0.1", "boost 0.3, 0.2, 0.1"}) {
+        line(session, "boost none");
+        line(session, spaced);
+        EXPECT_EQ(session.current.referenceFrame.boost, glm::dvec3(0.3, 0.2, 0.1)) << spaced;
+    }
     line(session, "set boost=none follow=none pace=1");
     EXPECT_EQ(session.current.referenceFrame, geometry::ReferenceFrame{});
     EXPECT_EQ(session.current.object, session.current.source);
