@@ -81,7 +81,9 @@ test("state fields: a field offers the exact value, and sends nothing if it is n
     const cases = [
         [22.5 * kRadian, "22.5°"],
         [Math.PI / 7, "pi/7"],
+        [-Math.PI / 7, "−pi/7"],
         [(-3 * Math.PI) / 7, "−3*pi/7"],
+        [(11 * Math.PI) / 7, "11*pi/7"],
         [0.1, "5.7295779513°"],
     ];
     for (const [alpha, text] of cases) {

@@ -15,7 +15,7 @@ export function editableAngle(radians: number): string {
     for (let n = 1; n <= kMaxDenominator; ++n) {
         const k = (radians * n) / Math.PI;
         if (Math.abs(k - Math.round(k)) > kTolerance) continue;
-        return `${formatDecimal(Math.round(k), 0)}*pi/${n}`.replace("1*pi", "pi");
+        return `${formatDecimal(Math.round(k), 0)}*pi/${n}`.replace(/^(\u2212?)1\*/, "$1"); // pi/7, not 1*pi/7
     }
     return `${formatDecimal(degrees, 10)}°`;
 }
