@@ -115,3 +115,16 @@ test("field panel: behind the curve of fog is the distribution of the values of 
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("field panel: fog is shown and edited where the values differ little from each other", async () => {
+    const { page, script, errors, close } = await openPanel();
+    await write(page, script, "1027.5 + x/4"); // such as the density of seawater, in kilograms per cubic meter
+    await page.click("#fog-show");
+    const { fog } = await script.until((state) => state.fog.length === 3, "fog");
+    assert.ok(fog[0].value >= 1027 && fog[2].value <= 1028, JSON.stringify(fog));
+    await page.click("#fog-add");
+    await script.until((state) => state.fog.length === 4, "a fourth point");
+    assert.equal(await page.textContent("#fog-error"), "");
+    assert.deepEqual(errors, []);
+    await close();
+});

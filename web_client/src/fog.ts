@@ -3,9 +3,11 @@
 import type { FogPoint, Inside, Scheme, Slices } from "@oval4d/protocol";
 
 import table from "../../protocol/colors.json";
+import { roundedBeside } from "./format";
 
 export const kMinFogPoints = 2;
 export const kMaxFogPoints = 8;
+const kDigits = 4; // significant digits of differences between values, and of opacities
 
 /** The distribution of a field's values. */
 export interface ValueDistribution {
@@ -49,7 +51,9 @@ export function usualFog([least, greatest]: [number, number], level: number, ins
         { value: edge, opacity: 0.5 },
         { value: edge + (far - edge) / 4, opacity: 0 },
     ];
-    return (inside === "below" ? points : points.reverse()).map(({ value, opacity }) => ({ value: rounded(value), opacity }));
+    const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4); // of the smaller difference
+    const rounded = points.map(({ value, opacity }) => ({ value: roundedBeside(size, value, kDigits), opacity }));
+    return inside === "below" ? rounded : rounded.reverse();
 }
 
 /** The text of a transfer function on the command line and in addresses. */
@@ -101,7 +105,11 @@ export function withPoint(points: FogPoint[], i: number, value: number, opacity:
     const least = i > 0 ? points[i - 1]!.value + gap : ends[0];
     const most = i < points.length - 1 ? points[i + 1]!.value - gap : ends[1];
     const within = (number: number, from: number, to: number): number => Math.max(from, Math.min(to, number));
-    const moved = { ...points[i]!, value: rounded(within(value, least, most)), opacity: rounded(within(opacity, 0, 1)) };
+    const moved = {
+        ...points[i]!,
+        value: roundedBeside(ends[1] - ends[0], within(value, least, most), kDigits),
+        opacity: roundedBeside(1, within(opacity, 0, 1), kDigits),
+    };
     const result = points.map((point, k) => (k === i ? moved : point));
     return isTransferFunction(result) ? result : points;
 }
@@ -111,11 +119,9 @@ export function withNewPoint(points: FogPoint[]): FogPoint[] {
     const lengths = points.slice(1).map(({ value }, i) => value - points[i]!.value);
     const at = lengths.indexOf(Math.max(...lengths));
     const [from, to] = [points[at]!, points[at + 1]!];
-    const middle = { value: rounded((from.value + to.value) / 2), opacity: rounded((from.opacity + to.opacity) / 2) };
+    const middle = {
+        value: roundedBeside(to.value - from.value, (from.value + to.value) / 2, kDigits),
+        opacity: roundedBeside(1, (from.opacity + to.opacity) / 2, kDigits),
+    };
     return [...points.slice(0, at + 1), middle, ...points.slice(at + 1)];
-}
-
-/** A number with four significant digits. */
-function rounded(value: number): number {
-    return Number(value.toPrecision(4));
 }

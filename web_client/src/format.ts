@@ -55,6 +55,15 @@ function formatRounded(value: number, decimals: number): string {
     return value < 0 ? kMinus + text : text;
 }
 
+/**
+ * The value with `digits` significant digits, and with more if it is larger than `size`: as many as it takes to write
+ * `size`, such as the difference to another value, with `digits` digits.
+ */
+export function roundedBeside(size: number, value: number, digits: number): number {
+    const more = exponentOf(value) - exponentOf(size) || 0; // 0 if the size is not finite
+    return Number(value.toPrecision(Math.min(kMostDigits, digits + Math.max(0, more))));
+}
+
 /** The integer n for which 10 ** n is the largest power of ten that is not above the size of the number. */
 function exponentOf(value: number): number {
     return Number(value.toExponential(kMostDigits - 1).split("e")[1]);
