@@ -206,3 +206,15 @@ test("fields: the colorings are those of a field, and growth is amber and blue",
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("fields: the ends of the color scale are told apart where the values differ little", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const formulas = { data: "x^2 + y^2 + z^2 + w^2 < 1", values: "1027.5 + x/4" };
+    await script.request({ type: "load", name: "formula", format: "formula", ...formulas });
+    const { revision } = await script.request({ type: "set", color: "value" });
+    await presented(page, revision);
+    const [, least, most] = /([\d.]+)\s+([\d.]+)/.exec(await page.locator(".scale").innerText());
+    assert.ok(1027 <= Number(least) && Number(least) < Number(most) && Number(most) <= 1028, `from ${least} to ${most}`);
+    assert.deepEqual(errors, []);
+    await close();
+});

@@ -4,7 +4,7 @@ import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/pr
 
 import { element } from "./element";
 import { isField } from "./fields";
-import { capitalize, formatCount } from "./format";
+import { capitalize, formatCount, roundedBeside } from "./format";
 import { cssColor } from "./picture/pen";
 import type { ToolSection } from "./tools";
 
@@ -61,6 +61,7 @@ const kBackgrounds: Record<Background, { label: string; title: string }> = {
 const kVisibilities = ["shown", "faded", "hidden"] as const;
 type Visibility = (typeof kVisibilities)[number];
 
+const kScaleDigits = 3; // significant digits of the difference between the ends of a color scale of values
 const kMaxListedKinds = 24; // an imported polytope may have as many kinds of cells as cells
 
 export class ColorControls {
@@ -171,7 +172,9 @@ function coloringSeen(state: State): Coloring {
 function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
-    const [least, most] = values.range.map((value) => String(Number(value.toPrecision(3)))).map(withMinus) as [string, string];
+    const size = values.range[1] - values.range[0];
+    const textOf = (value: number): string => withMinus(String(roundedBeside(size, value, kScaleDigits)));
+    const [least, most] = values.range.map(textOf) as [string, string];
     const name = values.formula ?? values.variable ?? "the values of the field";
     return { least, most, text: `The colors of ${name}, from ${least} to ${most}`, colors: values.colors.map(cssColor) };
 }
