@@ -303,8 +303,11 @@ test("loading: after a restart of the server, a field of its data folder is open
 test("loading: if a polytope cannot be loaded again, the rest of the view is restored", async () => {
     const server = await startReplaceableServer();
     const { page, script, close } = await openWithScript({ url: server.url });
-    await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not loaded by this page
-    const { revision: turned } = await script.request({ type: "set", alpha: 0.25 });
+    const corners = Array.from({ length: 16 }, (_, i) => [1, 2, 4, 8].map((bit) => (i & bit ? 1 : -1)).join(" "));
+    const object = { name: "another's", format: "points", data: corners.join("\n") };
+    await script.request({ type: "load", ...object }); // not loaded by this page
+    const highlight = { element: "vertex", number: 15 }; // which the object of a new session does not have
+    const { revision: turned } = await script.request({ type: "set", alpha: 0.25, highlight });
     await presented(page, turned);
     script.leave();
     await server.stop();

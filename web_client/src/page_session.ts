@@ -74,8 +74,8 @@ export class PageSession {
         try {
             if (this.lostState) await this.restore(this.lostState);
         } catch (error) {
-            if ((error as RequestError).code !== "not_connected") this.lostState = undefined;
-            throw error; // if the connection was lost, this is called again on the next one
+            if ((error as RequestError).code === "not_connected") throw error; // this is called again on the next one
+            this.actions.tell([(error as Error).message]);
         }
         this.lostState = undefined;
         if (field) {
@@ -117,7 +117,7 @@ export class PageSession {
         } catch (error) {
             if ((error as RequestError).code === "not_connected") throw error;
             this.actions.tell([(error as Error).message]);
-            const { polytope, slices, point, hidden, faded, levels, inside, fog, ...rest } = lost;
+            const { polytope, slices, point, hidden, faded, highlight, levels, inside, fog, ...rest } = lost;
             await this.client.request({ ...rest, type: "set", turning: false });
         }
     }
