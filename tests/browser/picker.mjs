@@ -180,6 +180,21 @@ test("picker: an error is shown as a notice if the dialog was closed before the 
     await close();
 });
 
+test("picker: a choice that is made before the catalogue has arrived closes the dialog, too", async () => {
+    const { page, errors, close } = await openWithScript({ before: holdSent });
+    // The server answers the request for the catalogue, then the choice.
+    await page.evaluate(() => (window.isHeld = ({ what, polytope }) => what === "catalogue" || polytope === "16-cell"));
+    await page.keyboard.press("s");
+    await page.waitForSelector("#picker[open]");
+    await page.keyboard.type("16-cell");
+    await page.keyboard.press("Enter");
+    await page.evaluate(() => window.release());
+    await named(page, "16-cell");
+    await page.waitForSelector("#picker:not([open])", { state: "attached" });
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("picker: reports a missing connection", async () => {
     const proxy = await startProxy((await common()).url, "/cut");
     const { page, script, close } = await openWithScript({ url: proxy.url });

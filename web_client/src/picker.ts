@@ -37,7 +37,7 @@ export class Picker {
         private readonly choose: (name: string, isData: boolean) => Promise<unknown>,
         private readonly failedLater: (error: Error) => void,
     ) {
-        this.input.addEventListener("input", () => this.search());
+        this.input.addEventListener("input", () => this.searchAnew());
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         byId("picker-form").addEventListener("submit", (event) => {
             event.preventDefault();
@@ -56,7 +56,7 @@ export class Picker {
         this.failure = "";
         this.input.value = "";
         this.dialog.open(this.input);
-        this.search();
+        this.searchAnew();
     }
 
     get isOpen(): boolean {
@@ -80,8 +80,13 @@ export class Picker {
         this.showError(reason);
     }
 
-    private search(): void {
+    /** Searches for another text: an earlier choice no longer closes the dialog. */
+    private searchAnew(): void {
         ++this.choiceNumber;
+        this.search();
+    }
+
+    private search(): void {
         this.showError(this.failure);
         const text = this.input.value.trim();
         const found = this.catalogue.find(text);
