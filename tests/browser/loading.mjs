@@ -189,7 +189,9 @@ test("loading: a picture and a state are shown again, and files without a state 
         ["cut.png", picture.buffer.subarray(0, 33), /contains no state/],
         ["other.json", Buffer.from('{"a": 1}'), /not a state of oval4d/],
         ["cut.json", Buffer.from('{"type"'), /not valid JSON/],
+        ["marked.json", Buffer.from('\ufeff{"a": 1}'), /not a state of oval4d/],
         ["wrong.json", Buffer.from('{"type":"state","zoom":1}'), /zoom/],
+        ["utf-16.json", Buffer.from('\ufeff{"a": 1}', "utf16le"), /not a state of oval4d/],
     ]) {
         await page.setInputFiles("#file", { name, mimeType: "", buffer });
         await page.waitForFunction(

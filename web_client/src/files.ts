@@ -39,25 +39,22 @@ export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | 
     return (first === 0xfe && second === 0xff) || (first === 0 && second !== 0) ? "utf-16be" : undefined;
 }
 
-/** The text of a file in UTF-8, or in UTF-16, which some programs on Windows write. */
-async function textOf(file: File): Promise<string> {
+/** The text of a file in UTF-8, or in UTF-16, which some programs on Windows write; without a byte order mark. */
+async function textOf(file: Blob): Promise<string> {
     const bytes = new Uint8Array(await file.arrayBuffer());
     return new TextDecoder(utf16Of(bytes) ?? "utf-8").decode(bytes);
 }
-
-/** The start of a PNG file, or of a JSON object. */
-const kStateStart = /^(?:\x89PNG|\s*\{)/;
 
 /**
  * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file begins
  * like neither of them. Throws FileError if the file contains no state, or if a JSON file has more than `limit` bytes.
  */
 export async function readState(file: File, limit: number): Promise<State | undefined> {
-    const start = new Uint8Array(await file.slice(0, 64).arrayBuffer());
-    if (!kStateStart.test(String.fromCharCode(...start))) return undefined;
-    const isPicture = start[0] === 0x89;
+    const start = file.slice(0, 64);
+    const isPicture = /^\x89PNG/.test(String.fromCharCode(...new Uint8Array(await start.arrayBuffer())));
+    if (!isPicture && !/^\s*\{/.test(await textOf(start))) return undefined;
     if (!isPicture && file.size > limit) throw new FileError(tooLarge(file.size, limit));
-    const text = isPicture ? pngText(new Uint8Array(await file.arrayBuffer())) : await file.text();
+    const text = isPicture ? pngText(new Uint8Array(await file.arrayBuffer())) : await textOf(file);
     if (text === undefined) throw new FileError("The picture contains no state: oval4d has not made it.");
     try {
         const state = JSON.parse(text) as Partial<State> | null;
