@@ -124,6 +124,21 @@ test("buttons: a held button repeats until it is released", async () => {
     await close();
 });
 
+test("buttons: a key presses a button that was held, and left before it was released", async () => {
+    const { page, script, close } = await openWithScript();
+    const { revision } = await script.state();
+    await page.hover('[data-action="alpha_up"]');
+    await page.mouse.down();
+    await script.until((one) => one.revision > revision, "a step of a held button");
+    await page.hover("#drawing");
+    await page.mouse.up();
+    const { alpha } = await stateAfter(page, script);
+    await page.locator('[data-action="alpha_up"]').focus();
+    await page.keyboard.press("Enter");
+    await script.until((one) => one.alpha > alpha, "a step of the key");
+    await close();
+});
+
 test("buttons: the reset buttons restore the orientation and the viewpoint", async () => {
     const { page, script, press, close } = await openWithScript();
     const { orientation } = await script.state();

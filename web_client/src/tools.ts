@@ -209,9 +209,11 @@ export class Tools {
                 button.addEventListener(end, stop);
             button.addEventListener("contextmenu", (event) => event.preventDefault()); // no menu after a long touch
         }
-        button.addEventListener("click", () => {
+        button.addEventListener("click", ({ detail }) => {
             stop();
-            if (!repeated) this.events.press(binding, inverse, false);
+            // No click follows if a held button is left before it is released; the click of a key (detail 0) does not
+            // belong to it.
+            if (!repeated || detail === 0) this.events.press(binding, inverse, false);
             repeated = false;
         });
     }
