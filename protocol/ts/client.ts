@@ -101,6 +101,9 @@ const kIdleBeforeTest = 20; // seconds without a message after which the connect
 const kTestTimeout = 8; // seconds within which the server must answer a test
 const kLongTestTimeout = 300; // seconds: kTestTimeout while a request that may take long is unanswered
 const kOpen = 1; // WebSocket.OPEN
+const kUnauthorized = 401; // the status of an HTTP answer
+const kNoAnswer = "no answer";
+const kTokenRequired = "the server requires its token: open the address that it printed at startup";
 
 export class Client {
     status: Status = { kind: "closed", reason: "not connected yet" };
@@ -113,6 +116,7 @@ export class Client {
     private lastId = 0;
     private failures = 0;
     private blocked: { isBlocked?: true } = {};
+    private noAnswer = kNoAnswer; // why no WebSocket opens, as far as it is known
     private timer: ReturnType<typeof setTimeout> | undefined;
     private readonly arena = new Arena();
     private heldFrame: Uint8Array | undefined;
@@ -302,6 +306,7 @@ export class Client {
         }
         this.failures = 0;
         this.blocked = {};
+        this.noAnswer = kNoAnswer;
         this.welcome = welcome;
         this.credentials = { session: welcome.session, token: welcome.token };
         if (this.status.kind !== "open") this.report({ kind: "open" });
@@ -349,7 +354,7 @@ export class Client {
             return;
         }
         const opened = this.status.kind === "open";
-        const otherwise = opened ? "the connection was lost" : "no answer";
+        const otherwise = opened ? "the connection was lost" : this.noAnswer;
         const reason = closeReason || (code === 1012 ? "the server is stopping" : otherwise);
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
         const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
@@ -360,7 +365,7 @@ export class Client {
 
     /**
      * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests.
+     * pass on the headers of WebSocket requests; or that the server has another token than before.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
@@ -369,10 +374,15 @@ export class Client {
         const { status } = this;
         if (status.kind !== "waiting" && status.kind !== "connecting") return;
         this.blocked = answer?.ok ? { isBlocked: true } : {};
-        if (status.isBlocked === this.blocked.isBlocked) return;
-        if (status.kind === "connecting") return this.report({ kind: "connecting", ...this.blocked });
+        this.noAnswer = answer?.status === kUnauthorized ? kTokenRequired : kNoAnswer;
+        if (status.kind === "connecting") {
+            if (status.isBlocked !== this.blocked.isBlocked) this.report({ kind: "connecting", ...this.blocked });
+            return;
+        }
+        const reason = [kNoAnswer, kTokenRequired].includes(status.reason) ? this.noAnswer : status.reason;
+        if (reason === status.reason && status.isBlocked === this.blocked.isBlocked) return;
         const seconds = Math.max(0, status.seconds - (Date.now() - begin) / 1000);
-        return this.report({ kind: "waiting", reason: status.reason, seconds, ...this.blocked });
+        this.report({ kind: "waiting", reason, seconds, ...this.blocked });
     }
 
     private drop(): void {

@@ -177,6 +177,16 @@ test("connection: the page says that a proxy passes no WebSockets on", async () 
     }
 });
 
+test("connection: the page says that the server requires a token, as after a restart with another one", async () => {
+    const proxy = await startProxy((await common()).url, "/token");
+    const { page, close } = await openPage({ url: proxy.url });
+    await page.route("**", (route) => route.fulfill({ status: 401 }));
+    proxy.cut();
+    await page.waitForFunction(() => /requires its token/.test(document.getElementById("connection").textContent));
+    await close();
+    await proxy.stop();
+});
+
 test("connection: behind a path prefix, all requests are under the prefix", async () => {
     const proxy = await startProxy((await common()).url, "/maths/oval");
     const { page, errors, close } = await openPage({ url: `${proxy.url}?polytope=8-cell` });
