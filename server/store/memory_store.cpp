@@ -71,9 +71,13 @@ MemoryStore::Entries::iterator MemoryStore::erase(Entries::iterator entry) {
 std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
     if (bytesWith(updates) <= quota_) return 0;
     std::vector<Entries::iterator> candidates;
+    std::size_t evictable = 0;
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-        if (!isPinned(entry->first)) candidates.push_back(entry);
+        if (isPinned(entry->first)) continue;
+        candidates.push_back(entry);
+        evictable += entry->second.bytes();
     }
+    if (bytesWith(updates) - evictable > quota_) return 0;
     std::ranges::sort(candidates, {},
                       [](const auto& entry) { return std::tuple(entry->second.changed, entry->second.touched); });
     std::size_t count = 0;

@@ -380,7 +380,7 @@ std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPi
 
 std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
     const auto fits = [&] { return usedPages() + pagesNeeded <= maxPages_; };
-    if (fits()) return 0;
+    if (fits() || pagesNeeded > maxPages_) return 0;
     std::vector<std::string> candidates;
     {
         Statement statement(*database_, "SELECT id FROM session ORDER BY changed, touched");
@@ -395,6 +395,7 @@ std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const 
         ++count;
         if (fits()) break;
     }
+    if (!fits()) return 0;  // without a commit, so all sessions stay
     all.commit();
     return count;
 }

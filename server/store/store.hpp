@@ -127,8 +127,8 @@ class Store {
     using IsPinned = std::function<bool(const std::string& id)>;
     /// Called after save() has thrown NotWritable. Evicts sessions that are not pinned until `updates` fit within the
     /// quota, and returns the number of evicted sessions. Evicts first the sessions that were never changed, then those
-    /// whose expiry period began first. Evicts none if the updates already fit: in that case, the save failed for
-    /// another reason, such as a full disk, and deleting sessions would not help.
+    /// whose expiry period began first. Evicts none if that would not help: if the updates already fit, because the
+    /// save then failed for another reason, such as a full disk; or if they do not fit beside the pinned sessions.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.

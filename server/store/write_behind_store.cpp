@@ -315,21 +315,39 @@ std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<c
         for (const SaveResult one : store_->save(updates)) results.emplace_back(one);
         return results;
     } catch (const NotWritable&) {
-        const std::size_t count = store_->evict(updates, [this](const std::string& id) {
-            const std::lock_guard lock(mutex_);
-            return cached_.contains(id);
-        });
-        if (count > 0) spdlog::warn("sessions evicted, the store is full count={} store={}", count, name_);
+        evictFor(updates);
     }
     for (const RecordUpdate& update : updates) {
         try {
-            results.emplace_back(store_->save({&update, 1}).at(0));
+            results.emplace_back(saveOneOrEvict(update));
         } catch (const NotWritable& fault) {
             if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeFailed(fault);
             results.emplace_back();
         }
     }
     return results;
+}
+
+/// Saves one update. If the store is full, evicts closed sessions from it. Throws NotWritable if the update does not
+/// fit even then.
+SaveResult WriteBehindStore::saveOneOrEvict(const RecordUpdate& update) {
+    const std::span<const RecordUpdate> one(&update, 1);
+    try {
+        return store_->save(one).at(0);
+    } catch (const NotWritable&) {
+        if (evictFor(one) == 0) throw;
+    }
+    return store_->save(one).at(0);
+}
+
+/// Evicts closed sessions from the store, so that the updates fit. Returns the number of evicted sessions.
+std::size_t WriteBehindStore::evictFor(std::span<const RecordUpdate> updates) {
+    const std::size_t count = store_->evict(updates, [this](const std::string& id) {
+        const std::lock_guard lock(mutex_);
+        return cached_.contains(id);
+    });
+    if (count > 0) spdlog::warn("sessions evicted, the store is full count={} store={}", count, name_);
+    return count;
 }
 
 void WriteBehindStore::writeRemovals() {

@@ -139,6 +139,8 @@ class WriteBehindStore {
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
     std::vector<std::optional<SaveResult>> saveOrEvict(std::span<const RecordUpdate> updates);
+    SaveResult saveOneOrEvict(const RecordUpdate& update);
+    std::size_t evictFor(std::span<const RecordUpdate> updates);
     void writeRemovals();
     void dropKeys(const std::string& id);
     void applyResult(Job& job, const RecordUpdate& update, SaveResult result);

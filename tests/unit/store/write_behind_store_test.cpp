@@ -16,12 +16,14 @@ using session::Session;
 
 /// Shared by a test and its FaultyStore.
 struct StoreControl {
+    explicit StoreControl(std::size_t quota) : kept(quota, clock.now<MemoryStore::Clock>()) {}
+
     support::VirtualClock clock;
     std::atomic<bool> fails = false;
     std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
     std::mutex mutex;
-    MemoryStore kept{kDefaultQuota, clock.now<MemoryStore::Clock>()};  // guarded by mutex
-    std::vector<LostSession> lost;                                     // for the next poll; guarded by mutex
+    MemoryStore kept;               // guarded by mutex
+    std::vector<LostSession> lost;  // for the next poll; guarded by mutex
 };
 
 /// A shared store that a test can make fail.
@@ -79,7 +81,9 @@ class FaultyStore final : public Store {
 /// Tests in virtual time: the cache's thread regards only the time of the test's clock.
 class WriteBehindStoreTest : public testing::Test {
   protected:
-    explicit WriteBehindStoreTest(std::size_t quota = kDefaultQuota) : settings{1h, 100, quota} {}
+    /// `quota`: that of the cache. `storeQuota`: that of the store.
+    explicit WriteBehindStoreTest(std::size_t quota = kDefaultQuota, std::size_t storeQuota = kDefaultQuota)
+        : control(std::make_shared<StoreControl>(storeQuota)), settings{1h, 100, quota} {}
 
     WriteBehindStore::FetchResult fetch(const SessionCredentials& credentials) {
         std::promise<WriteBehindStore::FetchResult> promise;
@@ -121,7 +125,7 @@ class WriteBehindStoreTest : public testing::Test {
                    : 0;
     }
 
-    std::shared_ptr<StoreControl> control = std::make_shared<StoreControl>();
+    const std::shared_ptr<StoreControl> control;
     std::atomic<int> taken = 0, wanted = 0, back = 0;
     const WriteBehindStore::Settings settings;
     WriteBehindStore writeBehind{std::make_unique<FaultyStore>(control),
@@ -360,6 +364,46 @@ TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     EXPECT_TRUE(control->kept.tokenHash(open.id)) << "it is open";
     EXPECT_TRUE(control->kept.tokenHash(credentialsList[1999].id));
     EXPECT_FALSE(control->kept.tokenHash(credentialsList[0].id));
+}
+
+class FullStoreTest : public WriteBehindStoreTest {
+  protected:
+    FullStoreTest() : WriteBehindStoreTest(kDefaultQuota, 15'000) {}
+};
+
+/// A session that does not fit into the store, whatever is evicted from it, costs no other session its place.
+TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
+    const auto stored = [&] {
+        const std::lock_guard lock(control->mutex);
+        return control->kept.size();
+    };
+    for (int i = 0; i < 30; ++i) {
+        writeBehind.close(writeBehind.create().id, at(1));
+        atOnce([&] { return writeBehind.unsaved() == 0; });
+        control->clock.advance(1us);
+    }
+    const std::size_t before = stored();
+    ASSERT_GT(before, 3U);
+    ASSERT_LT(before, 30U) << "the store is full";
+    std::string points = "CLOUD\n";
+    for (int i = 0; i < 3000; ++i) {
+        for (const int period : {3000, 3, 5, 7}) points += std::to_string(0.1 * (i % period)) + " ";
+        points += "\n";
+    }
+    Session large;
+    ASSERT_TRUE(session::apply(large, session::LoadObject{"cloud", "cloud", points}));
+    const SessionCredentials tooLarge = writeBehind.create(), small = writeBehind.create();
+    writeBehind.save(tooLarge.id, kFirstFence, large, WriteBehindStore::SaveScope::whole);
+    atOnce([&] { return !writeBehind.lastError().empty(); });
+    EXPECT_EQ(stored(), before);
+    writeBehind.save(small.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole);
+    const auto isStored = [&](const SessionCredentials& credentials) {
+        const std::lock_guard lock(control->mutex);
+        return control->kept.tokenHash(credentials.id).has_value();
+    };
+    eventually([&] { return isStored(small); });
+    EXPECT_FALSE(isStored(tooLarge));
+    EXPECT_GE(stored(), before - 1) << "only as many are evicted as the small session needs";
 }
 
 TEST_F(WriteBehindStoreTest, RetriesAfterLongerAndLongerPauses) {
