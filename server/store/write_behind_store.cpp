@@ -51,11 +51,12 @@ void WriteBehindStore::stop(Milliseconds limit) {
     // The callbacks may own large objects, so destroy the callbacks before this function returns, but without holding
     // the lock.
     CachedSessions cached;
-    decltype(tasks_) tasks;
+    decltype(tasks_) tasks, requests;
     {
         const std::lock_guard lock(mutex_);
         std::swap(cached, cached_);
         tasks.swap(tasks_);
+        requests.swap(requests_);
     }
 }
 
@@ -70,7 +71,7 @@ SessionCredentials WriteBehindStore::create() {
 void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
-        tasks_.emplace_back(
+        requests_.emplace_back(
             [this, credentials = std::move(credentials), done = std::move(done)] { fetchNow(credentials, done); });
     }
     wake_.notify_one();
@@ -142,7 +143,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
 void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
-        tasks_.emplace_back([this, id] {
+        requests_.emplace_back([this, id] {
             std::optional<CachedSession> removed;  // destroyed without holding the lock
             {
                 const std::lock_guard inner(mutex_);
@@ -194,11 +195,16 @@ WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
 }
 
 void WriteBehindStore::run() {
+    // Whether the last thing done was a request. If a write or a poll is due, it then comes before the next request, so
+    // that clients that request many sessions, or sessions that do not exist, do not keep changes from being written.
+    bool isOthersTurn = false;
     std::unique_lock lock(mutex_);
     for (;;) {
-        if (!tasks_.empty()) {
-            const auto task = std::move(tasks_.front());
-            tasks_.pop_front();
+        const bool mustYield = isOthersTurn && (isReadyToWrite() || now_() >= pollAt_);
+        if (auto* const due = !tasks_.empty() ? &tasks_ : !requests_.empty() && !mustYield ? &requests_ : nullptr) {
+            isOthersTurn = isOthersTurn || due == &requests_;
+            const auto task = std::move(due->front());
+            due->pop_front();
             lock.unlock();
             task();
         } else if (stopping_ && (cached_.queueLength() == 0 || now_() >= stopAt_)) {
@@ -206,9 +212,11 @@ void WriteBehindStore::run() {
                 spdlog::error("sessions not written count={} store={}", left, name_);
             return;
         } else if (isReadyToWrite()) {
+            isOthersTurn = false;
             lock.unlock();
             write();
         } else if (now_() >= pollAt_) {
+            isOthersTurn = false;
             lock.unlock();
             poll();
         } else {

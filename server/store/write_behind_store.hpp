@@ -171,10 +171,11 @@ class WriteBehindStore {
     std::condition_variable wake_;
     // Guarded by mutex_.
     CachedSessions cached_;
-    std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
-    std::set<std::string> removals_;           // ids to remove from the store
-    std::size_t storedCount_ = 0;              // number of sessions in the store, as of the last poll
-    std::size_t neverSaved_ = 0;               // number of sessions that have never been in the store
+    std::deque<std::function<void()>> tasks_;     // do not use the store; the cache's thread runs them before all else
+    std::deque<std::function<void()>> requests_;  // calls of fetch() and remove(); take turns with writes and polls
+    std::set<std::string> removals_;              // ids to remove from the store
+    std::size_t storedCount_ = 0;                 // number of sessions in the store, as of the last poll
+    std::size_t neverSaved_ = 0;                  // number of sessions that have never been in the store
     std::string lastError_;
     Clock::time_point retryAt_, pollAt_;  // retryAt_: earliest time of the next write; pollAt_: time of the next poll()
     Clock::time_point readAt_;            // earliest time of the next read

@@ -291,6 +291,25 @@ TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
     EXPECT_LT(control->saves, 5000);
 }
 
+/// Here, each fetch is followed by another one at once.
+TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
+    constexpr int kMost = 1000;
+    const SessionCredentials credentials = writeBehind.create();
+    std::atomic<bool> saved = false;
+    int fetches = 0;  // used only on the cache's thread
+    std::promise<int> ended;
+    const std::function<void(WriteBehindStore::FetchResult)> next = [&](const WriteBehindStore::FetchResult&) {
+        if (fetches == 0)
+            writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole,
+                             [&](bool) { saved = true; });
+        if (saved || ++fetches == kMost) return ended.set_value(fetches);
+        writeBehind.fetch({"nobody", ""}, next);
+    };
+    writeBehind.fetch({"nobody", ""}, next);
+    EXPECT_LT(ended.get_future().get(), kMost);
+    EXPECT_EQ(kept(credentials.id), 1U);
+}
+
 TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
     const SessionCredentials open = writeBehind.create(), closed = writeBehind.create(), waiting = writeBehind.create();
     EXPECT_TRUE(save(open.id, at(1)));
