@@ -12,7 +12,7 @@ import pytest
 from array_files import hdf5, netcdf, nifti, npy, quadratic
 from harness import Server
 from test_data_folder import slices_of
-from wire import Client, Refused
+from wire import Client, Refused, hello_refusal
 
 SIZE = {"width": 480, "height": 270}
 SHAPE = (9, 20, 22, 24)
@@ -226,6 +226,25 @@ async def test_stored_sessions_open_their_file_again(folder, tmp_path):
             assert await slices_of(client) == expected
             await client.request("set", polytope="first")
             await slices_of(client)
+
+
+async def test_a_session_whose_field_has_no_room_can_be_opened_later(folder, tmp_path):
+    for number in range(2):
+        (folder / f"{number}.npy").write_bytes(npy((quadratic(SHAPE) + number).astype("f8")))
+    room = 4 * int(numpy.prod(SHAPE)) + 100  # for one of the fields
+    options = (*SMALL, "--field-cache", room, "--store", f"sqlite:{tmp_path / 'sessions.sqlite'}")
+    with open_server(folder, *options) as server:
+        async with Client(server) as client:
+            credentials = {"session": client.welcome["session"], "token": client.welcome["token"]}
+            await client.request("load", name="run", path="0.npy")
+            expected = await slices_of(client)
+    with open_server(folder, *options) as server:
+        async with Client(server) as other:
+            await other.request("load", name="run", path="1.npy")
+            assert await hello_refusal(server, **credentials) == ("internal", 1013)
+    with open_server(folder, *options) as server:
+        async with Client(server, **credentials) as client:
+            assert await slices_of(client) == expected
 
 
 async def test_moments_cannot_be_added_to_a_large_field(folder):

@@ -178,12 +178,13 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
 
 void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
-    bool fileIsMissing = false;
+    bool fileIsMissing = false, mustWait = false;
     try {
         RecordObjects objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
             const auto loaded = fileReader(services_)(load, services_.options.session);
             if (loaded) return loaded->object;
             fileIsMissing = true;
+            mustWait = loaded.error().code == ErrorCode::too_many || loaded.error().code == ErrorCode::internal;
             return loaded.error();
         });
         auto value = store::decodeSession(record.whole, record.head, std::ref(objects), services_.polytopes);
@@ -198,11 +199,10 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
                           fault.what());
         }
         writeBehind_.discardFetched(id);
-        finishOpening(pending,
-                      Error{ErrorCode::not_found, (fileIsMissing ? "this session cannot be opened: "
-                                                                 : "this session is stored in a form that the server "
-                                                                   "cannot read: ") +
-                                                      std::string(fault.what())});
+        const std::string what = fileIsMissing ? "this session cannot be opened: "
+                                               : "this session is stored in a form that the server cannot read: ";
+        // After `not_found`, clients forget the session; after `internal`, they try again.
+        finishOpening(pending, Error{mustWait ? ErrorCode::internal : ErrorCode::not_found, what + fault.what()});
     }
 }
 
