@@ -59,9 +59,9 @@ std::vector<std::pair<std::string, CachedSession>> CachedSessions::evictClosed(s
     }
     std::vector<std::pair<std::string, CachedSession>> evicted;
     if (bytes <= quota) return evicted;
-    std::ranges::sort(closed, {}, [](const auto& entry) {
+    std::ranges::sort(closed, {}, [quota](const auto& entry) {
         const CachedSession& cached = entry->second;
-        return std::tuple(cached.pending.whole->revision > 0, cached.closedAt);
+        return std::tuple(cached.bytes <= quota, cached.pending.whole->revision > 0, cached.closedAt);
     });
     for (const auto& entry : closed) {
         if (bytes <= quota) break;

@@ -67,8 +67,9 @@ class CachedSessions {
     /// Removes the closed sessions that were closed before `time`, and returns their ids.
     std::vector<std::string> removeClosedBefore(CachedSession::Clock::time_point time);
     /// Removes closed sessions until the remaining closed ones take at most `quota` bytes, and returns the removed ones
-    /// with their ids. Removes first the sessions that were never changed, then the others; of each kind, first those
-    /// that were closed first. Neither removes nor counts sessions that are being written.
+    /// with their ids. Removes first the sessions that take more than `quota` alone, then those that were never
+    /// changed, then the others; of each kind, first those that were closed first. Neither removes nor counts sessions
+    /// that are being written.
     std::vector<std::pair<std::string, CachedSession>> evictClosed(std::size_t quota);
 
     /// Appends a session to the queue unless it is already queued.

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "store/cached_sessions.hpp"
 
@@ -45,6 +47,23 @@ TEST(CachedSessions, EvictedSessionsLeaveTheQueue) {
     closed.bytes = 1;
     EXPECT_EQ(sessions.evictClosed(0).size(), 1U);
     EXPECT_EQ(sessions.queueLength(), 1U);
+}
+
+/// A session that cannot stay in any case costs no other session its place.
+TEST(CachedSessions, EvictsSessionsBeyondTheWholeQuotaFirst) {
+    CachedSessions sessions;
+    CachedSession::Clock::time_point time;
+    for (const auto& [id, bytes] : {std::pair("small", 40U), std::pair("large", 200U), std::pair("last", 40U)}) {
+        sessions.add({id, "secret"});
+        CachedSession& cached = *sessions.find(id);
+        cached.pending.whole = std::make_shared<const session::Session>();
+        cached.closed = true;
+        cached.closedAt = time += std::chrono::seconds(1);
+        cached.bytes = bytes;
+    }
+    const auto evicted = sessions.evictClosed(100);
+    ASSERT_EQ(evicted.size(), 1U);
+    EXPECT_EQ(evicted[0].first, "large");
 }
 
 }  // namespace
