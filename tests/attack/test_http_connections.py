@@ -75,6 +75,12 @@ def test_requests_after_connection_close_are_ignored(site_server):
     assert len(responses_to(site_server, request("/healthz", version="HTTP/1.0") + request("/healthz") * 3)) == 1
 
 
+def test_http_1_0_clients_are_told_whether_the_connection_stays_open(site_server):
+    asking = request("/healthz", "Connection: keep-alive", version="HTTP/1.0")
+    answers = responses_to(site_server, asking + request("/healthz", version="HTTP/1.0"))
+    assert [answer.get("Connection") for answer in answers] == ["keep-alive", "close"]
+
+
 def test_the_server_stops_reading_from_a_client_that_reads_nothing(site_server):
     """If a client pipelines requests and reads no responses, the server stops reading from it and serves others."""
     def serve_another():

@@ -400,6 +400,8 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     if (reply.status != 304) response.content_length(reply.body.size());
     const bool rejected = admission_ != ConnectionRegistry::AdmissionDecision::admitted;
     response.keep_alive(request.keep_alive() && !rejected && !stopping_);
+    // Without this, a client of HTTP/1.0 would wait for the end of the connection.
+    if (request.version() < 11 && response.keep_alive()) response.set(http::field::connection, "keep-alive");
     if (reply.status == kUpgradeRequired) response.set(http::field::connection, "close, upgrade");
     context_.services.metrics.countRequest(reply.status);
     // Log the target without its query, which may contain the token.
