@@ -12,6 +12,13 @@ namespace oval4d::render {
 
 /// Returns base^exponent. `exponent` must be at least 1.
 OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
+    if (exponent == 32) {  // that of the default style, without a loop
+        base = _mm256_mul_ps(base, base);
+        base = _mm256_mul_ps(base, base);
+        base = _mm256_mul_ps(base, base);
+        base = _mm256_mul_ps(base, base);
+        return _mm256_mul_ps(base, base);
+    }
     __m256 result = _mm256_set1_ps(1);
     for (; exponent > 1; exponent >>= 1) {
         if ((exponent & 1) != 0) result = _mm256_mul_ps(result, base);

@@ -48,6 +48,11 @@ OVAL4D_AVX2 inline __m256i between(int begin, int end, int at) {
                                _mm256_cmpgt_epi32(_mm256_set1_epi32(end), x));
 }
 
+// Returns `first` in lanes 0 … 3, and `second` in lanes 4 … 7.
+OVAL4D_AVX2 inline __m256i inHalves(int first, int second) {
+    return _mm256_set_m128i(_mm_set1_epi32(second), _mm_set1_epi32(first));
+}
+
 // Blends a face with the picture, without depths. All pixels of a face have the same color, so integers suffice: the
 // result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255.
 OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
@@ -92,94 +97,166 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
     return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
 }
 
-// Draws a patch. The formulas are those of the fragment shader in shape_batch.cpp.
+/// The values of the linear functions of a Paint at the first pixels of two rows: those of the first row in lanes 0 …
+/// 3, those of the second one in lanes 4 … 7.
+struct StartValues {
+    __m256 u, v, halfRadius, nearness;
+};
+
+// Returns the values at two pixels of those functions that this form of patch has.
 template <Form form, DepthUse depth>
-OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
+OVAL4D_AVX2 inline StartValues startValues(const Paint& paint, int x1, int y1, int x2, int y2) {
+    const auto of = [&](const LinearFunction& f) OVAL4D_AVX2 {
+        const auto at = [&](int x, int y) {
+            return f.origin + f.y * static_cast<float>(y) + f.x * static_cast<float>(x);
+        };
+        return _mm256_set_m128(_mm_set1_ps(at(x2, y2)), _mm_set1_ps(at(x1, y1)));
+    };
+    constexpr bool isRound = form == Form::strip || form == Form::disk;
+    StartValues values;
+    values.u = isRound ? of(paint.u) : _mm256_setzero_ps();
+    values.v = form == Form::disk ? of(paint.v) : _mm256_setzero_ps();
+    values.halfRadius = form == Form::rim ? of(paint.halfRadius) : _mm256_setzero_ps();
+    values.nearness = depth == DepthUse::unused ? _mm256_setzero_ps() : of(paint.nearness);
+    return values;
+}
+
+/// Eight neighboring pixels of a row.
+struct PixelsOfOneRow {
+    std::ptrdiff_t index;  ///< of the first pixel in the picture
+
+    OVAL4D_AVX2 __m256 depths(const float* nearness) const { return _mm256_loadu_ps(nearness + index); }
+    OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const { _mm256_storeu_ps(nearness + index, depths); }
+    OVAL4D_AVX2 __m256i colors(const std::uint32_t* pixels) const {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pixels + index));
+    }
+    OVAL4D_AVX2 void setColors(std::uint32_t* pixels, __m256i colors) const {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(pixels + index), colors);
+    }
+};
+
+/// Four neighboring pixels of a row, and four of another row.
+struct PixelsOfTwoRows {
+    std::ptrdiff_t first, second;  ///< the indices of the first pixels of the rows in the picture
+
+    OVAL4D_AVX2 __m256 depths(const float* nearness) const {
+        return _mm256_set_m128(_mm_loadu_ps(nearness + second), _mm_loadu_ps(nearness + first));
+    }
+    OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const {
+        _mm_storeu_ps(nearness + first, _mm256_castps256_ps128(depths));
+        _mm_storeu_ps(nearness + second, _mm256_extractf128_ps(depths, 1));
+    }
+    OVAL4D_AVX2 __m256i colors(const std::uint32_t* pixels) const {
+        return _mm256_set_m128i(_mm_loadu_si128(reinterpret_cast<const __m128i*>(pixels + second)),
+                                _mm_loadu_si128(reinterpret_cast<const __m128i*>(pixels + first)));
+    }
+    OVAL4D_AVX2 void setColors(std::uint32_t* pixels, __m256i colors) const {
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(pixels + first), _mm256_castsi256_si128(colors));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(pixels + second), _mm256_extracti128_si256(colors, 1));
+    }
+};
+
+// Draws eight pixels of a patch. `offsets`: how many columns they are to the right of those of `start`. `inside`: all
+// bits of a pixel are set if it is in the patch. The formulas are those of the fragment shader in shape_batch.cpp.
+template <Form form, DepthUse depth, typename Pixels>
+OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const Paint& paint, const Pixels& pixels,
+                                   const StartValues& start, __m256i offsets, __m256 inside) {
     constexpr bool isRound = form == Form::strip || form == Form::disk;
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
-    const __m256 alphaScale = _mm256_set1_ps(static_cast<float>(paint.alpha) / 255), half = _mm256_set1_ps(0.5F);
-    const __m256 lane = _mm256_cvtepi32_ps(lanes());
-    const auto along = [&](const LinearFunction& f) OVAL4D_AVX2 { return _mm256_mul_ps(lane, _mm256_set1_ps(f.x)); };
-    const __m256 alongU = along(paint.u), alongV = along(paint.v), alongHalf = along(paint.halfRadius);
-    const __m256 alongNearness = along(paint.nearness);
+    const __m256 offset = _mm256_cvtepi32_ps(offsets);
+    const auto valueOf = [&](const LinearFunction& f, const __m256& first)
+                             OVAL4D_AVX2 { return _mm256_add_ps(first, _mm256_mul_ps(offset, _mm256_set1_ps(f.x))); };
+
+    // The normal (u, v, n), and q = 1 − u² − v².
+    __m256 u = zero, v = zero, q = one;
+    if constexpr (isRound) {
+        u = valueOf(paint.u, start.u);
+        q = _mm256_fnmadd_ps(u, u, q);
+    }
+    if constexpr (form == Form::disk) {
+        v = valueOf(paint.v, start.v);
+        q = _mm256_fnmadd_ps(v, v, q);
+    }
+    const __m256 n = isRound ? _mm256_sqrt_ps(_mm256_max_ps(q, zero)) : one;
+    __m256 alpha = _mm256_set1_ps(static_cast<float>(paint.alpha) / 255);
+    if constexpr (form != Form::face) {
+        const __m256 thickness =
+            form == Form::rim ? valueOf(paint.halfRadius, start.halfRadius) : _mm256_set1_ps(paint.halfRadius.origin);
+        const __m256 covered = _mm256_fmadd_ps(q, thickness, _mm256_set1_ps(0.5F));
+        alpha = _mm256_mul_ps(alpha, _mm256_max_ps(_mm256_min_ps(covered, one), zero));
+    }
+    if constexpr (depth == DepthUse::unused) {
+        alpha = _mm256_and_ps(alpha, inside);
+    } else {
+        // Let d be the distance of the patch from the eye, and r the much smaller radius of the shape. A point of the
+        // shape is closer to the eye than the patch by rn. The nearness of the point is 1 / (d − rn), which is almost
+        // (1 + rn / d) / d.
+        const __m256 patch = valueOf(paint.nearness, start.nearness);
+        const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
+        const __m256 old = pixels.depths(canvas.nearness), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
+        const __m256 uncovered = uncoveredParts(old), rest = _mm256_fnmadd_ps(alpha, uncovered, uncovered);
+        alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(uncovered, one, isNearer));
+        inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
+        if (_mm256_testz_ps(inside, inside) != 0) return;
+        alpha = _mm256_and_ps(alpha, inside);
+        if constexpr (depth == DepthUse::written) {
+            const __m256 written = withUncoveredParts(_mm256_max_ps(nearness, old), rest);
+            pixels.setDepths(canvas.nearness, _mm256_blendv_ps(old, written, inside));
+        }
+    }
+
+    const auto product = [&](const glm::vec3& direction) OVAL4D_AVX2 {
+        __m256 sum = _mm256_mul_ps(n, _mm256_set1_ps(direction.z));
+        if constexpr (isRound) sum = _mm256_fmadd_ps(u, _mm256_set1_ps(direction.x), sum);
+        if constexpr (form == Form::disk) sum = _mm256_fmadd_ps(v, _mm256_set1_ps(direction.y), sum);
+        return _mm256_max_ps(sum, zero);
+    };
+    const __m256 light = _mm256_add_ps(_mm256_set1_ps(canvas.ambient), product(paint.diffuse));
+    __m256 shine = zero;
+    if constexpr (isRound)
+        shine = _mm256_mul_ps(power(product(paint.specular), canvas.shininess), _mm256_set1_ps(canvas.gloss));
+    const __m256 kept = _mm256_sub_ps(one, alpha);
+    const __m256i old = pixels.colors(canvas.pixels);
+    const auto over = [&](const __m256& above, const __m256& below) OVAL4D_AVX2 {
+        return _mm256_cvtps_epi32(_mm256_fmadd_ps(above, alpha, _mm256_mul_ps(below, kept)));
+    };
+    const auto blend = [&](float channel, const __m256& below) OVAL4D_AVX2 {
+        return over(_mm256_min_ps(_mm256_fmadd_ps(_mm256_set1_ps(channel), light, shine), most), below);
+    };
+    const __m256i red = blend(paint.color.r, channelOf<0>(old)), green = blend(paint.color.g, channelOf<1>(old));
+    const __m256i blue = blend(paint.color.b, channelOf<2>(old));
+    const __m256i opacity = canvas.opaque ? _mm256_set1_epi32(255) : over(most, channelOf<3>(old));
+    pixels.setColors(canvas.pixels,
+                     _mm256_or_si256(_mm256_or_si256(red, _mm256_slli_epi32(green, 8)),
+                                     _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_slli_epi32(opacity, 24))));
+}
+
+// Draws a patch: two rows at a time where both cover at most four pixels, as do most rows of thin bars, else one row.
+template <Form form, DepthUse depth>
+OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
+    constexpr int kHalf = kLanes / 2;
+    const __m256i inHalf = _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3);
+    const auto isNarrow = [&](int y) { return canvas.right[y] - canvas.left[y] <= kHalf; };
     for (int y = rows.begin; y < rows.end; ++y) {
-        const int end = canvas.right[y];
+        const int left = canvas.left[y], right = canvas.right[y];
         const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * canvas.width;
-        const auto rowOf = [y](const LinearFunction& f) { return f.origin + f.y * static_cast<float>(y); };
-        const float rowU = rowOf(paint.u), rowV = rowOf(paint.v), rowHalf = rowOf(paint.halfRadius);
-        const float rowNearness = rowOf(paint.nearness);
-        for (int x = canvas.left[y]; x < end; x += kLanes) {
+        if (isNarrow(y) && y + 1 < rows.end && isNarrow(y + 1)) {
+            const int leftAbove = canvas.left[y + 1], rightAbove = canvas.right[y + 1];
+            const int at = std::min(left, canvas.width - kHalf), atAbove = std::min(leftAbove, canvas.width - kHalf);
+            const __m256i x = _mm256_add_epi32(inHalves(at, atAbove), inHalf);
+            const __m256i inside = _mm256_andnot_si256(_mm256_cmpgt_epi32(inHalves(left, leftAbove), x),
+                                                       _mm256_cmpgt_epi32(inHalves(right, rightAbove), x));
+            fillPixels<form, depth>(canvas, paint, PixelsOfTwoRows{row + at, row + canvas.width + atAbove},
+                                    startValues<form, depth>(paint, at, y, atAbove, y + 1), inHalf,
+                                    _mm256_castsi256_ps(inside));
+            ++y;
+            continue;
+        }
+        for (int x = left; x < right; x += kLanes) {
             const int at = std::min(x, canvas.width - kLanes);
-            const auto column = static_cast<float>(at);
-            const auto valueOf = [&](float inRow, const LinearFunction& f, const __m256& rest)
-                                     OVAL4D_AVX2 { return _mm256_add_ps(_mm256_set1_ps(inRow + f.x * column), rest); };
-            __m256 inside = _mm256_castsi256_ps(between(x, end, at));
-
-            // The normal (u, v, n), and q = 1 − u² − v².
-            __m256 u = zero, v = zero, q = one;
-            if constexpr (isRound) {
-                u = valueOf(rowU, paint.u, alongU);
-                q = _mm256_fnmadd_ps(u, u, q);
-            }
-            if constexpr (form == Form::disk) {
-                v = valueOf(rowV, paint.v, alongV);
-                q = _mm256_fnmadd_ps(v, v, q);
-            }
-            const __m256 n = isRound ? _mm256_sqrt_ps(_mm256_max_ps(q, zero)) : one;
-            __m256 alpha = alphaScale;
-            if constexpr (form != Form::face) {
-                const __m256 thickness = form == Form::rim ? valueOf(rowHalf, paint.halfRadius, alongHalf)
-                                                           : _mm256_set1_ps(paint.halfRadius.origin);
-                const __m256 coverage = _mm256_max_ps(_mm256_min_ps(_mm256_fmadd_ps(q, thickness, half), one), zero);
-                alpha = _mm256_mul_ps(alpha, coverage);
-            }
-            if constexpr (depth == DepthUse::unused) {
-                alpha = _mm256_and_ps(alpha, inside);
-            } else {
-                // Let d be the distance of the patch from the eye, and r the much smaller radius of the shape. A point
-                // of the shape is closer to the eye than the patch by rn. The nearness of the point is 1 / (d − rn),
-                // which is almost (1 + rn / d) / d.
-                const __m256 patch = valueOf(rowNearness, paint.nearness, alongNearness);
-                const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
-                float* const place = canvas.nearness + row + at;
-                const __m256 old = _mm256_loadu_ps(place), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
-                const __m256 uncovered = uncoveredParts(old), rest = _mm256_fnmadd_ps(alpha, uncovered, uncovered);
-                alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(uncovered, one, isNearer));
-                inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
-                if (_mm256_testz_ps(inside, inside) != 0) continue;
-                alpha = _mm256_and_ps(alpha, inside);
-                if constexpr (depth == DepthUse::written) {
-                    const __m256 written = withUncoveredParts(_mm256_max_ps(nearness, old), rest);
-                    _mm256_storeu_ps(place, _mm256_blendv_ps(old, written, inside));
-                }
-            }
-
-            const auto product = [&](const glm::vec3& direction) OVAL4D_AVX2 {
-                __m256 sum = _mm256_mul_ps(n, _mm256_set1_ps(direction.z));
-                if constexpr (isRound) sum = _mm256_fmadd_ps(u, _mm256_set1_ps(direction.x), sum);
-                if constexpr (form == Form::disk) sum = _mm256_fmadd_ps(v, _mm256_set1_ps(direction.y), sum);
-                return _mm256_max_ps(sum, zero);
-            };
-            const __m256 light = _mm256_add_ps(_mm256_set1_ps(canvas.ambient), product(paint.diffuse));
-            __m256 shine = zero;
-            if constexpr (isRound)
-                shine = _mm256_mul_ps(power(product(paint.specular), canvas.shininess), _mm256_set1_ps(canvas.gloss));
-            const __m256 kept = _mm256_sub_ps(one, alpha);
-            auto* const place = reinterpret_cast<__m256i*>(canvas.pixels + row + at);
-            const __m256i old = _mm256_loadu_si256(place);
-            const auto over = [&](const __m256& above, const __m256& below) OVAL4D_AVX2 {
-                return _mm256_cvtps_epi32(_mm256_fmadd_ps(above, alpha, _mm256_mul_ps(below, kept)));
-            };
-            const auto blend = [&](float channel, const __m256& below) OVAL4D_AVX2 {
-                return over(_mm256_min_ps(_mm256_fmadd_ps(_mm256_set1_ps(channel), light, shine), most), below);
-            };
-            const __m256i red = blend(paint.color.r, channelOf<0>(old)),
-                          green = blend(paint.color.g, channelOf<1>(old));
-            const __m256i blue = blend(paint.color.b, channelOf<2>(old));
-            const __m256i opacity = canvas.opaque ? _mm256_set1_epi32(255) : over(most, channelOf<3>(old));
-            _mm256_storeu_si256(
-                place, _mm256_or_si256(_mm256_or_si256(red, _mm256_slli_epi32(green, 8)),
-                                       _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_slli_epi32(opacity, 24))));
+            fillPixels<form, depth>(canvas, paint, PixelsOfOneRow{row + at},
+                                    startValues<form, depth>(paint, at, y, at, y), lanes(),
+                                    _mm256_castsi256_ps(between(x, right, at)));
         }
     }
 }
