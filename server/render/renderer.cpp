@@ -66,19 +66,15 @@ bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 /// shapes, not from ProjectionPlacement::radius: far from the view axis, the image of a sphere is an ellipse, and balls
 /// of a cloud may extend beyond the sphere.
 PixelArea areaOf(const ProjectionShapeCollector::Layers& layers, scene::Viewport viewport) {
-    constexpr float kNearest = 1e-3F;  // if a vertex is closer to the eye, its polygon may cover any pixel
-    const glm::ivec2 size(viewport.width, viewport.height);
-    const glm::vec2 most(size);
-    glm::vec2 from = most, to(0);
+    const glm::vec2 most(viewport.width, viewport.height);
+    glm::vec2 least(1), greatest(-1);
     for (const ShapeBatch* shapes : {&layers.solid, &layers.translucent}) {
-        for (const ShapeVertex& vertex : shapes->vertices()) {
-            const glm::vec3& clip = vertex.clip;
-            const glm::vec2 at = (glm::vec2(clip.x, clip.y) / clip.z * 0.5F + 0.5F) * most;
-            if (!(clip.z >= kNearest) || std::isnan(at.x + at.y)) return {{0, 0}, size};
-            from = glm::min(from, at);
-            to = glm::max(to, at);
+        for (const Patch& patch : shapes->patches()) {
+            least = glm::min(least, patch.least);
+            greatest = glm::max(greatest, patch.greatest);
         }
     }
+    const glm::vec2 from = (least * 0.5F + 0.5F) * most, to = (greatest * 0.5F + 0.5F) * most;
     // One pixel more on each side, because of rounding errors.
     const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
     const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);

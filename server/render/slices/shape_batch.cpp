@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "render/color.hpp"
@@ -54,9 +57,27 @@ void ShapeBatch::clear() {
 }
 
 void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form form) {
-    patches_.push_back(
-        {static_cast<std::uint32_t>(vertices_.size()), static_cast<std::uint32_t>(vertices.size()), form});
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
     vertices_.insert(vertices_.end(), vertices);
+    addPatch(first, form);
+}
+
+/// Adds the patch whose vertices are those from `first` to the last one.
+void ShapeBatch::addPatch(std::uint32_t first, Patch::Form form) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const auto vertices = std::span(vertices_).subspan(first);
+    Patch patch{first, static_cast<std::uint32_t>(vertices.size()), form, glm::vec2(kInfinity), glm::vec2(-kInfinity)};
+    for (const ShapeVertex& vertex : vertices) {
+        const glm::vec2 at = glm::vec2(vertex.clip) * (1 / vertex.clip.z);
+        if (!(vertex.clip.z >= kNearPlane) || std::isnan(at.x + at.y)) {
+            patch.least = glm::vec2(-kInfinity);
+            patch.greatest = glm::vec2(kInfinity);
+            break;
+        }
+        patch.least = glm::min(patch.least, at);
+        patch.greatest = glm::max(patch.greatest, at);
+    }
+    patches_.push_back(patch);
 }
 
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
@@ -123,7 +144,7 @@ void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& no
         vertices_.push_back(vertex);
         vertices_.back().clip = projection_.clipXyw(corner);
     }
-    patches_.push_back({first, count, Patch::Form::face});
+    addPatch(first, Patch::Form::face);
     if (soft) antialiasFace(first, count);
 }
 

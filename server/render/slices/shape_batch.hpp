@@ -34,6 +34,9 @@ struct ShapeVertex {
     std::uint32_t color;  ///< as returned by rgba()
 };
 
+/// The distance of the near clipping plane from the eye, in view coordinates.
+inline constexpr float kNearPlane = 1e-3F;
+
 /// A convex polygon, whose vertices follow one another in the batch. The vertices differ only in ShapeVertex::clip and,
 /// depending on the form, in a part of ShapeVertex::place.
 struct Patch {
@@ -46,6 +49,9 @@ struct Patch {
     };
     std::uint32_t first, count;  ///< the index of the first vertex; the number of vertices
     Form form;
+    /// The least and the greatest x and y of the vertices in the picture, which extends from −1 to 1; infinite if a
+    /// vertex is closer to the eye than kNearPlane.
+    glm::vec2 least, greatest;
 };
 
 /// A list of shapes, converted to patches. The caller must add them in drawing order. Positions and radii are in view
@@ -81,6 +87,7 @@ class ShapeBatch {
 
   private:
     void add(std::initializer_list<ShapeVertex> vertices, Patch::Form form);
+    void addPatch(std::uint32_t first, Patch::Form form);
     void antialiasFace(std::uint32_t first, std::uint32_t count);
 
     Projection projection_;

@@ -20,9 +20,6 @@ namespace oval4d::render {
 
 namespace {
 
-// The depth of the near clipping plane, in view coordinates.
-constexpr float kNearPlane = 1e-3F;
-
 using Form = Patch::Form;
 using DepthUse = ShapeRasterizer::DepthUse;
 
@@ -131,8 +128,7 @@ int ShapeRasterizer::Impl::middleRow() const {
     for (const Layer& layer : layers) {
         for (const Patch& patch : layer.patches()) {
             if (patch.count == 0) continue;
-            const glm::vec3& at = layer.shapes->vertices()[patch.first].clip;
-            sum += 0.5 + 0.5 * std::max(-1.0F, std::min(1.0F, at.y / std::max(at.z, kNearPlane)));
+            sum += 0.5 + 0.25 * (std::clamp(patch.least.y, -1.0F, 1.0F) + std::clamp(patch.greatest.y, -1.0F, 1.0F));
         }
         const std::size_t triangles = layer.triangles.size() / 3;
         if (triangles > 0) sum += layer.surfaces->estimateMeanScreenY(layer.triangles) * static_cast<double>(triangles);
@@ -166,7 +162,12 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
 
 void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const Layer& layer, Workspace& workspace) const {
     const float pixelSize = 1 / layer.shapes->projection().focalLength();
+    // The bounds of the drawn rows in the picture, with room for the antialiased edge, which moves corners by a pixel.
+    constexpr int kRoom = 2;
+    const auto heightOf = [&](int row) { return 2 * static_cast<float>(row) / static_cast<float>(canvas.height) - 1; };
+    const float lower = heightOf(part.rows.begin - kRoom), upper = heightOf(part.rows.end + kRoom);
     for (const Patch& patch : layer.patches()) {
+        if (patch.greatest.y < lower || patch.least.y > upper) continue;
         std::span<const ShapeVertex> vertices = layer.shapes->vertices().subspan(patch.first, patch.count);
         if (std::ranges::any_of(vertices, [](const ShapeVertex& v) { return v.clip.z < kNearPlane; })) {
             cutAtNearPlane(vertices, workspace.clipped);

@@ -20,8 +20,6 @@ namespace {
 using Blending = SurfaceRasterizer::Blending;
 using Point = SurfaceRasterizer::Point;
 
-// The depth of the near clipping plane, in view coordinates.
-constexpr float kNearPlane = 1e-3F;
 constexpr std::size_t kLanes = 8;
 // While eight triangles are drawn, the first corners of the eight triangles that begin this many indices later are
 // prefetched, because another core may have written them. The other corners are often close to the first ones in
