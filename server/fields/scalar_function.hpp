@@ -1,6 +1,6 @@
 #pragma once
 // The interface of 4-D scalar functions f(x, y, z, w). Formulas and arrays implement it. Slicing evaluates fields only
-// through this interface, except that FieldLattice also reads the samples of arrays.
+// through this interface, except that slicing::FieldLattice also reads the samples of arrays.
 
 #include <cstddef>
 #include <limits>

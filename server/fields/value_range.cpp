@@ -75,7 +75,7 @@ const ValueRange& TypicalRangeOnBox::get() const {
             function.evaluate({points[0], points[1], points[2], points[3]},
                               std::span(values).subspan(batch * kUnitPoints, kUnitPoints));
         }
-        constexpr double kMargin = 0.5;  // large: the ends of a color scale should be the extreme values if possible
+        constexpr double kMargin = 0.5;  // large, because a color scale should include the extreme values if possible
         range_ = rangesWith(values, kMargin).typical;
     });
     return range_;

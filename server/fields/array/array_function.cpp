@@ -107,7 +107,7 @@ std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!isEager()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
-        coarser = bytes + bytes / 10;  // the selection, with its own bricks and coarser versions
+        coarser = bytes + bytes / 10;  // the selection; a tenth more for its bricks and coarser versions
     }
     return samples_.memoryBytes() + bricks_.memoryBytes() + coarser;
 }

@@ -78,8 +78,8 @@ class ArrayFunction final : public ScalarFunction {
     std::span<const float> samples() const { return samples_.values(); }
     const SampleStorage& storage() const { return samples_; }
 
-    /// Returns the range of the samples and the number of missing samples. If rangeIsExact() is true, they are those of
-    /// all samples, otherwise those of a selection of about 260,000 samples.
+    /// Returns the least and the greatest sample and the number of missing samples. If rangeIsExact() is true, all
+    /// samples are considered; otherwise, only a selection of about 260,000 samples.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     bool rangeIsExact() const { return isEager(); }
 

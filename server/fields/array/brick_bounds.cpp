@@ -211,12 +211,12 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const BrickIndex& brick) 
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
-    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; spreads neighbors over the slots
+    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; as a factor, spreads neighbors over the slots
     Slot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
-    // Several threads may compute the same entry at the same time.
+    // Several threads may compute an entry at the same time. No lock is needed, because all store the same numbers.
     known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));
     entry.store(known, std::memory_order_relaxed);
     check.store(known ^ index, std::memory_order_relaxed);

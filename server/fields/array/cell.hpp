@@ -38,7 +38,7 @@ inline float mix(float a, float b, float t) { return a + t * (b - a); }
 
 /// The interpolated value at a point, and its derivatives along each axis with respect to CellPoint::t, not to the
 /// coordinates of the point.
-struct Jet {
+struct ValueAndDerivatives {
     float value;
     std::array<float, 4> derivatives;
 };
@@ -74,7 +74,7 @@ struct CellPoint {
 
     /// Returns the interpolated value and its derivatives. If any corner is not finite, none of these numbers is
     /// finite.
-    Jet jet() const {
+    ValueAndDerivatives valueAndDerivatives() const {
         std::array<std::array<float, 4>, 2> ends{};  // at the lower and upper x: value, derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {
             const float* const c = &corners[x * kRows];

@@ -19,7 +19,7 @@ struct Weight {
 
 // The weights of each fine sample along an axis: those of sample i are items[begin[i]] … items[begin[i + 1] − 1].
 struct AxisWeights {
-    std::vector<std::uint32_t> begin{0};  // one entry more than there are fine samples
+    std::vector<std::uint32_t> begin{0};  // size() + 1 entries
     std::vector<Weight> items;
 
     std::size_t size() const { return begin.size() - 1; }

@@ -34,7 +34,7 @@ void gradientPortably(const SampledLattice& from, const PointBatch& points, cons
     const RowOffsets offsets = rowOffsets(from.lattice);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto point = pointAt(points, i);
-        std::array<float, 4> gradient = CellPoint(from, offsets, point).jet().derivatives;
+        std::array<float, 4> gradient = CellPoint(from, offsets, point).valueAndDerivatives().derivatives;
         for (std::size_t axis = 0; axis < 4; ++axis) gradient[axis] *= from.lattice.axes[axis].scale;
         if (isNan(point) || !std::all_of(gradient.begin(), gradient.end(), isFinite)) gradient = {};
         gradients.x[i] = gradient[0];

@@ -121,11 +121,11 @@ OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const RowOffse
 }
 
 // Numbers at the lower and at the upper x of eight cells.
-struct Ends {
+struct ValuesAtXEnds {
     __m256 low, high;
 };
 
-OVAL4D_AVX2 inline void split(const Pairs& firstFour, const Pairs& lastFour, Ends& ends) {
+OVAL4D_AVX2 inline void split(const Pairs& firstFour, const Pairs& lastFour, ValuesAtXEnds& ends) {
     const __m256i evenThenOdd = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
     const __m256 a = _mm256_permutevar8x32_ps(firstFour, evenThenOdd);
     const __m256 b = _mm256_permutevar8x32_ps(lastFour, evenThenOdd);
@@ -133,7 +133,7 @@ OVAL4D_AVX2 inline void split(const Pairs& firstFour, const Pairs& lastFour, End
 }
 
 OVAL4D_AVX2 inline __m256 mixEnds(const Pairs& firstFour, const Pairs& lastFour, const __m256& x) {
-    Ends ends;
+    ValuesAtXEnds ends;
     split(firstFour, lastFour, ends);
     return mix(ends.low, ends.high, x);
 }
@@ -185,7 +185,7 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
         interpolateAlongWzy<kGradient>(
             from.samples, offsets, cells.first.data() + 4, _mm256_permutevar8x32_ps(t[1], lastFour),
             _mm256_permutevar8x32_ps(t[2], lastFour), _mm256_permutevar8x32_ps(t[3], lastFour), last);
-        Ends ends;
+        ValuesAtXEnds ends;
         split(first.value, last.value, ends);
         const __m256 value = mix(ends.low, ends.high, t[0]);
         const __m256 finite = isFinite(value);

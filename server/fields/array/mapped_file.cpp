@@ -18,7 +18,7 @@ namespace {
 
 /// An entry in the list of mapped files that the signal handler reads. The entry is free if `begin` is 0. The handler
 /// reads only atomic members, because a signal handler may not wait for a mutex.
-struct BusErrorEntry {
+struct MappedRange {
     std::atomic<std::uintptr_t> begin = 0;
     std::atomic<std::size_t> size = 0;
     std::atomic<int> protection = 0;
@@ -28,13 +28,13 @@ struct BusErrorEntry {
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 constexpr std::size_t kMaxFiles = 4096;
-std::array<BusErrorEntry, kMaxFiles> mappedRanges;  // global, because signal handlers have no arguments of their own
-std::mutex mappedRangesMutex;                       // locked while an entry is taken or freed
+std::array<MappedRange, kMaxFiles> mappedRanges;  // global, because signal handlers have no arguments of their own
+std::mutex mappedRangesMutex;                     // locked while an entry is taken or freed
 
 void onBusError(int number, siginfo_t* info, void* /*context*/) {
     const int fault = errno;
     const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
-    for (BusErrorEntry& range : mappedRanges) {
+    for (MappedRange& range : mappedRanges) {
         const std::uintptr_t begin = range.begin.load();
         if (begin == 0 || address < begin || address - begin >= range.size.load()) continue;
         // One mapping replaces the whole file, because a process may have only a limited number of mappings. The system
@@ -91,7 +91,7 @@ Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(Access access, int descrip
         return Error{ErrorCode::too_large, "the file is larger than the memory that may be used to read it"};
     if (at == MAP_FAILED)
         return Error{ErrorCode::internal, "the file cannot be mapped: " + std::generic_category().message(errno)};
-    BusErrorEntry& range = mappedRanges[entry];
+    MappedRange& range = mappedRanges[entry];
     range.size = size;
     range.protection = protection;
     range.lost = false;
@@ -125,7 +125,7 @@ MappedFile::~MappedFile() {
 }
 
 bool MappedFile::isLost() const {
-    const BusErrorEntry& range = mappedRanges[entry_];
+    const MappedRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
     // The file may have been shortened and restored since it was mapped. While it was shortened, another process of the
     // server that has mapped it may have read zeros. Therefore any modification since the mapping counts as a loss.

@@ -13,7 +13,7 @@ namespace oval4d::fields {
 /// append further samples at the same time.
 struct SampleStorage::SharedGrowthBuffer {
     std::mutex mutex;
-    std::vector<float> values;  // guarded by mutex; its capacity does not change
+    std::vector<float> values;  // guarded by mutex; never reallocated, because results refer to it
 };
 
 SampleStorage SampleStorage::followedBy(std::span<const float> others) const {

@@ -28,8 +28,8 @@ float* scratch(std::size_t size) {
 }
 
 using PaddedPoints = std::array<Lanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
-// Returns kKernelLanes points: the points from index `begin` on, of which there must be fewer, and then copies of the
-// last point.
+// Returns kKernelLanes points: the points from index `begin` to the end of the batch, which must be fewer than
+// kKernelLanes, and then copies of the last point.
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
     const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};
@@ -144,7 +144,7 @@ Bounds FormulaFunction::boundsIn(const Box& region) const {
         const Bounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
         const int exponent = next.operation == Operation::integer_power ? static_cast<int>(next.number) : 0;
         const Bounds result = intervalOf(next.operation, a, b, exponent);
-        // The members are copied one by one, not as a whole: fields/CMakeLists.txt says why.
+        // Copying the members one by one, not by a vector instruction, is faster: see fields/CMakeLists.txt.
         intervals[next.result].min = result.min;
         intervals[next.result].max = result.max;
         intervals[next.result].hasValueEverywhere = result.hasValueEverywhere;

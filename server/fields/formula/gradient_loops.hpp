@@ -103,6 +103,8 @@ class GradientLoops : private ValueLoops<Math> {
         for (Size i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
+    // Sets to 0 the derivatives that the last instruction has not written, and then each gradient that is not finite or
+    // whose value is not finite.
     static void finish(const Instruction& last, const GradientBlock& block) {
         for (unsigned axis = 0; axis < 4; ++axis) {
             if ((last.axes >> axis & 1U) == 0)

@@ -53,7 +53,7 @@ Graph::Ref Graph::binary(Operation operation, Ref a, Ref b) {
     if (operation == Operation::power && right) return power(a, *right);
     const bool commutes = operation == Operation::add || operation == Operation::multiply ||
                           operation == Operation::min || operation == Operation::max;
-    if (commutes && (left || (!right && a > b))) std::swap(a, b);  // a constant goes to the right
+    if (commutes && (left || (!right && a > b))) std::swap(a, b);  // a constant becomes the right operand
     if (const auto simple = simplified(operation, a, b)) return *simple;
     return node(operation, a, b, 0);
 }

@@ -124,7 +124,7 @@ bool containsPhase(const Bounds& a, double phase, double period) {
 // Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where it is greatest.
 template <typename F>
 Bounds sine(F f, double top, const Bounds& a) {
-    constexpr double kLarge = 1e6;  // beyond it, the slack of containsPhase() is too large to be useful
+    constexpr double kLarge = 1e6;  // beyond ±kLarge, the slack of containsPhase() is too large to be useful
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
     if (a.min < -kLarge || a.max > kLarge) return widened(-1, 1, hasValueEverywhere, kFunction);
     const double first = f(a.min), last = f(a.max);
@@ -157,7 +157,7 @@ Bounds hyperbolicCosine(const Bounds& a) {
 // because a^b has no extrema inside, and is monotonic along each side.
 Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
-    // −0 to an odd negative power is −∞.
+    // A zero in `a` may be −0, which to the power of an odd negative number is −∞, not ∞.
     if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, hasValueEverywhere};
     return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)},
                 hasValueEverywhere, kFunction);
@@ -187,8 +187,8 @@ Bounds arctangent2(const Bounds& y, const Bounds& x) {
         hasValueEverywhere, kFunction);
 }
 
-// a − b⌊q⌋, where the computed q differs from a/b by a factor of at most 1 ± 2⁻²⁴. So the result is between 0 and b,
-// except for a few rounding errors of numbers that are at most |a| + |b|.
+// Returns the interval of a − b⌊q⌋, where q is the computed quotient: a/b times a factor from 1 − 2⁻²⁴ to 1 + 2⁻²⁴. The
+// value is between 0 and b, except for a few rounding errors of numbers that are at most |a| + |b|.
 Bounds modulo(const Bounds& a, const Bounds& b) {
     const Bounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};

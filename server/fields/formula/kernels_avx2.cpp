@@ -89,8 +89,8 @@ using Math = VectorMath;
 
 namespace {
 
-struct Avx2 {};
-using Math = PortableMath<Avx2>;
+struct Avx2SourceTag {};
+using Math = PortableMath<Avx2SourceTag>;
 
 #endif
 

@@ -7,12 +7,12 @@ namespace oval4d::fields {
 
 namespace {
 
-struct Portable {};
+struct PortableSourceTag {};
 
 }  // namespace
 
 const Kernels& portableKernels() {
-    static constexpr Kernels kKernels = GradientLoops<PortableMath<Portable>>::kernels();
+    static constexpr Kernels kKernels = GradientLoops<PortableMath<PortableSourceTag>>::kernels();
     return kKernels;
 }
 

@@ -103,32 +103,32 @@ class Parser {
   private:
     // An operand whose sign is not yet part of the tree. Signs are moved out of products, and turn sums into
     // differences or the reverse, so that toText() never needs to write "--".
-    struct Term {
+    struct SignedOperand {
         Index node;
         bool isNegative;
     };
-    Index withSign(Term term) { return term.isNegative ? add(Kind::negate, {term.node}) : term.node; }
+    Index withSign(SignedOperand term) { return term.isNegative ? add(Kind::negate, {term.node}) : term.node; }
 
     Index sum() {
         Index value = withSign(product());
         while (true) {
             const bool plus = take("+");
             if (!plus && !takeMinus()) return value;
-            const Term term = product();
+            const SignedOperand term = product();
             value = add(plus == term.isNegative ? Kind::subtract : Kind::add, {value, term.node});
         }
     }
-    Term product() {
-        Term value = signedPower();
+    SignedOperand product() {
+        SignedOperand value = signedPower();
         while (true) {
             const bool times = take("*");
             if (!times && !take("/")) return value;
-            const Term factor = signedPower();
+            const SignedOperand factor = signedPower();
             value.node = add(times ? Kind::multiply : Kind::divide, {value.node, factor.node});
             value.isNegative = value.isNegative != factor.isNegative;
         }
     }
-    Term signedPower() {
+    SignedOperand signedPower() {
         bool isNegative = false;
         while (true) {
             if (takeMinus()) {
@@ -139,13 +139,13 @@ class Parser {
         }
         const Index value = angle();
         if (take("^")) {
-            const Depth deeper(*this);
+            const NestingGuard deeper(*this);
             const Index exponent = withSign(signedPower());
             return {add(Kind::power, {value, exponent}), isNegative};
         }
         if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
         // The value is a negation in parentheses. The node of the negation is the last node of the tree; it is removed,
-        // because the returned Term holds the sign.
+        // because the returned SignedOperand holds the sign.
         const Index operand = tree_.operands.back();
         tree_.operands.pop_back();
         tree_.nodes.pop_back();
@@ -160,7 +160,7 @@ class Parser {
     Index atom() {
         skipBlanks();
         if (take("(")) {
-            const Depth deeper(*this);
+            const NestingGuard deeper(*this);
             const Index value = sum();
             expectClosingParenthesis();
             return value;
@@ -203,7 +203,7 @@ class Parser {
     Index call(std::size_t function, std::size_t start) {
         const BuiltinFunction& entry = functions()[function];
         if (!take("(")) fail("'(' is expected after " + std::string(entry.name));
-        const Depth deeper(*this);
+        const NestingGuard deeper(*this);
         std::vector<Index> arguments{sum()};
         while (take(",")) arguments.push_back(sum());
         expectClosingParenthesis();
@@ -376,7 +376,7 @@ class Parser {
         return isOperand ? " (a product is written 2*x)" : "";
     }
     static std::string suggestion(std::string_view name) {
-        if (name.size() == 1) return "";  // all single letters are equally similar
+        if (name.size() == 1) return "";  // any other letter would be equally similar
         std::vector<std::string_view> known(kVariablesAndConstants.begin(), kVariablesAndConstants.end());
         for (const auto& function : functions()) known.push_back(function.name);
         return text::didYouMean(name, known);
@@ -403,13 +403,13 @@ class Parser {
     [[noreturn]] void fail(std::string what) const { throw SyntaxError{at_, std::move(what)}; }
     [[noreturn]] static void failAt(std::size_t byte, std::string what) { throw SyntaxError{byte, std::move(what)}; }
 
-    struct Depth {
-        explicit Depth(Parser& owner) : parser(owner) {
+    struct NestingGuard {
+        explicit NestingGuard(Parser& owner) : parser(owner) {
             if (++parser.depth_ > parser.limits_.nesting) parser.fail("the formula nests too deeply");
         }
-        ~Depth() { --parser.depth_; }
-        Depth(const Depth&) = delete;
-        Depth& operator=(const Depth&) = delete;
+        ~NestingGuard() { --parser.depth_; }
+        NestingGuard(const NestingGuard&) = delete;
+        NestingGuard& operator=(const NestingGuard&) = delete;
         Parser& parser;
     };
 

@@ -135,7 +135,7 @@ class ValueLoops {
         map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, Array{power}, Array{a}, size);
     }
 
-    // power or atan2; NaN if an operand is NaN, unlike C's pow.
+    // Computes power or atan2. The result is NaN if an operand is NaN, unlike that of C's pow.
     static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
         const auto number = static_cast<float>(instruction.number);
         if (instruction.operation == Operation::power && instruction.form == OperandForm::register_and_number &&
@@ -151,7 +151,7 @@ class ValueLoops {
         for (Size i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
     }
 
-    // aⁿ for constant n, by repeated squaring.
+    // Returns aⁿ, computed by repeated squaring.
     template <unsigned n>
     static float integerPower(float a) {
         if constexpr (n == 0) {

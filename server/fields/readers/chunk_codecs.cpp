@@ -20,8 +20,8 @@ constexpr auto kChunkCodecs = std::to_array<std::pair<std::string_view, ChunkCod
 
 const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size than the metadata state"};
 
-Result<bool> inflated(GzipReader::Wrapper wrapper, std::span<const std::byte> chunk, std::span<std::byte> to) {
-    GzipReader reader(chunk, wrapper);
+Result<bool> inflated(GzipReader::StreamFormat format, std::span<const std::byte> chunk, std::span<std::byte> to) {
+    GzipReader reader(chunk, format);
     if (!reader.fill(to) || !reader.verifyEnd()) return kDamaged;
     return true;
 }
@@ -48,9 +48,9 @@ std::optional<ChunkCodec> chunkCodecNamed(std::string_view name) {
 Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to) {
     switch (codec) {
         case ChunkCodec::gzip:
-            return inflated(GzipReader::Wrapper::gzip, chunk, to);
+            return inflated(GzipReader::StreamFormat::gzip, chunk, to);
         case ChunkCodec::zlib:
-            return inflated(GzipReader::Wrapper::zlib, chunk, to);
+            return inflated(GzipReader::StreamFormat::zlib, chunk, to);
         case ChunkCodec::zstd: {
             const std::size_t size = ZSTD_decompress(to.data(), to.size(), chunk.data(), chunk.size());
             if (ZSTD_isError(size) != 0 || size != to.size()) return kDamaged;

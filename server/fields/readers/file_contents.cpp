@@ -32,7 +32,8 @@ Result<FileContents> FileContents::map(int file) {
 }
 
 Result<FileContents> FileContents::map(const std::filesystem::path& path) {
-    const FileHandle file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // does not wait for a pipe's writer
+    // With O_NONBLOCK, opening a named pipe does not wait for its writer.
+    const FileHandle file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.descriptor() < 0)
         return Error{ErrorCode::not_found, "the file cannot be opened: " + std::generic_category().message(errno)};
     return map(file.descriptor());

@@ -45,9 +45,9 @@ bool isGzipStart(std::span<const std::byte> start) {
     return start.size() >= 2 && start[0] == std::byte{0x1f} && start[1] == std::byte{0x8b};
 }
 
-GzipReader::GzipReader(std::span<const std::byte> compressed, Wrapper wrapper) : state_(std::make_unique<State>()) {
+GzipReader::GzipReader(std::span<const std::byte> compressed, StreamFormat format) : state_(std::make_unique<State>()) {
     isal_inflate_init(&state_->inflate);
-    state_->inflate.crc_flag = wrapper == Wrapper::gzip ? ISAL_GZIP : ISAL_ZLIB;
+    state_->inflate.crc_flag = format == StreamFormat::gzip ? ISAL_GZIP : ISAL_ZLIB;
     state_->rest = compressed;
 }
 

@@ -18,10 +18,10 @@ bool isGzipStart(std::span<const std::byte> start);
 class GzipReader {
   public:
     /// The format around the deflate data (RFC 1951): a gzip file (RFC 1952) or a zlib stream (RFC 1950).
-    enum class Wrapper : bool { gzip, zlib };
+    enum class StreamFormat : bool { gzip, zlib };
 
     /// `compressed` must outlive this object.
-    explicit GzipReader(std::span<const std::byte> compressed, Wrapper wrapper = Wrapper::gzip);
+    explicit GzipReader(std::span<const std::byte> compressed, StreamFormat format = StreamFormat::gzip);
     ~GzipReader();
     GzipReader(const GzipReader&) = delete;
     GzipReader& operator=(const GzipReader&) = delete;

@@ -71,7 +71,7 @@ hid_t openBytes(std::span<const std::byte> bytes) {
 
 struct Contents {
     std::vector<std::string> datasets;
-    bool refers = false;  // whether the file refers to other files
+    bool refers = false;  // whether a link or a dataset refers to another file
 };
 
 // The library calls visitLink() for each link and visitObject() for each object, until a call returns a number other
@@ -223,8 +223,8 @@ Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vec
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
-    // A path may contain soft links, which `datasets` does not list. It leads to nothing outside of this file, because
-    // readHdf5() refuses files with links of other kinds.
+    // The name may be a path with soft links, which `datasets` does not list. No path leads out of this file, because
+    // readHdf5() refuses files with external links.
     const bool isPath = !name.ends_with('/') && name.find('\0') == std::string::npos;
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     if (access) H5Pset_chunk_cache(*access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheSize, 1);
@@ -268,8 +268,8 @@ bool isHdf5Start(std::span<const std::byte> start) {
 }
 
 Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages to standard error
-    H5PLset_loading_state(0);                     // no plug-ins
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // print no messages
+    H5PLset_loading_state(0);                     // load no plug-ins
     const Handle id(openBytes(file.bytes), H5Fclose);
     if (!id) return badField("the file is not a valid HDF5 file");
     Contents contents;

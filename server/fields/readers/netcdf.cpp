@@ -36,8 +36,8 @@ class OpenFile {
         const std::size_t size = file.bytes.size();
         status_ = nc_open_mem("field", NC_NOWRITE, size, bytes, &id_);
         // libnetcdf 4.9 reads the header of a file of the classic format in parts of growing size. If the header takes
-        // more than about half of the file, a part would end behind the file, which the library refuses with EPERM. So
-        // small files are followed by as many zeros.
+        // more than about half of the file, a part would end behind the file, which the library refuses with EPERM. A
+        // small file is then opened again, with as many zeros after it as it has bytes.
         constexpr std::size_t kMostPadded = std::size_t{1} << 20U;
         if (status_ == EPERM && size <= kMostPadded) {
             padded_.assign(file.bytes.begin(), file.bytes.end());
@@ -55,7 +55,7 @@ class OpenFile {
     int id() const { return id_; }
 
   private:
-    std::vector<std::byte> padded_;  // the file and zeros, if they are needed
+    std::vector<std::byte> padded_;  // the file with zeros after it; empty if it was opened without them
     int id_ = -1, status_;
 };
 
@@ -259,7 +259,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
     std::vector<double> at(size);
     if (nc_get_vara_double(coordinate.group, coordinate.id, &start, &size, at.data()) != NC_NOERR) return {};
     const NumberFormat format = formatOf(coordinate, *row);
-    for (double& each : at) each = each * format.scale + format.offset;  // packed data: CF conventions, section 8.1
+    for (double& each : at) each = each * format.scale + format.offset;  // unpacks: CF conventions, section 8.1
     return endsOfCoordinates(at, name, field.warnings);
 }
 

@@ -51,7 +51,7 @@ struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;
     std::array<std::int64_t, kDimensions> size{};
-    std::array<double, 5> spacing{};  // qfac (only its sign counts), then the distances along the first four dimensions
+    std::array<double, 5> spacing{};  // pixdim: the sign of an axis, then the distances along four dimensions
     int type = 0, units = 0, qform = 0, sform = 0;
     double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
     std::array<double, 3> quaternion{}, offset{};

@@ -95,14 +95,14 @@ class HeaderParser {
             if (number > kMaxSize) return false;
         }
         text_.remove_prefix(digits);
-        takeWord("L");  // written by Python 2
+        takeWord("L");  // the suffix of long integers in Python 2
         return digits > 0;
     }
     bool takeTuple(std::vector<std::size_t>& numbers) {
         if (!take('(')) return false;
         while (!take(')')) {
             if (numbers.size() == kMaxNumpyDimensions || !takeNumber(numbers.emplace_back())) return false;
-            if (!take(',') && (numbers.size() == 1 || !next(')'))) return false;  // (3) is not a tuple, but (3,) is
+            if (!take(',') && (numbers.size() == 1 || !next(')'))) return false;  // in Python, (3) is a number
         }
         return true;
     }

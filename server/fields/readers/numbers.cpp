@@ -136,7 +136,7 @@ bool NumberFormat::isPlain() const {
 }
 
 double NumberFormat::roundedToType(double number) const {
-    // The greatest float in few digits, 3.4028235e38, is slightly greater than this float.
+    // Files may state the greatest 32-bit float as 3.4028235e38, a decimal number that is slightly greater.
     constexpr double kMost{std::numeric_limits<float>::max()}, kRoundedToMost = kMost * (1 + 0x1p-25);
     if (type != NumberType::f4 || !(std::abs(number) < kRoundedToMost)) return number;
     return double{static_cast<float>(std::clamp(number, -kMost, kMost))};

@@ -30,8 +30,9 @@ struct NumberFormat {
     /// Returns whether all stored numbers stand for themselves.
     bool isPlain() const;
 
-    /// Returns the number of the type that is closest to `number`; currently rounds only to 32-bit floats. Files state
-    /// numbers in another type than they store them, as a double or in decimal notation: no 32-bit float equals 0.1.
+    /// Returns the number of the type that is closest to `number`; currently rounds only to 32-bit floats. A file of
+    /// 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1, which equals
+    /// no 32-bit float.
     double roundedToType(double number) const;
     /// Applies roundedToType() to `missing`, `min` and `max`.
     void roundLimitsToType();

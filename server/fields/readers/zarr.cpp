@@ -17,8 +17,8 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // bytes of a file of metadata
-constexpr std::size_t kMaxZarrText = 60;                      // bytes of an attribute that are kept
+constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
+constexpr std::size_t kMaxZarrText = 60;                      // maximum number of bytes that are kept of a text
 
 TextReader textsOf(const FolderReader& folder) {
     return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
@@ -109,7 +109,7 @@ class ChunkReader {
         format.bigEndian = std::endian::native == std::endian::big;
         float value = 0;
         convert(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
-        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // new memory is 0 already
+        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // `to` contains only zeros before read() is called
         visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
             for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;
         });
@@ -124,7 +124,7 @@ class ChunkReader {
                    const Visit& visit) const {
         const std::vector<std::size_t>& order = array_.order;
         const std::size_t rank = order.size(), fastest = order.back();
-        std::vector<std::size_t> i(rank, 0);  // in the order of storage
+        std::vector<std::size_t> i(rank, 0);  // indices in the chunk, in the order of storage
         for (;;) {
             std::size_t number = 0;
             std::ptrdiff_t at = 0;

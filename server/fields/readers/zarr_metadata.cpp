@@ -23,8 +23,8 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMaxZarrDimensions = 32;
-constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // of a decompressed chunk
-constexpr std::size_t kMaxArrays = 10'000;                       // of a group, among which one is chosen
+constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // maximum size of a decompressed chunk
+constexpr std::size_t kMaxArrays = 10'000;                       // maximum number of arrays among which one is chosen
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Error badMetadata(std::string reason) {
