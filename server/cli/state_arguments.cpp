@@ -68,8 +68,8 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     if (isFolder || (mapped && isArray(*mapped))) {
         fields::ReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
         if (const auto text = take(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
-        const session::SecondSource second{take(query, "values").value_or(""),
-                                           take(query, "values_variable").value_or("")};
+        const session::SecondFunctionSource second{take(query, "values").value_or(""),
+                                                   take(query, "values_variable").value_or("")};
         if (!second.formula.empty() && !second.variable.empty())
             throw std::runtime_error("give either --values or --values_variable, not both");
         if (!isFolder) return session::readArray(*mapped, name, options, second);

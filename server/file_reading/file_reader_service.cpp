@@ -69,7 +69,7 @@ class RequestedObjectReader {
         const session::LoadObject& load = request_.load;
         if (request_.seriesLength == 0 && !load.file && !request_.isFolder)
             return session::readObject(load, request_.limits);
-        fields::NewFile newFile;
+        fields::MappedFileMaker newFile;
         if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
         const fields::ReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
         if (request_.isFolder) {

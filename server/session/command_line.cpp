@@ -36,9 +36,9 @@ Words split(std::string_view line) {
 
 bool isUnit(std::string_view word) { return word == "°" || word == "deg" || word == "rad"; }
 
-// Joins words that are separated by blanks, but belong together: words before and after one of the characters in
-// `separators`, and numbers and units. Examples are "highlight=cell: 3" and "30 °". All words must be views into the
-// same string.
+// Joins words that are separated by blanks, but belong together: a word that ends with a character in `separators` and
+// the next word; a word and the next one that begins with such a character; and a number and its unit. Examples are
+// "highlight=cell: 3" and "30 °". All words must be views into the same string.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {

@@ -78,7 +78,7 @@ class Parser {
   private:
     // Parses a sum. Returns its value in radians if it has a unit.
     ValueWithUnit sum() {
-        const Depth deeper(*this);
+        const NestingGuard deeper(*this);
         ValueWithUnit total = inRadians(product());
         while (true) {
             const bool isDifference = take("-") || take(kMinusSign);
@@ -104,7 +104,7 @@ class Parser {
         }
     }
     ValueWithUnit signedPower() {
-        const Depth deeper(*this);
+        const NestingGuard deeper(*this);
         if (take("-") || take(kMinusSign)) {
             ValueWithUnit term = signedPower();
             term.value = -term.value;
@@ -222,13 +222,13 @@ class Parser {
         throw SyntaxError{position, std::move(what)};
     }
 
-    struct Depth {
-        explicit Depth(Parser& owner) : parser(owner) {
+    struct NestingGuard {
+        explicit NestingGuard(Parser& owner) : parser(owner) {
             if (++parser.depth_ > kMaxDepth) parser.fail("the expression nests too deeply");
         }
-        ~Depth() { --parser.depth_; }
-        Depth(const Depth&) = delete;
-        Depth& operator=(const Depth&) = delete;
+        ~NestingGuard() { --parser.depth_; }
+        NestingGuard(const NestingGuard&) = delete;
+        NestingGuard& operator=(const NestingGuard&) = delete;
         Parser& parser;
     };
 

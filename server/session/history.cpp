@@ -60,7 +60,7 @@ std::size_t bytesOfFilter(const State& state) {
 /// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
 /// of objects that neither the current state nor `loaded` contains, and of the lists of hidden and faded cell types.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
-    std::map<const void*, std::size_t> steps;  // how often the steps use each object
+    std::map<const void*, std::size_t> steps;  // by slicing::identityOf(): how often undo steps contain the object
     std::size_t bytes = 0;
     const auto isHeld = [&](const slicing::Object& object) {
         return object == session.current.object || object == session.current.source ||

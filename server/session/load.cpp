@@ -33,7 +33,7 @@ using text_files::FileError;
 
 namespace {
 
-constexpr std::size_t kMaxName = 64;  // characters
+constexpr std::size_t kMaxName = 64;  // in characters
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
@@ -214,7 +214,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 // Makes a field from the array that `read` returns for these options, and sets the field's second function.
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
-                                      const SecondSource& second) {
+                                      const SecondFunctionSource& second) {
     const Result<fields::ReadField> array = read(options);
     if (!array) return array.error();
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
@@ -305,18 +305,18 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
 }
 
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
-                                     const fields::ReadOptions& options, const SecondSource& second) {
+                                     const fields::ReadOptions& options, const SecondFunctionSource& second) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readField(file, of); }, name, options,
                       second);
 }
 
 Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
-                                    const fields::ReadOptions& options, const SecondSource& second) {
+                                    const fields::ReadOptions& options, const SecondFunctionSource& second) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readZarr(folder, of); }, name, options,
                       second);
 }
 
-fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile) {
+fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::MappedFileMaker newFile) {
     const std::size_t most = limits.maxFieldBytes / sizeof(float);
     fields::ReadOptions options{load.axes, load.box, load.variable, most, most};
     if (newFile) options.maxSamples = fields::kMaxSamples;
@@ -379,7 +379,7 @@ std::string_view detectFormat(std::string_view text) {
         if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";
         return isCloudKeyword(text_files::Tokenizer(plain).next()) ? "cloud" : "points";
     } catch (const FileError&) {
-        return "points";  // the reader of points then reports the error
+        return "points";  // reading the text as points then reports the fault
     }
 }
 

@@ -38,7 +38,7 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load);
 
 /// The source of the second function of an array: a formula, or another variable of its file. Both are empty if there
 /// is no second function.
-struct SecondSource {
+struct SecondFunctionSource {
     std::string formula, variable;
 };
 
@@ -47,16 +47,17 @@ struct SecondSource {
 /// options has no extent along an axis with several samples, or if the ends of the box along any axis are in the wrong
 /// order.
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
-                                     const fields::ReadOptions& options = {}, const SecondSource& second = {});
+                                     const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
 
 /// Returns the options for reading the array that `load` specifies. The array and its second array together may have at
 /// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed, too: their samples remain in the file
 /// or are written to a new file.
-fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile = {});
+fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
+                                      fields::MappedFileMaker newFile = {});
 
 /// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
 Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
-                                    const fields::ReadOptions& options = {}, const SecondSource& second = {});
+                                    const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
 
 /// Reads the files of a series as one array, with the name and the second function of `load`. Errors: those of
 /// fields::readSeries(), and of readArray().

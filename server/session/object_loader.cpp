@@ -23,8 +23,8 @@ std::size_t elementsOf(const slicing::Object& object) {
 
 }  // namespace
 
-CriticalArguments criticalArguments(const State& state) {
-    CriticalArguments arguments{state.object, state.orientation, {}};
+CriticalSearchArguments criticalSearchArguments(const State& state) {
+    CriticalSearchArguments arguments{state.object, state.orientation, {}};
     if (slicing::fieldIn(state.object) != nullptr) {
         arguments.settings.levels = state.look.field.levels;
         arguments.settings.inside = state.look.field.inside;
@@ -60,7 +60,7 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
 Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // takes less than a millisecond
+    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
     if (mode_ == Mode::deferred) {
         pending_ = &load;
         return kLater;
@@ -71,7 +71,7 @@ Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
 Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added) {
     if (mode_ == Mode::immediate) return appendTimeSteps(field, added, limits_);
     if (extended_ && extendedFrom_ == field) return *extended_;
-    pending_ = Extension{field, added};
+    pending_ = TimeStepsToAppend{field, added};
     return kLater;
 }
 
@@ -79,14 +79,15 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
                                                     const geometry::ReferenceFrame& frame) {
     if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{} || elementsOf(source) <= kSmall)
         return slicing::transformedTo(source, frame);
-    const auto made = std::ranges::find_if(
-        objectsInFrames_, [&](const ObjectInFrame& each) { return each.source == source && each.frame == frame; });
+    const auto made = std::ranges::find_if(objectsInFrames_, [&](const ObjectInReferenceFrame& each) {
+        return each.source == source && each.frame == frame;
+    });
     if (made != objectsInFrames_.end()) return made->object;
-    pending_ = ObjectInFrame{source, frame};
+    pending_ = ObjectInReferenceFrame{source, frame};
     return kLater;
 }
 
-Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalArguments& arguments, std::stop_token stop) {
+Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalSearchArguments& arguments, std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
         // Another search may have found the critical sections while this search waited for a worker.
@@ -101,7 +102,7 @@ Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalArguments& argum
 
 Result<slicing::CriticalPtr> ObjectLoader::criticalSections(const State& state) {
     if (critical_ && searched_ == state.object) return *critical_;
-    CriticalArguments arguments = criticalArguments(state);
+    CriticalSearchArguments arguments = criticalSearchArguments(state);
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     if (search_.cache != nullptr) {
         if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) return known;
@@ -117,13 +118,13 @@ void ObjectLoader::completePending(std::stop_token stop) {
         builtName_ = design->name;
     } else if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
         fromFile_ = reader_(**load, limits_);
-    } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
+    } else if (const auto* extension = std::get_if<TimeStepsToAppend>(&pending_)) {
         extended_ = appendTimeSteps(extension->field, extension->added, limits_);
         extendedFrom_ = extension->field;
-    } else if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_)) {
+    } else if (const auto* wanted = std::get_if<ObjectInReferenceFrame>(&pending_)) {
         objectsInFrames_.push_back(
             {wanted->source, wanted->frame, slicing::transformedTo(wanted->source, wanted->frame)});
-    } else if (const auto* arguments = std::get_if<CriticalArguments>(&pending_)) {
+    } else if (const auto* arguments = std::get_if<CriticalSearchArguments>(&pending_)) {
         critical_ = search(*arguments, std::move(stop));
         searched_ = arguments->object;
     }
@@ -132,7 +133,7 @@ void ObjectLoader::completePending(std::stop_token stop) {
 
 std::size_t ObjectLoader::bytesNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
-    constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, its incidences
+    constexpr std::size_t kPerTextByte = 16;  // numbers, their copy for repairs, the polytope, and its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
     if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
         // The samples are in memory twice: in the message of the process that reads the file, and in the field. A
@@ -142,14 +143,14 @@ std::size_t ObjectLoader::bytesNeeded() const {
         return kFixed + kPerTextByte * (*load)->data.size() +
                std::min(kPerFileByte * file, kCopies * limits_.maxFieldBytes);
     }
-    if (const auto* extension = std::get_if<Extension>(&pending_))
+    if (const auto* extension = std::get_if<TimeStepsToAppend>(&pending_))
         return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
     // Counts the memory of the critical values, which is small for a field, but not the memory of the search itself,
     // which is as much as that of drawing a picture.
-    if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
+    if (const auto* arguments = std::get_if<CriticalSearchArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;
-    if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_))
+    if (const auto* wanted = std::get_if<ObjectInReferenceFrame>(&pending_))
         return kPerTransformedElement * elementsOf(wanted->source);
     const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
@@ -184,9 +185,9 @@ std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
         const bool array = file.isArrayInFiles() || isArrayFormat(file.format);
         const double perByte = array ? kArrayByte : buildsHull(file.format) ? kPointByte : kByte;
         seconds += perByte * static_cast<double>(file.data.size() + (file.file ? file.file->size() : 0));
-    } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
+    } else if (const auto* extension = std::get_if<TimeStepsToAppend>(&pending_)) {
         seconds += kArrayByte * static_cast<double>(slicing::memoryOf(extension->field));
-    } else if (const auto* wanted = std::get_if<ObjectInFrame>(&pending_)) {
+    } else if (const auto* wanted = std::get_if<ObjectInReferenceFrame>(&pending_)) {
         seconds += kTransformedElement * static_cast<double>(elementsOf(wanted->source));
     } else if (isSearchPending()) {
         seconds += kSearch;

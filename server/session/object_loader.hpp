@@ -34,14 +34,14 @@ struct CriticalSearchOptions {
 };
 
 /// What the critical values of w of an object depend on.
-struct CriticalArguments {
+struct CriticalSearchArguments {
     slicing::Object object;
     geometry::Rotation orientation;
     slicing::FieldSettings settings;  ///< `levels` and `inside` of a field; all other members have their default values
-    bool operator==(const CriticalArguments&) const = default;
+    bool operator==(const CriticalSearchArguments&) const = default;
 };
 /// Returns the arguments that determine the critical values of w of the object that the state shows.
-CriticalArguments criticalArguments(const State& state);
+CriticalSearchArguments criticalSearchArguments(const State& state);
 
 /// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
 /// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
@@ -83,7 +83,7 @@ class ObjectLoader {
     /// Returns whether the pending object must be read by the FileReader.
     bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
     /// Returns whether a search for critical values of w is pending. A search takes longer than drawing a picture.
-    bool isSearchPending() const { return std::holds_alternative<CriticalArguments>(pending_); }
+    bool isSearchPending() const { return std::holds_alternative<CriticalSearchArguments>(pending_); }
     /// Builds, reads or transforms the pending object, or finds the pending critical values of w. Does nothing if
     /// nothing is pending. `stop` ends a search for critical values of w, which then fails with `canceled`.
     void completePending(std::stop_token stop = {});
@@ -101,13 +101,13 @@ class ObjectLoader {
     std::vector<std::string> warnings() const;
 
   private:
-    struct ObjectInFrame {
+    struct ObjectInReferenceFrame {
         slicing::Object source;
         geometry::ReferenceFrame frame;
         slicing::Object object = {};  // `source` in `frame`; null while it is pending
     };
 
-    Result<slicing::CriticalPtr> search(const CriticalArguments& arguments, std::stop_token stop);
+    Result<slicing::CriticalPtr> search(const CriticalSearchArguments& arguments, std::stop_token stop);
     Result<slicing::Object> build(const polytopes::Design& design);
 
     Limits limits_;
@@ -116,10 +116,11 @@ class ObjectLoader {
     FileReader reader_;
     CriticalSearchOptions search_;
     // Time steps to append: those of the array `added`, at the end of the array `field`.
-    struct Extension {
+    struct TimeStepsToAppend {
         slicing::Object field, added;
     };
-    std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInFrame, Extension, CriticalArguments>
+    std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInReferenceFrame, TimeStepsToAppend,
+                 CriticalSearchArguments>
         pending_;
     std::string builtName_;  // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
@@ -128,7 +129,8 @@ class ObjectLoader {
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    std::vector<ObjectInFrame> objectsInFrames_;  // two elements if a command changes the object and the frame
+    // Up to two objects, because a command may change both the object and the frame of reference.
+    std::vector<ObjectInReferenceFrame> objectsInFrames_;
 };
 
 }  // namespace oval4d::session

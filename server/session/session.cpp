@@ -27,16 +27,17 @@ namespace {
 
 using Done = Result<std::monostate>;
 
-// The images of an extended field (see slicing::transformedTo()). The key is the identity of an image of the shorter
-// field; the value is the image of the longer field in the same frame of reference.
-using ExtendedImages = std::map<const void*, slicing::Object>;
+// An extended field, transformed to frames of reference (see slicing::transformedTo()). The key is the
+// slicing::identityOf() of the field before the extension in a frame; the value is the extended field in this frame.
+using ExtendedFieldsByOriginal = std::map<const void*, slicing::Object>;
 
 // If `state` shows the field `before`, replaces it by `after`, a longer version of it, and returns true; otherwise
 // returns false. Keeps all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent(),
 // that they and the focus point are clamped to their bounds, and that no cells of the domain are hidden or faded if
-// their types change. States that share an image of `before` also share one of `after`: `images` has the images that
-// have been made so far.
-bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
+// their types change. If states share `before` in a frame of reference, they also share `after` in this frame: `images`
+// has the transformed fields that have been made so far.
+bool extendField(State& state, const slicing::Object& before, const slicing::Object& after,
+                 ExtendedFieldsByOriginal& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
     if (isNew) image->second = slicing::transformedTo(after, state.referenceFrame);
@@ -105,7 +106,7 @@ class Applier {
     }
     Done operator()(const Set& command) {
         State next = session_.current;
-        std::optional<LoadedObjects> extended;  // the loaded objects with the field of the formula
+        std::optional<LoadedObjects> extended;  // with the field of `formula`; empty if there is no `formula`
         if (command.formula) {
             extended = session_.loaded;
             if (Done done = loadFormula(*command.formula, *extended); !done) return done;
@@ -207,7 +208,7 @@ class Applier {
         const slicing::Object before = loaded->second;
         const auto extended = loader_.fieldWithTimeSteps(before, added->object);
         if (!extended) return extended.error();
-        ExtendedImages images;
+        ExtendedFieldsByOriginal images;
         for (State& state : session_.undoSteps) extendField(state, before, *extended, images);
         for (State& state : session_.redoSteps) extendField(state, before, *extended, images);
         if (extendField(session_.current, before, *extended, images)) ++session_.revision;

@@ -18,7 +18,7 @@ namespace oval4d::session {
 
 namespace {
 
-constexpr std::string_view kPolytope = "polytope";  // the name of Set::object
+constexpr std::string_view kPolytope = "polytope";  // the name of the setting Set::object
 
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all{kPolytope};

@@ -198,7 +198,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
         initial.look.field = {{level}, field->initialInside};
     }
     setBack(state, ResetOccasion::by_another_object, initial);
-    state.look.focusPoint = initial.look.focusPoint;  // setBack() omits the setting `point`
+    state.look.focusPoint = initial.look.focusPoint;  // because setBack() has omitted the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
@@ -348,7 +348,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
     const double seconds = way.angle() / kRadiansPerSecond;
-    constexpr double kShortest = 1e-3;  // in seconds; a shorter turn is not seen
+    constexpr double kShortest = 1e-3;  // in seconds; nobody would see a shorter turn
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;
     } else {

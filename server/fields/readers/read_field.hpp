@@ -20,7 +20,7 @@ namespace oval4d::fields {
 
 /// Makes a new file of this size in bytes, mapped for reading and writing. Errors: `too_large` and `too_many` if there
 /// is no room for it.
-using NewFile = std::function<Result<std::shared_ptr<MappedFile>>(std::size_t bytes)>;
+using MappedFileMaker = std::function<Result<std::shared_ptr<MappedFile>>(std::size_t bytes)>;
 
 /// How to read a file.
 struct ReadOptions {
@@ -35,9 +35,9 @@ struct ReadOptions {
     /// Arrays with more samples than this are not kept in memory: their samples remain in the file or, if they must be
     /// converted, are written to a file that `newFile` makes.
     std::size_t maxInMemory = kMaxSamples;
-    NewFile newFile = {};        ///< null if all converted samples are kept in memory
-    std::span<float> into = {};  ///< memory for converted samples, used if it has exactly the size of the array; must
-                                 ///< remain valid as long as the samples are used
+    MappedFileMaker newFile = {};  ///< null if all converted samples are kept in memory
+    std::span<float> into = {};    ///< memory for converted samples, used if it has exactly the size of the array; must
+                                   ///< remain valid as long as the samples are used
 };
 
 /// A field read from a file. If the samples lie in the bytes of the file, they keep these bytes valid.

@@ -7,7 +7,7 @@ namespace oval4d::net {
 CriticalSearchHandle::CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state,
                                            std::stop_token workersStop)
     : by_(std::move(by)),
-      arguments_(session::criticalArguments(state)),
+      arguments_(session::criticalSearchArguments(state)),
       whenWorkersStop_(std::move(workersStop), RequestStop{stop_}) {}
 
 std::shared_ptr<CriticalSearchHandle> CriticalSearches::add(const std::shared_ptr<Peer>& by,
@@ -26,7 +26,7 @@ void CriticalSearches::stop(const std::shared_ptr<Peer>& by) {
 
 void CriticalSearches::stopOthers(const session::State& state) {
     if (searches_.empty()) return;
-    const session::CriticalArguments needed = session::criticalArguments(state);
+    const session::CriticalSearchArguments needed = session::criticalSearchArguments(state);
     for (const auto& search : running()) {
         if (search->arguments() != needed) search->stop();
     }

@@ -20,7 +20,7 @@ class CriticalSearchHandle {
 
     bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
     /// Returns the arguments that determine the result of the search.
-    const session::CriticalArguments& arguments() const { return arguments_; }
+    const session::CriticalSearchArguments& arguments() const { return arguments_; }
     std::stop_token stopToken() const { return stop_.get_token(); }
     void stop() { stop_.request_stop(); }
 
@@ -30,7 +30,7 @@ class CriticalSearchHandle {
         void operator()() noexcept { stop.request_stop(); }
     };
     const std::weak_ptr<Peer> by_;
-    const session::CriticalArguments arguments_;
+    const session::CriticalSearchArguments arguments_;
     std::stop_source stop_;
     std::stop_callback<RequestStop> whenWorkersStop_;
 };
