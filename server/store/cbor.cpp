@@ -9,7 +9,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMaxDepth = 16;       // maximum nesting depth of arrays and objects
-constexpr std::size_t kMaxNameBytes = 256;  // enough for 64 characters of UTF-8
+constexpr std::size_t kMaxNameBytes = 256;  // 64 characters, each of at most 4 bytes in UTF-8
 
 /// A handler of parser events (SAX) that stops parsing if values are nested too deeply, because the parser uses stack
 /// space for each level. The size that the input declares for an array needs no limit: the parser allocates nothing for

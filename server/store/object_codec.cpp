@@ -29,7 +29,7 @@ namespace {
 using nlohmann::json;
 using polytopes::Polytope;
 
-constexpr double kMaxCoordinate = 1e15;  // of vertices, points and origins
+constexpr double kMaxCoordinate = 1e15;  // the limit for vertices, points and origins
 
 json rows(const geometry::JaggedArray& array) {
     json list = json::array();
@@ -133,14 +133,14 @@ slicing::Object openFile(const std::string& name, const json& source, const Data
 //
 // The record of a kind of object is an array that begins with a version and a name. Only the length of the array tells
 // the kind. A separate member for the kind is not possible, because earlier versions of the server, which may use the
-// same store, would refuse it. The code does not compile if a kind lacks a RecordOf, or if records of two kinds have
+// same store, would refuse it. The code does not compile if a kind has no RecordCodec, or if records of two kinds have
 // the same length.
 
 template <typename ObjectPtr>
-struct RecordOf;
+struct RecordCodec;
 
 template <>
-struct RecordOf<slicing::PolytopePtr> {
+struct RecordCodec<slicing::PolytopePtr> {
     static constexpr std::array<std::size_t, 1> kLengths{6};
 
     // [version, name, vertices, 2-faces, cells, the type of each cell]
@@ -164,7 +164,7 @@ struct RecordOf<slicing::PolytopePtr> {
 };
 
 template <>
-struct RecordOf<slicing::CloudPtr> {
+struct RecordCodec<slicing::CloudPtr> {
     static constexpr std::array<std::size_t, 1> kLengths{4};
 
     // [version, name, points, radii]
@@ -187,7 +187,7 @@ struct RecordOf<slicing::CloudPtr> {
 };
 
 template <>
-struct RecordOf<slicing::FieldPtr> {
+struct RecordCodec<slicing::FieldPtr> {
     static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7;
     static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond};
 
@@ -224,7 +224,7 @@ struct RecordOf<slicing::FieldPtr> {
 };
 
 template <>
-struct RecordOf<slicing::SurfacePtr> {
+struct RecordCodec<slicing::SurfacePtr> {
     static constexpr std::array<std::size_t, 1> kLengths{8};
 
     // [version, name, vertices, 2-faces, and four times null, without which the record would have the length of a
@@ -261,7 +261,7 @@ json encodedWithOrigin(const glm::dvec4& originInFile, json record) {
 template <typename... Kinds>
 consteval bool lengthsDiffer(std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     std::vector<std::size_t> lengths{kMovedLength};
-    (lengths.insert(lengths.end(), RecordOf<Kinds>::kLengths.begin(), RecordOf<Kinds>::kLengths.end()), ...);
+    (lengths.insert(lengths.end(), RecordCodec<Kinds>::kLengths.begin(), RecordCodec<Kinds>::kLengths.end()), ...);
     std::ranges::sort(lengths);
     return std::ranges::adjacent_find(lengths) == lengths.end();
 }
@@ -273,8 +273,8 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
                             const glm::dvec4& originInFile, const DataFolderReader& open) {
     std::optional<slicing::Object> object;
     const auto decodeIfLengthMatches = [&]<typename Kind>(std::type_identity<Kind> /*kind*/) {
-        if (std::ranges::find(RecordOf<Kind>::kLengths, record.size()) != RecordOf<Kind>::kLengths.end())
-            object = RecordOf<Kind>::decode(record, originInFile, open);
+        if (std::ranges::find(RecordCodec<Kind>::kLengths, record.size()) != RecordCodec<Kind>::kLengths.end())
+            object = RecordCodec<Kind>::decode(record, originInFile, open);
     };
     (decodeIfLengthMatches(std::type_identity<Kinds>()), ...);
     if (!object)
@@ -286,14 +286,14 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 
 bool refersToFile(std::string_view record) {
     // If an array has fewer than 24 elements, its first byte is 0x80 plus their number (RFC 8949, section 3.1).
-    constexpr char kFileRecord = static_cast<char>(0x80 + RecordOf<slicing::FieldPtr>::kFileLength);
+    constexpr char kFileRecord = static_cast<char>(0x80 + RecordCodec<slicing::FieldPtr>::kFileLength);
     return record.starts_with(kFileRecord);
 }
 
 std::string encodeObjectRecord(const slicing::Object& object) {
     return std::visit(
         []<typename Kind>(const Kind& data) {
-            return encodeCbor(encodedWithOrigin(slicing::infoOf(data).originInFile, RecordOf<Kind>::encode(*data)));
+            return encodeCbor(encodedWithOrigin(slicing::infoOf(data).originInFile, RecordCodec<Kind>::encode(*data)));
         },
         object);
 }

@@ -17,8 +17,8 @@ using nlohmann::json;
 
 namespace {
 
-// Returns the memory that slicing::transformedTo() needs for an image. The image of a field has a domain of its own;
-// all images share the functions, and thus the samples of an array.
+// Returns the memory that the result of slicing::transformedTo() needs. A transformed field has a domain of its own,
+// but shares the functions of `source`, and thus the samples of an array.
 std::size_t memoryOfImage(const slicing::Object& source) {
     const fields::Field* const field = slicing::fieldIn(source);
     return field == nullptr ? slicing::memoryOf(source) : sizeof *field + polytopes::memoryOf(*field->domain);
@@ -77,7 +77,7 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 /// `vertexBudget_`. Throws UnreadableRecord if there is no such polytope, if it cannot be built, or if it has more
 /// vertices than `vertexBudget_`.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
-    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope, far above what the server allows clients
+    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients are allowed far fewer by default
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) throwUnreadable("the catalogue has no polytope called " + text::inQuotes(name));

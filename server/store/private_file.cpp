@@ -97,7 +97,7 @@ void ensurePrivateFile(const std::string& path) {
         if (file.valid() && fchmod(file.number(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
         if (!file.valid() && errno != EEXIST) fail(path, "unable to open it");
     }
-    checkFile(path, Permissions::tighten);  // another server may have created the file first
+    checkFile(path, Permissions::tighten);  // in case another server has created it, with another mode
 }
 
 void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }

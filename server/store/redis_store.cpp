@@ -296,7 +296,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // if true, only hashes may stay: also delete tokens in plain text
+    const bool hashed = !alsoStoresPlainTokens();  // if true, the tokens in plain text are deleted below
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

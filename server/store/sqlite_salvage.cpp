@@ -115,7 +115,7 @@ SalvageResult salvage(Database& from, Database& to) {
         try {
             session = readSession(from, hashed, id);
         } catch (const StoreError&) {
-            session.reset();  // the session is on a damaged page
+            session.reset();  // on StoreError: the session is on a damaged page
         }
         if (!session) {
             result.lost.insert(id);

@@ -26,7 +26,7 @@ std::int64_t maxPagesFor(std::size_t quota) { return static_cast<std::int64_t>(q
 /// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
 /// and long values have pages of their own.
 std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
-    std::size_t pages = 8;  // interior pages of tables and indices
+    std::size_t pages = 8;  // for the interior pages of tables and indices
     std::size_t small = 0;
     for (const RecordUpdate& update : updates) {
         const std::size_t bytes = estimateStoredSize(update);
@@ -395,7 +395,7 @@ std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const 
         ++count;
         if (fits()) break;
     }
-    if (!fits()) return 0;  // without a commit, so all sessions stay
+    if (!fits()) return 0;  // without a commit, so the deleted sessions are restored
     all.commit();
     return count;
 }

@@ -112,7 +112,7 @@ class MemberWriter {
     json array_ = json::array();
 };
 
-/// Writes the members of a state, which has an object: an index into the list of objects.
+/// Writes the members of a state. Its object becomes an index into the list of objects.
 class StateWriter : public MemberWriter {
   public:
     explicit StateWriter(ObjectListEncoder& objects) : objects_(objects) {}
@@ -220,7 +220,7 @@ class MemberReader {
     const json& array_;
 };
 
-/// Reads the members of a state, which has an object.
+/// Reads the members of a state. Its object is an index into the list of objects.
 class StateReader : public MemberReader {
   public:
     StateReader(const json& array, const ObjectListDecoder& objects) : MemberReader(array), objects_(objects) {}
@@ -233,9 +233,9 @@ class StateReader : public MemberReader {
 
 // --- Checks of a state whose members have been read
 //
-// They concern single members, and how members fit each other and the object. Their limits are at least as wide as
-// those that the server enforces for clients. Without them, a damaged record could produce, for example, a state with a
-// million slices instead of an error.
+// The checks concern single members, and how members fit each other and the object. Their limits are at least as wide
+// as those that the server enforces for clients. Without them, a damaged record could produce, for example, a state
+// with a million slices instead of an error.
 
 // Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, they may
 // exceed these limits by this fraction.
