@@ -85,7 +85,7 @@ bool AddressAccount::hasFullRateLimits(Clock::time_point now) const {
     return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
 }
 
-Network::Network(const std::string& text) {
+IpNetwork::IpNetwork(const std::string& text) {
     const std::size_t slash = text.find('/');
     boost::system::error_code fault;
     const address given = asio::ip::make_address(text.substr(0, slash), fault);
@@ -103,7 +103,7 @@ Network::Network(const std::string& text) {
     first_ = asIPv6(given);
 }
 
-bool Network::contains(const address& any) const {
+bool IpNetwork::contains(const address& any) const {
     const auto own = first_.to_bytes(), other = asIPv6(any).to_bytes();
     for (unsigned bit = 0; bit < bits_; ++bit) {
         const unsigned shift = 7 - bit % 8;
@@ -134,7 +134,7 @@ void Clients::forgetIdle(TokenBucket::Clock::time_point now) {
 }
 
 bool Clients::isTrustedProxy(const address& any) const {
-    return std::ranges::any_of(trusted_, [&](const Network& network) { return network.contains(any); });
+    return std::ranges::any_of(trusted_, [&](const IpNetwork& network) { return network.contains(any); });
 }
 
 address Clients::clientAddress(std::string_view forwardedFor, const address& proxy) const {

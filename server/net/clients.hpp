@@ -93,10 +93,10 @@ class AddressAccount {
 using AddressAccountPtr = std::shared_ptr<AddressAccount>;
 
 /// An IP network in CIDR notation such as "10.0.0.0/8", or a single address such as "::1".
-class Network {
+class IpNetwork {
   public:
     /// Parses an address with an optional prefix length. Throws std::invalid_argument if `text` is anything else.
-    explicit Network(const std::string& text);
+    explicit IpNetwork(const std::string& text);
     /// Returns whether the network contains the address. IPv4-mapped IPv6 addresses count as IPv4 addresses.
     bool contains(const boost::asio::ip::address& any) const;
 
@@ -108,7 +108,7 @@ class Network {
 /// The accounts of the known clients, by address. Every function may be called from any thread.
 class Clients {
   public:
-    /// `trustedProxies`: networks (see Network) of the proxies whose X-Forwarded-For is trusted. `bytes`: the maximum
+    /// `trustedProxies`: networks (see IpNetwork) of the proxies whose X-Forwarded-For is trusted. `bytes`: the maximum
     /// number of bytes held for all clients together (ByteBudget).
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
@@ -134,7 +134,7 @@ class Clients {
     void forgetIdle(TokenBucket::Clock::time_point now);
 
     const ClientLimits limits_;
-    std::vector<Network> trusted_;
+    std::vector<IpNetwork> trusted_;
     mutable std::atomic<bool> warnedOfForwarded_ = false;
     ByteBudget budget_;
     mutable std::mutex mutex_;

@@ -43,7 +43,7 @@ CLI::Option* addBytes(CLI::App& app, const std::string& name, std::size_t& value
 /// A CLI11 validator: returns an error message if the text is not a network, else an empty string.
 std::string checkNetwork(const std::string& text) {
     try {
-        (void)Network(text);
+        (void)IpNetwork(text);
         return {};
     } catch (const std::invalid_argument& fault) {
         return fault.what();

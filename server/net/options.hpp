@@ -36,7 +36,7 @@ struct Options {
     std::string logLevel = "info";                       ///< least severe level to log, by its name in spdlog
 
     /// In this order: host names that clients may use for the server; origins of foreign pages that may connect (for
-    /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see Network).
+    /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see IpNetwork).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
     std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
     bool open = false;  ///< require no token, even on addresses other than loopback; `token` must be empty then

@@ -29,7 +29,7 @@ std::optional<double> quotaIn(const fs::path& group) {
 
 std::size_t processorCount(const fs::path& root) {
     double most = std::max(1U, std::thread::hardware_concurrency());
-    std::ifstream groups(root / "proc/self/cgroup");  // lines "0::/path", "4:cpu,cpuacct:/path"
+    std::ifstream groups(root / "proc/self/cgroup");  // lines such as "0::/path" (v2) or "4:cpu,cpuacct:/path" (v1)
     for (std::string line; std::getline(groups, line);) {
         const auto first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos) continue;

@@ -111,7 +111,7 @@ asio::awaitable<void> HttpConnection::run() {
         registration_.setInUse(false);
         first_ = false;
     }
-    if (!stream_.socket().is_open()) co_return;  // a WebSocket has taken the socket over, or it was closed
+    if (!stream_.socket().is_open()) co_return;  // the socket was closed, or upgrade() has moved it to a WebSocket
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
@@ -400,7 +400,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     if (reply.status != 304) response.content_length(reply.body.size());
     const bool rejected = admission_ != ConnectionRegistry::AdmissionDecision::admitted;
     response.keep_alive(request.keep_alive() && !rejected && !stopping_);
-    // Without this, a client of HTTP/1.0 would wait for the end of the connection.
+    // Clients of HTTP/1.0 expect the server to close the connection after the reply unless this field says otherwise.
     if (request.version() < 11 && response.keep_alive()) response.set(http::field::connection, "keep-alive");
     if (reply.status == kUpgradeRequired) response.set(http::field::connection, "close, upgrade");
     context_.services.metrics.countRequest(reply.status);

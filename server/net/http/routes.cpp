@@ -94,7 +94,8 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         const AddressAccountPtr& client,
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // PNG files are rarely larger than that
+        // A PNG file is rarely larger than its pixels.
+        auto held = client->byteAccount().reserve(image::byteCount(viewport));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Time until the next attempt after the job queue was full.
+// Time from the rejection of a picture job, because the queue is full, to the next attempt.
 constexpr auto kRetryInterval = 100ms;
 
 const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
@@ -38,7 +38,7 @@ PictureStreams::PictureStreams(Services services, Strand strand, std::string ses
 
 void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
     assertOnStrand();
-    Lanes lanes = lanesOf(peer->client());
+    ClientJobLanes lanes = lanesOf(peer->client());
     subscribers_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
 }
 
@@ -48,7 +48,7 @@ const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
     return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
-PictureStreams::Lanes PictureStreams::lanesOf(const AddressAccountPtr& own) const {
+PictureStreams::ClientJobLanes PictureStreams::lanesOf(const AddressAccountPtr& own) const {
     for (const auto& [key, subscriber] : subscribers_) {
         if (subscriber.lanes.client == own) return subscriber.lanes;
     }
@@ -134,7 +134,7 @@ void PictureStreams::advanceMotion() {
     }
     const std::uint64_t before = revision();
     session::advance(session_, Seconds(*passed).count());
-    if (revision() == before) return;  // the object turns by the angle 0: nothing changes until the next command
+    if (revision() == before) return;  // turning by the angle 0 changes nothing, so no next step is scheduled
     draftTiming_.recordChange(now);
     moved_();
 }

@@ -39,7 +39,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Clock = Pacing::Clock;
     /// A client's lanes in the worker pools for its jobs in this session.
-    struct Lanes {
+    struct ClientJobLanes {
         AddressAccountPtr client;
         parallel::WorkerPool::LanePtr pictures, exports;
     };
@@ -58,7 +58,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     const StreamKey* streamOf(const Peer& peer) const;
     /// Returns the lanes of a client in this session. All connections of a client to a session share these lanes, so
     /// that a client with several connections gets no larger share of the workers.
-    Lanes lanesOf(const AddressAccountPtr& own) const;
+    ClientJobLanes lanesOf(const AddressAccountPtr& own) const;
     /// Closes the connections of all clients.
     void closeAll(std::uint16_t code, const std::string& reason);
 
@@ -83,7 +83,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     // A connection to this session.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
-        Lanes lanes;
+        ClientJobLanes lanes;
         StreamKey streamKey;
         Pacing pacing;
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture

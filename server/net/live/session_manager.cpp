@@ -23,9 +23,9 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
 
 /// A store::ObjectLookup that decodes an object of a stored record when it is first requested. keys() returns the keys
 /// of the decoded objects.
-class RecordObjects {
+class RecordObjectDecoder {
   public:
-    RecordObjects(const store::Record& record, store::DataFolderReader open) : open_(std::move(open)) {
+    RecordObjectDecoder(const store::Record& record, store::DataFolderReader open) : open_(std::move(open)) {
         for (const auto& [key, bytes] : record.objects) bytes_[key] = bytes;
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
@@ -180,7 +180,7 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     const std::string& id = pending.credentials.id;
     bool fileIsMissing = false, mustWait = false;
     try {
-        RecordObjects objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
+        RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
             const auto loaded = fileReader(services_)(load, services_.options.session);
             if (loaded) return loaded->object;
             fileIsMissing = true;

@@ -284,7 +284,7 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
     } catch (const std::exception& fault) {
         spdlog::error("session cannot be joined fault=\"{}\"", fault.what());
     }
-    joining_ = false;  // also after an exception: otherwise the deadline of the hello would never apply again
+    joining_ = false;  // also after an exception, so that the deadline of the hello applies again
     if (!joined) {
         sendError(joined.error(), id);
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");

@@ -70,13 +70,13 @@ TEST(Clients, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
     EXPECT_EQ(addressOf(", ,"), "10.1.2.3");
 }
 
-TEST(Network, RejectsMalformedText) {
+TEST(IpNetwork, RejectsMalformedText) {
     for (const char* text : {"", "nobody", "10.0.0.0/33", "10.0.0.0/", "10.0.0.0/x", "::1/129", "10.0.0/8"}) {
-        EXPECT_THROW(Network{text}, std::invalid_argument) << text;
+        EXPECT_THROW(IpNetwork{text}, std::invalid_argument) << text;
     }
-    EXPECT_TRUE(Network("0.0.0.0/0").contains(make_address("203.0.113.1")));
-    EXPECT_FALSE(Network("0.0.0.0/0").contains(make_address("2001:db8::1")));
-    EXPECT_TRUE(Network("::/0").contains(make_address("203.0.113.1")));
+    EXPECT_TRUE(IpNetwork("0.0.0.0/0").contains(make_address("203.0.113.1")));
+    EXPECT_FALSE(IpNetwork("0.0.0.0/0").contains(make_address("2001:db8::1")));
+    EXPECT_TRUE(IpNetwork("::/0").contains(make_address("203.0.113.1")));
 }
 
 TEST(AddressAccount, LimitsNewSessionsPerMinute) {
