@@ -38,7 +38,7 @@ class Builder {
         return whole ? add(static_cast<std::int64_t>(value)) : add(value);
     }
     bool string(std::string& value) { return add(std::move(value)); }
-    bool binary(json::binary_t& /*value*/) { return false; }  // does not occur in JSON text
+    bool binary(json::binary_t& /*value*/) { return false; }  // not called: JSON text has no binary values
 
     bool start_object(std::size_t /*size*/) { return open(json::object()); }
     bool start_array(std::size_t /*size*/) { return open(json::array()); }

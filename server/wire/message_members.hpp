@@ -30,14 +30,14 @@ inline void beginMessage(JsonWriter& w, std::string_view type, std::optional<dou
 }
 
 /// The numbers of vertices, edges, 2-faces and cells.
-using Counts = std::array<std::uint64_t, 4>;
+using ElementCounts = std::array<std::uint64_t, 4>;
 
-inline Counts countsOf(const slicing::Object& object) {
+inline ElementCounts countsOf(const slicing::Object& object) {
     const auto [vertices, edges, faces, cells] = slicing::elementCounts(object);
     return {vertices, edges, faces, cells};
 }
 
-inline void writeCounts(JsonWriter& w, const Counts& counts) {
+inline void writeCounts(JsonWriter& w, const ElementCounts& counts) {
     w.member("vertices", counts[0]);
     w.member("edges", counts[1]);
     w.member("faces", counts[2]);

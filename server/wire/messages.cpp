@@ -157,7 +157,7 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
 
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded,
                              std::span<const std::string> data) {
-    constexpr Counts kBox{16, 32, 24, 8};  // of a field's domain, a 4-D box
+    constexpr ElementCounts kBox{16, 32, 24, 8};  // of a field's domain, a 4-D box
     return message("catalogue", id, [&](JsonWriter& w) {
         w.key("polytopes");
         w.beginArray();
@@ -172,7 +172,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             w.member("symmetry_order", entry.symmetryOrder);
             w.endObject();
         }
-        const auto add = [&](std::string_view name, std::string_view family, const Counts& counts,
+        const auto add = [&](std::string_view name, std::string_view family, const ElementCounts& counts,
                              const std::vector<std::string>& aliases = {}) {
             w.beginObject();
             w.member("name", name);

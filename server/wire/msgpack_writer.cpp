@@ -7,14 +7,14 @@ namespace oval4d::wire {
 
 namespace {
 
-constexpr std::size_t kContainerHead = 5;  // bytes: the format, and the size
+constexpr std::size_t kContainerHead = 5;  // a byte for the format, and four for the size
 
 // Returns the least k for which an integer of 2^k bytes can be `number`.
 unsigned widthOf(std::uint64_t number) {
     return number <= 0xFF ? 0 : number <= 0xFFFF ? 1 : number <= 0xFFFFFFFF ? 2 : 3;
 }
 
-// The same for the length of a text or a typed array.
+// Like widthOf(), for the length of a text or a typed array. Throws std::length_error if the length is 4 GiB or more.
 unsigned lengthWidthOf(std::size_t length) {
     const unsigned k = widthOf(length);
     if (k > 2) throw std::length_error("a text or an array is too long for MessagePack");
@@ -82,7 +82,7 @@ void MsgpackWriter::value(std::int64_t number) {
         buffer_.put(static_cast<char>(number));
     } else {
         countItem();
-        const unsigned k = widthOf(2 * ~bits);  // ~bits = −1 − number, and one more bit is the sign
+        const unsigned k = widthOf(2 * ~bits);  // ~bits is −1 − number; the factor 2 makes room for the sign bit
         head(0xD0 + k, k, bits);
     }
 }

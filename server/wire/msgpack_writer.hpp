@@ -33,7 +33,7 @@ class MsgpackWriter final : public BinaryWriter {
     void value(bool flag) override;
     void value(std::string_view text) override;
     using BinaryWriter::value;
-    // As in BinaryWriter, but without a virtual call for each number of a plain array.
+    // The same functions as in BinaryWriter, but without a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override;
@@ -42,7 +42,7 @@ class MsgpackWriter final : public BinaryWriter {
     /// An object or an array that is being written.
     struct Container {
         std::size_t sizeAt;   ///< the position of its size in the message
-        std::uint32_t items;  ///< how many values it has; the name of a member is one, too
+        std::uint32_t items;  ///< the number of its values; in an object, names count as values, too
     };
 
     char* beginTypedArray(ArrayType type, std::size_t bytes) override;
@@ -54,7 +54,7 @@ class MsgpackWriter final : public BinaryWriter {
 
     std::string& out_;
     Buffer buffer_;
-    std::vector<Container> open_;  // from the outermost to the innermost; the first one stands for what is around all
+    std::vector<Container> open_;  // the first element only counts the message itself, the last is the innermost
 };
 
 }  // namespace oval4d::wire

@@ -78,7 +78,7 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.endObject();
 }
 
-// Returns the number of columns of Scene::plotTones; 0 if it is not drawn.
+// Returns the number of columns of the plot in Scene::plotTones; 0 if there is no plot.
 int columnsOf(const scene::CoordinatesLayout& layout) {
     if (layout.panel > 0) return slicing::CoordinateHistograms::kColumns;
     return layout.isDensityStrip ? scene::DensityPlot::kColumns : 0;
