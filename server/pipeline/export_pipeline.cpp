@@ -191,7 +191,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
                          "17 on the command line or highlight=cell:17 in a query"};
         }
     }
-    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file shows the user's look
+    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file looks like the user's picture
     const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContents::oval ||
                                             request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
@@ -214,7 +214,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     scene::Look look;
     if (hasOwnLook) {
         look = state.look;
-        if (drawing) look.background = scene::Background::white;  // drawings are for white paper
+        if (drawing) look.background = scene::Background::white;  // because drawings are printed on white paper
         if (request.contents == exports::ExportContents::matrix) {
             look.view = scene::View::matrix;
         } else if (request.contents != exports::ExportContents::oval) {
@@ -232,7 +232,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     look.coloring = state.look.coloring;
     look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
     look.field = state.look.field;
-    if (!hasOwnLook) look.parts.faces = isField;  // no other format reads Scene::fill
+    if (!hasOwnLook) look.parts.faces = isField;  // without this look: the surfaces of fields, but no Scene::fill
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(PictureWorkLimits().fillSteps);
@@ -244,7 +244,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (isTall(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
-    if (element) scene.look.highlight = element;  // set after compose(), so that the element keeps its own color
+    if (element) scene.look.highlight = element;  // only now, because compose() would give it another color
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
     // also shows the focus point, as this view does.
     if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;

@@ -50,7 +50,7 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::Use use(inUse_);
-    workspace_.composer.limitFill(0);  // the triangles that fill faces are not needed
+    workspace_.composer.limitFill(0);  // pickElement() does not use the triangles that fill faces
     workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                 workspace_.scene);
     return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
