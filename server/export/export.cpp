@@ -49,9 +49,9 @@ class Exporter {
           grid_(request.size, request.contents == ExportContents::oval
                                   ? coordinateBound(slices_.planes.count, request.size)
                                   : 2 * request.size) {
-        if (request.contents == ExportContents::projection) request_.body = Body::skeleton;
+        if (request.contents == ExportContents::projection) request_.body = BodyKind::skeleton;
         if (request.contents == ExportContents::highlight) element_ = scene.look.highlight;
-        hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == Body::solid && !element_;
+        hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == BodyKind::solid && !element_;
     }
 
     ExportedFile run() {
@@ -95,16 +95,16 @@ class Exporter {
     std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
         std::vector<int> empty, thin;  // the slices without bodies, which are left out
-        const scene::Color color = request_.body == Body::skeleton ? scene::style().bar : colorOfSolids();
+        const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
-        if (request_.body == Body::skeleton) prepareSkeleton();
+        if (request_.body == BodyKind::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTime();
             std::vector<PlacedMesh> solids;
             if (hasSurfaces_) {
                 solids = surfaceBodies(i);
             } else {
-                Mesh mesh = request_.body == Body::skeleton
+                Mesh mesh = request_.body == BodyKind::skeleton
                                 ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
                                 : solidOf(slices_, i, scale_, grid_, budget_);
                 if (!mesh.triangles.empty()) solids.push_back({nameOf(i), std::move(mesh), color, glm::dvec3(0)});
@@ -121,7 +121,7 @@ class Exporter {
         if (groups.empty()) refuseEmpty();
         if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty", origin().w));
         if (!thin.empty()) warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin", origin().w));
-        if (request_.label != Label::none) label(groups);
+        if (request_.label != LabelPlacement::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
         } else if (request_.contents == ExportContents::oval) {
@@ -163,7 +163,7 @@ class Exporter {
     }
 
     void label(std::vector<SliceBodies>& groups) {
-        if (hasSurfaces_ && request_.label == Label::engraved) {
+        if (hasSurfaces_ && request_.label == LabelPlacement::engraved) {
             throw ExportRefused{{ExportRefusal::Cause::no_body,
                                  "the surface of a field has no face to engrave; choose a separate label"}};
         }
@@ -171,7 +171,7 @@ class Exporter {
         for (SliceBodies& group : groups) {
             budget_.checkTime();
             const LabelText text(scene_.title, wOf(group.slice));
-            if (request_.label == Label::engraved) {
+            if (request_.label == LabelPlacement::engraved) {
                 done += text.engrave(group.bodies.front().mesh, request_.size, grid_) ? 1 : 0;
                 continue;
             }
@@ -184,7 +184,7 @@ class Exporter {
         if (done == 0) {
             throw ExportRefused{
                 {ExportRefusal::Cause::no_body,
-                 request_.body == Body::skeleton
+                 request_.body == BodyKind::skeleton
                      ? "balls and bars have no face to engrave; choose a separate label"
                      : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
                        "larger size"}};
@@ -279,7 +279,7 @@ class Exporter {
             least = std::min(least, v.w);
             most = std::max(most, v.w);
         }
-        if (!hasCells() && request_.body == Body::solid) {
+        if (!hasCells() && request_.body == BodyKind::solid) {
             throw ExportRefused{
                 {ExportRefusal::Cause::no_body,
                  isCloud() ? "points have no volume; choose body=skeleton, whose balls are the points"

@@ -14,15 +14,17 @@ namespace oval4d::exports {
 
 /// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. A projection is always
 /// exported as balls and bars.
-enum class Body : std::uint8_t { solid, skeleton };
+enum class BodyKind : std::uint8_t { solid, skeleton };
 /// Where the object's name and the slice's w are written. `none`: nowhere; `engraved`: in a face of the body;
 /// `separate`: on a plate next to the body.
-enum class Label : std::uint8_t { none, engraved, separate };
+enum class LabelPlacement : std::uint8_t { none, engraved, separate };
 
-inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
-    {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame" is a former name
-inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
-    {{"none", Label::none}, {"engraved", Label::engraved}, {"separate", Label::separate}});
+inline constexpr auto kBodies =
+    std::to_array<text::Choice<BodyKind>>({{"solid", BodyKind::solid},
+                                           {"skeleton", BodyKind::skeleton},
+                                           {"frame", BodyKind::skeleton}});  // "frame" is a former name
+inline constexpr auto kLabels = std::to_array<text::Choice<LabelPlacement>>(
+    {{"none", LabelPlacement::none}, {"engraved", LabelPlacement::engraved}, {"separate", LabelPlacement::separate}});
 
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
@@ -33,11 +35,11 @@ inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
     ExportContents contents = ExportContents::focus;
-    Body body = Body::solid;
+    BodyKind body = BodyKind::solid;
     /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, the larger of its width and
     /// height.
     double size = 60;
-    Label label = Label::none;
+    LabelPlacement label = LabelPlacement::none;
     /// For ExportContents::oval: slices that replace those of the session. At most one of `chosenW` and `fittedSlices`
     /// is given.
     /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see

@@ -164,7 +164,7 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
 bool readsFieldSurfaces(const exports::ExportRequest& request) {
     using enum exports::ExportContents;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
-    return request.format->writeBodies != nullptr ? request.body == exports::Body::solid
+    return request.format->writeBodies != nullptr ? request.body == exports::BodyKind::solid
                                                   : request.format->readsSurfaces;
 }
 

@@ -130,7 +130,7 @@ struct Renderer::Impl {
     void drawFog(const scene::Scene& scene, DepthRange depths);
 
     /// The surfaces of the nearer or of the farther slices, for drawing without OpenGL.
-    struct SurfaceHalf {
+    struct NearOrFarSurfaces {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
     };
@@ -150,9 +150,9 @@ struct Renderer::Impl {
     NonconvexShapeCollector::Layers layers;
     ProjectionShapeCollector projectionCollector;
     ProjectionShapeCollector::Layers projectionLayers;
-    SurfaceBatch surfaces;                     // of all slices, for drawing with OpenGL
-    std::array<SurfaceHalf, 2> surfaceHalves;  // of the nearer slices; of the farther slices
-    std::optional<FogPainter> fogPainter;      // made for the first picture with fog
+    SurfaceBatch surfaces;                           // of all slices, for drawing with OpenGL
+    std::array<NearOrFarSurfaces, 2> surfaceHalves;  // of the nearer slices; of the farther slices
+    std::optional<FogPainter> fogPainter;            // made for the first picture with fog
 };
 
 void Renderer::Impl::flushShapes() {
@@ -208,7 +208,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceHalves;
-    const auto prepare = [&](SurfaceHalf& pass, SurfaceBatch::DepthHalf half) {
+    const auto prepare = [&](NearOrFarSurfaces& pass, SurfaceBatch::DepthHalf half) {
         DepthRange depths;  // collect() needs it, but only OpenGL uses it
         pass.batch.collect(scene, depths, half);
         pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
@@ -224,21 +224,21 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
-    const auto opaque = [](const SurfaceHalf& pass) { return std::span(pass.batch.opaqueIndices()); };
+    const auto opaque = [](const NearOrFarSurfaces& pass) { return std::span(pass.batch.opaqueIndices()); };
     const auto add = [this](const ShapeBatch& batch, DepthUse depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
     add(layers.faces, DepthUse::written);
-    for (const SurfaceHalf* pass : {&near, &far})
+    for (const NearOrFarSurfaces* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).first(pass->batch.fringesBegin()), Blending::none);
-    for (const SurfaceHalf* pass : {&near, &far})
+    for (const NearOrFarSurfaces* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, opaque(*pass).subspan(pass->batch.fringesBegin()), Blending::alpha);
     add(layers.skeleton, DepthUse::written);
     if (scene.projectionPlacement.shown) {
         add(projectionLayers.solid, DepthUse::written);
         add(projectionLayers.translucent, DepthUse::tested);
     }
-    for (const SurfaceHalf* pass : {&far, &near})
+    for (const NearOrFarSurfaces* pass : {&far, &near})
         shapeRasterizer.add(pass->rasterizer, pass->batch.translucentIndices(), Blending::alpha);
     add(layers.faded, DepthUse::tested);
 }
@@ -295,7 +295,7 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
 // Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
-    for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::Part::behind);
+    for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::FogPart::behind);
 }
 
 // Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
@@ -305,7 +305,7 @@ void Renderer::Impl::drawFog(const scene::Scene& scene, DepthRange depths) {
     for (std::size_t i = 0; i < surfaces.order().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
         surfaceProgram.drawPart(begin, end);
-        fogPainter->draw(scene, surfaces.order()[i], FogPainter::Part::in_front);
+        fogPainter->draw(scene, surfaces.order()[i], FogPainter::FogPart::in_front);
         begin = end;
     }
 }

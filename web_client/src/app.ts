@@ -39,7 +39,7 @@ import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
 import { markFullScreen, markMode, markScheme, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
-import { Picker } from "./picker";
+import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
 import { type Mode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
@@ -162,7 +162,7 @@ export class App {
         }),
     });
     private readonly headerValues = new HeaderValues((line) => this.request({ type: "command", line }));
-    private readonly picker = new Picker(
+    private readonly picker = new PolytopePicker(
         (name, isData) => (isData ? this.loadData(name) : this.request({ type: "set", polytope: name })),
         (error) => this.notice.show(error.message),
     );

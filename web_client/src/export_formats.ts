@@ -2,7 +2,7 @@
 
 import table from "../../protocol/export_formats.json";
 
-export type Choice = "of" | "body" | "size" | "label" | "side" | "pixels" | "background";
+export type ExportOption = "of" | "body" | "size" | "label" | "side" | "pixels" | "background";
 
 export interface Format {
     /** The name in the protocol, and the file name extension. */
@@ -13,7 +13,7 @@ export interface Format {
     /** The media type. */
     type: string;
     /** The options that the dialog offers for this format. */
-    choices: Choice[];
+    choices: ExportOption[];
     /** What the file can contain; the first is the default. */
     of: string[];
     /** Replaces `about` and `of` if the object is a field. */
@@ -68,7 +68,7 @@ function format(row: Row): Format {
     };
 }
 
-function choicesOf(row: Row): Choice[] {
+function choicesOf(row: Row): ExportOption[] {
     if (row.bodies) return ["of", "body", "size", "label"];
     return [...(row.of.length > 1 ? ["of" as const] : []), ...(row.group === "figure" ? ["side" as const] : [])];
 }

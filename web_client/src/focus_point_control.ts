@@ -3,7 +3,7 @@
 
 import type { Client, State } from "@oval4d/protocol";
 
-import { LastChange } from "./last_change";
+import { OldStateDetector } from "./old_state_detector";
 import { originInFile } from "./origin";
 
 /** A point x, y, z, w. */
@@ -24,7 +24,7 @@ export class FocusPointControl {
     private isScheduled = false;
     private continues = false; // whether the next move belongs to the undo step of the last one
     private current = kOrigin; // the focus point of the session
-    private readonly lastChange = new LastChange();
+    private readonly lastChange = new OldStateDetector();
     private origin = kOrigin; // to add to coordinates in the picture to get those of the object's file
 
     constructor(

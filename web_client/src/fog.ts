@@ -77,7 +77,7 @@ export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
     if (color !== undefined) return color;
     const [first, last] = [points[0]!.value, points.at(-1)!.value];
     const place = (2 * (value - first)) / (last - first);
-    const [least, middle, most] = table.schemes[scheme].scale.map((one) => parseInt(one.slice(1), 16)) as Scale;
+    const [least, middle, most] = table.schemes[scheme].scale.map((one) => parseInt(one.slice(1), 16)) as ScaleColors;
     const [from, to] = place < 1 ? [least, middle] : [middle, most];
     const part = place < 1 ? place : place - 1;
     return [16, 8, 0].reduce((sum, shift) => {
@@ -86,7 +86,7 @@ export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
     }, 0);
 }
 
-type Scale = [least: number, middle: number, most: number];
+type ScaleColors = [least: number, middle: number, most: number];
 
 /** Whether the server accepts these points: increasing finite values, and opacities from 0 to 1. */
 export function isTransferFunction(points: FogPoint[]): boolean {

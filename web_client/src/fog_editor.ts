@@ -9,8 +9,8 @@ import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransfe
 import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
-import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
+import { OldStateDetector } from "./old_state_detector";
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the curve, in units of its viewBox
@@ -34,7 +34,7 @@ export class FogEditor {
     private readonly showButton = byId<HTMLButtonElement>("fog-show");
     private readonly offButton = byId<HTMLButtonElement>("fog-off");
     private readonly changes = new NewestOnly<{ fog: FogPoint[]; drag?: number }>((change) => this.apply(change));
-    private readonly lastChange = new LastChange();
+    private readonly lastChange = new OldStateDetector();
     private rows: Row[] = [];
     private points: FogPoint[] = []; // what the editor shows
     private state: State | undefined;

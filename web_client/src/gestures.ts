@@ -7,7 +7,7 @@
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
 import type { OrbitControl } from "./orbit";
-import { type Ball, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
+import { type BallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
 import { TwoFingers } from "./two_fingers";
 
@@ -137,7 +137,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     });
 }
 
-function ballOf({ shiftKey }: MouseEvent): Ball {
+function ballOf({ shiftKey }: MouseEvent): BallKind {
     return shiftKey ? "3-D" : "4-D";
 }
 

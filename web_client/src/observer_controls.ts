@@ -6,8 +6,8 @@ import type { Settings, State, Vector } from "@oval4d/protocol";
 import { byId, element } from "./element";
 import { parseNumbers } from "./fields";
 import { formatDecimal, toSentence } from "./format";
-import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
+import { OldStateDetector } from "./old_state_detector";
 import type { Velocity } from "./reference_frame";
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
@@ -29,7 +29,7 @@ export class ObserverControls {
         boost: new NewestOnly(async (boost) => void (await this.apply({ boost }, "boost"))),
     };
     private continues = false; // whether the next pace belongs to the undo step of the last one
-    private readonly lastPace = new LastChange();
+    private readonly lastPace = new OldStateDetector();
     private statePace = 1; // of the newest state
     private readonly errors = { pace: "", follow: "", boost: "" };
 

@@ -3,7 +3,7 @@
 
 import type { Client, Orbit, RequestError, State } from "@oval4d/protocol";
 
-import { LastChange } from "./last_change";
+import { OldStateDetector } from "./old_state_detector";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 
@@ -19,7 +19,7 @@ const kZoomStep = 1.1;
 export class OrbitControl {
     private sending = false;
     private unsent = false;
-    private readonly lastChange = new LastChange();
+    private readonly lastChange = new OldStateDetector();
     private lastLimited: Orbit | undefined; // the orbit before the moves that no hit tester has limited yet
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {

@@ -13,7 +13,7 @@ const kCounted = ["vertices", "edges", "2-faces", "cells"]; // the headings of t
 const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
-export class Picker {
+export class PolytopePicker {
     /** The catalogue that the server listed last; empty before the first list. */
     catalogue = new Catalogue([]);
     private readonly dialog = new Dialog("picker");

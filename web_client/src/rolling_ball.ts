@@ -5,28 +5,28 @@
 import type { Plane } from "@oval4d/protocol";
 
 /** Angles in radians. R_ab turns the +a axis toward the +b axis. */
-export type Turns = Partial<Record<Plane, number>>;
+export type AnglesByPlane = Partial<Record<Plane, number>>;
 
 /** Which ball is rolled: the 4-D ball, or the 3-D ball of every slice, which stays in its hyperplane. */
-export type Ball = "4-D" | "3-D";
+export type BallKind = "4-D" | "3-D";
 
 const kWheelTurn = 0.0015; // radians per pixel
 const kStickRate = Math.PI / 2; // radians per second
 const kStickDeadZone = 0.15; // of the range from 0 to 1
 
 /** Turns by a drag of (dx, dy) pixels, right and down, on a picture of this height: half a turn per height. */
-export function turnsOfDrag(ball: Ball, dx: number, dy: number, height: number): Turns {
+export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: number): AnglesByPlane {
     const perPixel = Math.PI / Math.max(1, height);
     return rolled(ball, dx * perPixel, dy * perPixel);
 }
 
 /** Turns by a wheel, in a plane in which drags do not roll the ball: zw for the 4-D ball, xy for the 3-D ball. */
-export function turnsOfWheel(ball: Ball, pixels: number): Turns {
+export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
 /** Turns by two fingers that are twisted clockwise by this angle. */
-export function turnsOfTwist(angle: number): Turns {
+export function turnsOfTwist(angle: number): AnglesByPlane {
     return { zw: angle };
 }
 
@@ -34,7 +34,7 @@ export function turnsOfTwist(angle: number): Turns {
  * Turns by a gamepad of the standard layout, as it is held for this many seconds: the left stick rolls the 4-D ball,
  * the right stick the 3-D ball, the triggers turn in zw, and the buttons above them in xy.
  */
-export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): Turns {
+export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): AnglesByPlane {
     const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);
     const difference = (less: number, more: number): number =>
         rate((buttons[more]?.value ?? 0) - (buttons[less]?.value ?? 0));
@@ -47,6 +47,6 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
 }
 
 /** Rolls a ball by these angles to the right and down. */
-function rolled(ball: Ball, right: number, down: number): Turns {
+function rolled(ball: BallKind, right: number, down: number): AnglesByPlane {
     return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };
 }

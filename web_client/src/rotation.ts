@@ -4,7 +4,7 @@
 
 import type { Plane, Request } from "@oval4d/protocol";
 
-import type { Turns } from "./rolling_ball";
+import type { AnglesByPlane } from "./rolling_ball";
 
 type Rotation = Extract<Request, { type: "rotate" }>;
 
@@ -30,7 +30,7 @@ export class RotationControl {
     }
 
     /** Adds turns to the current gesture; begin() must have been called before. */
-    turn(turns: Turns): void {
+    turn(turns: AnglesByPlane): void {
         const { unsent } = this.gestures.at(-1)!;
         for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {
             const sum = (unsent.get(plane) ?? 0) + angle;

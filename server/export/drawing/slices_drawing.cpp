@@ -41,9 +41,9 @@ std::string withAsciiMinus(const std::string& label) {
 }
 
 /// Maps view space to the paper.
-class Paper {
+class PaperProjection {
   public:
-    explicit Paper(const scene::Scene& scene)
+    explicit PaperProjection(const scene::Scene& scene)
         : camera_(scene.camera),
           aspect_(static_cast<double>(scene.viewport.width) / scene.viewport.height),
           height_(kDrawingWidth / aspect_) {}
@@ -64,7 +64,7 @@ class Paper {
 
 class SliceDrawer {
   public:
-    SliceDrawer(const scene::Scene& scene, const Paper& paper)
+    SliceDrawer(const scene::Scene& scene, const PaperProjection& paper)
         : scene_(scene), set_(*scene.slices), style_(scene.style()), paper_(paper), view_(scene.camera.view()) {
         const double ball = scene.ballRadius, bar = scene.barRadius;
         if (scene.look.parts.balls) hiddenEnd_ = std::sqrt(std::max(ball * ball - bar * bar, 0.0));
@@ -81,16 +81,17 @@ class SliceDrawer {
         if (scene_.look.parts.faces && scene_.needsDepthBuffer) addPieces();
         if (scene_.drawnBallRadius() > 0) addBalls();
         if (scene_.look.parts.bars) addBars();
-        std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
+        std::ranges::stable_sort(items_, {},
+                                 [](const LayeredShape& item) { return std::pair(item.layer, item.depth); });
         ShapeGroup group{"slice_" + std::to_string(scene_.placements[slice].index), {}};
-        for (Item& item : items_) group.shapes.push_back(std::move(item.shape));
+        for (LayeredShape& item : items_) group.shapes.push_back(std::move(item.shape));
         return group;
     }
 
   private:
     /// The layers of a convex slice, in drawing order. In a slice whose faces may cross, everything is in one layer.
     enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
-    struct Item {
+    struct LayeredShape {
         Layer layer;
         double depth;  ///< increases toward the viewer
         Shape shape;
@@ -248,16 +249,16 @@ class SliceDrawer {
     const scene::Scene& scene_;
     const SliceSet& set_;
     const scene::Style& style_;
-    const Paper& paper_;
+    const PaperProjection& paper_;
     const glm::dmat4 view_;
     double hiddenEnd_ = 0;  // the length of a bar's end that is inside a ball, in world units
     std::size_t slice_ = 0;
     std::vector<glm::dvec3> points_;  // in view space
     std::vector<bool> towardVertices_, towardEdges_;
-    std::vector<Item> items_;
+    std::vector<LayeredShape> items_;
 };
 
-ShapeGroup drawLabels(const scene::Scene& scene, const Paper& paper) {
+ShapeGroup drawLabels(const scene::Scene& scene, const PaperProjection& paper) {
     const scene::Style& style = scene.style();
     const glm::dmat4 view = scene.camera.view();
     ShapeGroup labels{"labels", {}};
@@ -273,7 +274,7 @@ ShapeGroup drawLabels(const scene::Scene& scene, const Paper& paper) {
 }
 
 /// Draws the directions of the axes x, y and z, from far to near.
-ShapeGroup drawAxes(const scene::Scene& scene, const Paper& paper) {
+ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // in lengths of an axis
     const scene::Style& style = scene.style();
     const double length = scene.axes.length * paper.height(), size = style.textHeight * paper.height();
@@ -308,7 +309,8 @@ bool showsFocusPoint(const scene::Look& look) {
 }
 
 /// Draws the focus point in the focus slice: a line along each axis through it.
-ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, const Paper& paper) {
+ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement,
+                          const PaperProjection& paper) {
     ShapeGroup point{"focus-point", {}};
     const std::array<scene::Segment, 3> lines = scene::focusLines(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -330,7 +332,7 @@ Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, con
         throw ExportRefused{{ExportRefusal::Cause::no_body,
                              "the surfaces of a field are too fine for a drawing; save a picture (png) instead"}};
     }
-    const Paper paper(scene);
+    const PaperProjection paper(scene);
     const bool many = scene.placements.size() > 1;
     Drawing drawing{(many ? "Slices: " : "Slice: ") + scene.title, kDrawingWidth, paper.height(), {}};
     std::vector<std::pair<double, std::size_t>> order;  // by distance from the eye, the farthest first

@@ -31,17 +31,17 @@ Owned<Thing> owned(const char* what, Make&& make) {
 }
 
 // The seekable buffer that lib3mf writes to.
-struct Sink {
+struct SeekableBuffer {
     std::string bytes;
     std::size_t at = 0;
 
-    static DWORD write(const void* data, DWORD count, Sink* sink) {
+    static DWORD write(const void* data, DWORD count, SeekableBuffer* sink) {
         sink->bytes.resize(std::max(sink->bytes.size(), sink->at + count));
         std::copy_n(static_cast<const char*>(data), count, sink->bytes.data() + sink->at);
         sink->at += count;
         return 0;
     }
-    static DWORD seek(ULONG64 to, Sink* sink) {
+    static DWORD seek(ULONG64 to, SeekableBuffer* sink) {
         sink->at = to;
         return 0;
     }
@@ -89,9 +89,9 @@ std::string threeMf(const MeshesToWrite& meshes) {
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
     check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&meshes.budget)),
           "cannot set the progress callback");
-    Sink sink;
-    const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&Sink::write),
-                                                      reinterpret_cast<void*>(&Sink::seek), &sink);
+    SeekableBuffer sink;
+    const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&SeekableBuffer::write),
+                                                      reinterpret_cast<void*>(&SeekableBuffer::seek), &sink);
     meshes.budget.checkTime();
     check(result, "cannot write the file");
     return std::move(sink.bytes);

@@ -17,16 +17,18 @@ namespace oval4d::exports {
 namespace {
 
 /// The kind of elements of slices that the file lists: the kind of the highest dimension.
-enum class Elements : std::uint8_t { vertices, edges, faces };
+enum class ListedElementKind : std::uint8_t { vertices, edges, faces };
 
-Elements elementsOf(const slicing::Object& object) {
+ListedElementKind elementsOf(const slicing::Object& object) {
     const auto counts = slicing::elementCounts(object);
-    return counts[3] > 0 ? Elements::faces : counts[1] > 0 ? Elements::edges : Elements::vertices;
+    return counts[3] > 0   ? ListedElementKind::faces
+           : counts[1] > 0 ? ListedElementKind::edges
+                           : ListedElementKind::vertices;
 }
 
 /// The arrays of the file.
 struct PolyData {
-    Elements elements = Elements::faces;
+    ListedElementKind elements = ListedElementKind::faces;
     std::vector<float> points, normals;               // three numbers for each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
     std::vector<std::int64_t> corners, ends;          // per corner: its point; per element: its end in `corners`
@@ -57,19 +59,19 @@ void addElements(const SceneInput& source, int slice, PolyData& out) {
         out.w.push_back(slicing::infoOf(source.object).originInFile.w + slices.planes.w(slice));
     };
     switch (out.elements) {
-        case Elements::vertices:
+        case ListedElementKind::vertices:
             for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
                 out.corners.push_back(first + v - slices.vertexBegin[i]);
                 endElement();
             }
             break;
-        case Elements::edges:
+        case ListedElementKind::edges:
             for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
                 for (const std::uint32_t end : slices.edges[e]) out.corners.push_back(first + end);
                 endElement();
             }
             break;
-        case Elements::faces:
+        case ListedElementKind::faces:
             for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
                 for (std::uint32_t c = slices.cornerBegin[f]; c < slices.cornerBegin[f + 1]; ++c)
                     out.corners.push_back(first + slices.corners[c]);
@@ -152,12 +154,12 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
 }
 
 std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
-    const auto countOf = [&](Elements elements) {
+    const auto countOf = [&](ListedElementKind elements) {
         return "=\"" + std::to_string(data.elements == elements ? data.ends.size() : 0) + '"';
     };
     std::string out = "<Piece NumberOfPoints=\"" + std::to_string(data.points.size() / 3) + "\" NumberOfVerts" +
-                      countOf(Elements::vertices) + " NumberOfLines" + countOf(Elements::edges) +
-                      " NumberOfStrips=\"0\" NumberOfPolys" + countOf(Elements::faces) + ">\n";
+                      countOf(ListedElementKind::vertices) + " NumberOfLines" + countOf(ListedElementKind::edges) +
+                      " NumberOfStrips=\"0\" NumberOfPolys" + countOf(ListedElementKind::faces) + ">\n";
     if (isField) {
         out += "<PointData Scalars=\"value\" Normals=\"normals\">\n";
         appendArray(out, "value", data.values);
@@ -167,7 +169,7 @@ std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
         out += "</PointData>\n<CellData Scalars=\"level\">\n";
         appendArray(out, "level", data.level);
         appendArray(out, "cap", data.cap);
-    } else if (data.elements == Elements::faces) {
+    } else if (data.elements == ListedElementKind::faces) {
         out += "<CellData Scalars=\"cell\">\n";
         appendArray(out, "cell", data.cell);
     } else {
@@ -177,9 +179,9 @@ std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
     appendArray(out, "w", data.w);
     out += "</CellData>\n<Points>\n";
     appendArray(out, "points", data.points, 3);
-    const std::string list = data.elements == Elements::vertices ? "Verts"
-                             : data.elements == Elements::edges  ? "Lines"
-                                                                 : "Polys";
+    const std::string list = data.elements == ListedElementKind::vertices ? "Verts"
+                             : data.elements == ListedElementKind::edges  ? "Lines"
+                                                                          : "Polys";
     out += "</Points>\n<" + list + ">\n";
     appendArray(out, "connectivity", data.corners);
     appendArray(out, "offsets", data.ends);
@@ -202,7 +204,7 @@ std::string vtp(const SceneInput& source) {
         if (data.ends.size() == before) empty.push_back(i);
     }
     if (!empty.empty()) {
-        const char* const fault = data.elements == Elements::faces ? "without faces" : "empty";
+        const char* const fault = data.elements == ListedElementKind::faces ? "without faces" : "empty";
         source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
                                                     slicing::infoOf(source.object).originInFile.w));
     }

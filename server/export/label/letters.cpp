@@ -19,9 +19,9 @@ constexpr double kLineStep = 1.7;  // distance between baselines, in heights of 
 constexpr int kPieces = 4;         // line segments per curve
 
 // Converts lines of text to contours, with FreeType. The unit is the height of a capital letter.
-class Pen {
+class TextOutliner {
   public:
-    Pen() {
+    TextOutliner() {
         if (FT_Init_FreeType(&library_) != 0) throw std::runtime_error("FreeType cannot be initialized");
         const char* const named = std::getenv("OVAL4D_FONT");
         const std::string file = named != nullptr && *named != 0 ? named : OVAL4D_FONT;
@@ -32,12 +32,12 @@ class Pen {
         if (FT_Load_Char(face_, 'H', FT_LOAD_NO_SCALE) == 0)
             capital_ = static_cast<double>(face_->glyph->metrics.horiBearingY);
     }
-    ~Pen() {
+    ~TextOutliner() {
         FT_Done_Face(face_);
         FT_Done_FreeType(library_);
     }
-    Pen(const Pen&) = delete;
-    Pen& operator=(const Pen&) = delete;
+    TextOutliner(const TextOutliner&) = delete;
+    TextOutliner& operator=(const TextOutliner&) = delete;
 
     /// Appends the contours of a line of text whose baseline starts at (0, y), and returns the length of the line.
     double write(const std::string& text, double y, std::vector<Contour>& out) {
@@ -46,13 +46,13 @@ class Pen {
         for (const char32_t character : decoded(text)) {
             if (FT_Load_Char(face_, character, FT_LOAD_NO_SCALE) != 0) continue;
             FT_Outline_Funcs funcs{};
-            funcs.move_to = [](const FT_Vector* to, void* pen) { return static_cast<Pen*>(pen)->move(to); };
-            funcs.line_to = [](const FT_Vector* to, void* pen) { return static_cast<Pen*>(pen)->line(to); };
+            funcs.move_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->move(to); };
+            funcs.line_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->line(to); };
             funcs.conic_to = [](const FT_Vector* control, const FT_Vector* to, void* pen) {
-                return static_cast<Pen*>(pen)->curve(control, control, to, 2);
+                return static_cast<TextOutliner*>(pen)->curve(control, control, to, 2);
             };
             funcs.cubic_to = [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* pen) {
-                return static_cast<Pen*>(pen)->curve(first, second, to, 3);
+                return static_cast<TextOutliner*>(pen)->curve(first, second, to, 3);
             };
             FT_Outline_Decompose(&face_->glyph->outline, &funcs, this);
             origin_.x += static_cast<double>(face_->glyph->metrics.horiAdvance) / capital_;
@@ -116,7 +116,7 @@ void removeDuplicates(Contour& contour) {
 }  // namespace
 
 Lettering letteringOf(const std::vector<std::string>& lines) {
-    Pen pen;
+    TextOutliner pen;
     std::vector<Contour> drawn;
     double y = 0;
     for (const std::string& line : lines) {

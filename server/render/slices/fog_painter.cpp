@@ -200,7 +200,7 @@ void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogT
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());
 }
 
-void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part) {
+void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, FogPart part) {
     if (lattices_[slice] == 0) return;
     const slicing::SliceFog& fog = scene.slices->fogs[slice];
     const SliceRef view{*scene.slices, scene, toView_, slice};
@@ -223,7 +223,7 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, Part part)
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_3D, lattices_[slice]);
     program_.use();
-    glUniform1i(uniforms_.isBehind, part == Part::behind ? 1 : 0);
+    glUniform1i(uniforms_.isBehind, part == FogPart::behind ? 1 : 0);
     glUniform3f(uniforms_.eye, eye.x, eye.y, eye.z);
     glUniform4fv(uniforms_.walls, static_cast<GLsizei>(walls.size()), &walls[0].x);
     glUniform1i(uniforms_.wallCount, static_cast<GLint>(fog.walls.size()));

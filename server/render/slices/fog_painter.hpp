@@ -45,10 +45,10 @@ class FogPainter {
     /// It must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
     /// `in_front` is the rest: the fog in front of the nearest ball or bar, or all of the fog where there is no ball or
     /// bar.
-    enum class Part : std::uint8_t { behind, in_front };
+    enum class FogPart : std::uint8_t { behind, in_front };
     /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
     /// of occluders, and then draw the slices from far to near. Leaves the depth test enabled.
-    void draw(const scene::Scene& scene, std::uint32_t slice, Part part);
+    void draw(const scene::Scene& scene, std::uint32_t slice, FogPart part);
 
     /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
     /// them requires the context of this object, and another context may be current. The textures take two bytes for

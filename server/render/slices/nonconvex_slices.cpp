@@ -61,31 +61,31 @@ void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange&
         points[v] = transform(slice.set.vertices[slice.firstVertex() + v]);
         const float depth = -points[v].z;
         depths = {std::min(depths.from, depth), std::max(depths.to, depth)};
-        if (skeleton.balls) add({depth, Kind::ball, number, v}, slice.vertexVisibility(v));
+        if (skeleton.balls) add({depth, ShapeKind::ball, number, v}, slice.vertexVisibility(v));
     }
     for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
         const auto& [a, b] = slice.edge(e);
         // A bar has the depth of its far end, so that it is drawn after everything that is farther away than this end.
-        add({-std::min(points[a].z, points[b].z), Kind::bar, number, e}, slice.edgeVisibility(e));
+        add({-std::min(points[a].z, points[b].z), ShapeKind::bar, number, e}, slice.edgeVisibility(e));
     }
     const slicing::FilledFaces& fill = scene.fill;
     if (fill.empty()) return;
     for (std::uint32_t f = fill.faceBegin[number]; f < fill.faceBegin[number + 1]; ++f) {
         const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[f]]]);
-        add({-corner.z, Kind::face, number, f}, scene.visibilities.face(fill.faces[f].source));
+        add({-corner.z, ShapeKind::face, number, f}, scene.visibilities.face(fill.faces[f].source));
     }
 }
 
 void NonconvexShapeCollector::add(const SortedShape& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
-    if (visibility == Visibility::full) (item.kind == Kind::face ? faces_ : skeleton_).push_back(item);
+    if (visibility == Visibility::full) (item.kind == ShapeKind::face ? faces_ : skeleton_).push_back(item);
 }
 
 void NonconvexShapeCollector::addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton,
                                        ShapeBatch& out) {
-    if (item.kind == Kind::face) return addFace(slice, item.number, out);
+    if (item.kind == ShapeKind::face) return addFace(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
-    if (item.kind == Kind::ball) {
+    if (item.kind == ShapeKind::ball) {
         out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number),
                     slice.vertexColor(item.number, skeleton.ballColor), slice.vertexOpacity(item.number));
         return;

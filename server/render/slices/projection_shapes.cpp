@@ -50,13 +50,13 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
         if (visibility == Visibility::hidden) return;
         // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. Faces must be
         // visible behind these bars; the bars are therefore in the translucent layer.
-        const bool solid = item.kind != Kind::face && part == 0 && visibility == Visibility::full;
+        const bool solid = item.kind != ShapeKind::face && part == 0 && visibility == Visibility::full;
         (solid ? solid_ : translucent_).push_back(item);
     };
     const std::uint32_t first = elements.vertexBegin[part];
     if (look.ballRadius > 0) {
         for (std::uint32_t v = first; v < elements.vertexBegin[part + 1]; ++v)
-            add({-points_[v].z, Kind::ball, part, v}, scene.visibilities.vertex(elements.vertexSource[v]));
+            add({-points_[v].z, ShapeKind::ball, part, v}, scene.visibilities.vertex(elements.vertexSource[v]));
     }
     if (look.barRadius > 0) {
         for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {
@@ -64,7 +64,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
             // A bar of the object is sorted by its far end. A bar of a section is sorted by its near end, so that the
             // faces beside the bar are drawn before it and do not cover it.
             const auto [far, near] = std::minmax(points_[first + a].z, points_[first + b].z);
-            add({-(part == 0 ? far : near), Kind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
+            add({-(part == 0 ? far : near), ShapeKind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
     }
     if (look.faceOpacity > 0) {
@@ -72,7 +72,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
             float sum = 0;
             const std::uint32_t begin = elements.cornerBegin[f], end = elements.cornerBegin[f + 1];
             for (std::uint32_t c = begin; c < end; ++c) sum -= points_[first + elements.corners[c]].z;
-            add({sum / static_cast<float>(end - begin), Kind::face, part, f},
+            add({sum / static_cast<float>(end - begin), ShapeKind::face, part, f},
                 scene.visibilities.face(elements.faceSource[f]));
         }
     }
@@ -83,14 +83,14 @@ void ProjectionShapeCollector::addShape(const scene::Scene& scene, const SortedS
     const scene::ProjectionPartLook& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];
     const auto opacity = [](Visibility visibility) { return static_cast<float>(slicing::opacityOf(visibility)); };
-    if (item.kind == Kind::ball) {
+    if (item.kind == ShapeKind::ball) {
         const float scale = elements.ballScale.empty() ? 1 : elements.ballScale[item.number];
         const float own = elements.ballOpacity.empty() ? 1 : elements.ballOpacity[item.number];
         const bool lit = scene.highlight.hasVertex(elements.vertexSource[item.number]);
         out.addBall(points_[item.number], static_cast<float>(part.ballRadius) * scale,
                     lit ? scene.style().highlight : part.ballColor,
                     own * opacity(scene.visibilities.vertex(elements.vertexSource[item.number])));
-    } else if (item.kind == Kind::bar) {
+    } else if (item.kind == ShapeKind::bar) {
         const auto& [a, b] = elements.edges[item.number];
         const bool forth = points[a].z < points[b].z;
         const bool lit = scene.highlight.hasEdge(elements.edgeSource[item.number]);

@@ -28,10 +28,10 @@ class ProjectionShapeCollector {
     void collect(const scene::Scene& scene, Layers& out);
 
   private:
-    enum class Kind : std::uint8_t { ball, bar, face };
+    enum class ShapeKind : std::uint8_t { ball, bar, face };
     struct SortedShape {
         float depth;  // the distance from the eye along the view axis
-        Kind kind;
+        ShapeKind kind;
         std::uint32_t part, number;  // number: the index of a vertex, edge or face in ObjectProjection::elements
     };
 

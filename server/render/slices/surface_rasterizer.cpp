@@ -18,7 +18,7 @@ namespace oval4d::render {
 namespace {
 
 using Blending = SurfaceRasterizer::Blending;
-using Point = SurfaceRasterizer::Point;
+using LitVertex = SurfaceRasterizer::LitVertex;
 
 constexpr std::size_t kLanes = 8;
 // While eight triangles are drawn, the first corners of the eight triangles that begin this many indices later are
@@ -26,7 +26,7 @@ constexpr std::size_t kLanes = 8;
 // memory.
 constexpr std::size_t kAhead = 2 * 3 * kLanes;
 
-static_assert(sizeof(Point) == 8 * sizeof(float));
+static_assert(sizeof(LitVertex) == 8 * sizeof(float));
 static_assert(sizeof(SurfaceVertex) == 7 * sizeof(float));
 
 // Transposes a matrix of 8 × 8 numbers.
@@ -60,7 +60,7 @@ struct Lighting {
 
 // Projects and lights eight vertices. A vertex has seven floats, but eight are read for each vertex. Therefore one more
 // float after the last vertex must be readable.
-OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVertex* in, Point* out) {
+OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVertex* in, LitVertex* out) {
     __m256 v[kLanes];
     for (std::size_t i = 0; i < kLanes; ++i) v[i] = _mm256_loadu_ps(&in[i].clip.x);
     transpose(v);
@@ -107,20 +107,20 @@ OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVer
     for (std::size_t i = 0; i < kLanes; ++i) _mm256_store_ps(&out[i].nearness, rows[i]);
 }
 
-using Lanes = std::array<float, kLanes>;
-using Numbers = std::array<std::int32_t, kLanes>;
+using FloatLanes = std::array<float, kLanes>;
+using IntLanes = std::array<std::int32_t, kLanes>;
 
 // The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height, the lowest
 // first.
 struct alignas(32) TriangleSetup {
-    Lanes baseP, baseQ;        // the first row whose center is not below p, or q
-    Numbers rowP, rowQ, rowR;  // such first rows for p, q and r, clamped to beginRow … endRow
+    FloatLanes baseP, baseQ;    // the first row whose center is not below p, or q
+    IntLanes rowP, rowQ, rowR;  // such first rows for p, q and r, clamped to beginRow … endRow
     // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
-    Lanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
+    FloatLanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
     // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has
     // d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy. The first corner of this order is at (originX, originY),
     // relative to the center of pixel (0, 0).
-    Lanes xB, xC, yB, yC, originX, originY;
+    FloatLanes xB, xC, yB, yC, originX, originY;
 };
 
 // Exchanges the points (xA, yA) and (xB, yB) in each lane in which the first point is higher.
@@ -169,15 +169,15 @@ OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
             _mm256_permutevar8x32_epi32(pick(second, third, first), _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7))};
 }
 
-OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
-                                         TriangleSetup& out) {
+OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitVertex* points,
+                                         const std::uint32_t* indices, TriangleSetup& out) {
     const auto& [a, b, c] = cornersOf(indices);
-    const auto gather = [points](const float Point::* member, __m256i index) OVAL4D_AVX2 {
+    const auto gather = [points](const float LitVertex::* member, __m256i index) OVAL4D_AVX2 {
         const float* const base = &(points->*member);
         // A point consists of eight floats.
         return _mm256_i32gather_ps(base, _mm256_slli_epi32(index, 3), 4);
     };
-    const __m256 yA = gather(&Point::y, a), yB = gather(&Point::y, b), yC = gather(&Point::y, c);
+    const __m256 yA = gather(&LitVertex::y, a), yB = gather(&LitVertex::y, b), yC = gather(&LitVertex::y, c);
     const auto begin = static_cast<float>(canvas.beginRow), end = static_cast<float>(canvas.endRow);
     const auto rowOf = [&](const __m256& y) OVAL4D_AVX2 { return clampToInt(firstPixel(y), begin, end); };
     const __m256i rowP = rowOf(_mm256_min_ps(_mm256_min_ps(yA, yB), yC)),
@@ -189,7 +189,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Poin
     // thread draws the other rows.
     if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
 
-    const __m256 xA = gather(&Point::x, a), xB = gather(&Point::x, b), xC = gather(&Point::x, c);
+    const __m256 xA = gather(&LitVertex::x, a), xB = gather(&LitVertex::x, b), xC = gather(&LitVertex::x, c);
     const auto width = static_cast<float>(canvas.width);
     const __m256i left = clampToInt(firstPixel(_mm256_min_ps(_mm256_min_ps(xA, xB), xC)), 0, width),
                   right = clampToInt(firstPixel(_mm256_max_ps(_mm256_max_ps(xA, xB), xC)), 0, width);
@@ -206,9 +206,9 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Poin
     sortByHeight(xP, yP, xQ, yQ);
     const __m256 baseP = firstPixel(yP), baseQ = firstPixel(yQ);
     const __m256i rowQ = clampToInt(baseQ, begin, end);
-    const auto putNumbers = [&](Numbers& to, __m256i from)
+    const auto putNumbers = [&](IntLanes& to, __m256i from)
                                 OVAL4D_AVX2 { _mm256_store_si256(reinterpret_cast<__m256i*>(to.data()), from); };
-    const auto put = [&](Lanes& to, __m256 from) OVAL4D_AVX2 { _mm256_store_ps(to.data(), from); };
+    const auto put = [&](FloatLanes& to, __m256 from) OVAL4D_AVX2 { _mm256_store_ps(to.data(), from); };
     putNumbers(out.rowP, rowP);
     putNumbers(out.rowQ, rowQ);
     putNumbers(out.rowR, rowR);
@@ -216,7 +216,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Poin
     put(out.baseQ, baseQ);
     const __m256 half = _mm256_set1_ps(0.5F);
     const auto putEdge = [&](const __m256& x0, const __m256& y0, const __m256& x1, const __m256& y1, const __m256& base,
-                             Lanes& at, Lanes& step) OVAL4D_AVX2 {
+                             FloatLanes& at, FloatLanes& step) OVAL4D_AVX2 {
         const __m256 slope = _mm256_div_ps(_mm256_sub_ps(x1, x0), _mm256_sub_ps(y1, y0));
         const __m256 above = _mm256_sub_ps(_mm256_add_ps(base, half), y0);  // 0 … 1
         put(at, _mm256_fmadd_ps(slope, above, _mm256_sub_ps(x0, half)));
@@ -240,7 +240,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const Poin
     return masks;
 }
 
-// Converts the upper half of a Point, a color with numbers from 0 to 255, to an RGBA pixel.
+// Converts the upper half of a LitVertex, a color with numbers from 0 to 255, to an RGBA pixel.
 OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
     const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
@@ -249,15 +249,15 @@ OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
 // Draws triangle i of eight. A register holds all quantities of one pixel, because most rows of most triangles have
 // fewer pixels than a register has lanes.
 template <Blending blending>
-OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i, const Point& pointA,
-                             const Point& pointB, const Point& pointC) {
+OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i,
+                             const LitVertex& pointA, const LitVertex& pointB, const LitVertex& pointC) {
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
     // Each quantity is clamped to the range of its values at the corners, because gradients of narrow triangles are
     // inexact. Clamping also replaces the NaN of triangles without an area.
     const __m256 least = _mm256_min_ps(_mm256_min_ps(a, b), c), most = _mm256_max_ps(_mm256_max_ps(a, b), c);
     const __m256 toB = _mm256_sub_ps(b, a), toC = _mm256_sub_ps(c, a);
-    const auto gradient = [&](const Lanes& ofB, const Lanes& ofC) OVAL4D_AVX2 {
+    const auto gradient = [&](const FloatLanes& ofB, const FloatLanes& ofC) OVAL4D_AVX2 {
         return _mm256_fmadd_ps(toC, _mm256_set1_ps(ofC[i]), _mm256_mul_ps(toB, _mm256_set1_ps(ofB[i])));
     };
     const __m256 alongX = gradient(s.xB, s.xC), alongY = gradient(s.yB, s.yC);
@@ -308,7 +308,7 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
 // Draws the triangles of `wanted` (one bit for each of eight triangles) that precede the first one that must be
 // clipped. Returns all triangles of `wanted` that must be clipped, also as bits.
 template <Blending blending>
-OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
+OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const LitVertex* points, const std::uint32_t* indices,
                                unsigned wanted, TriangleSetup& lanes) {
     const TriangleMasks masks = setUpTriangles(canvas, points, indices, lanes);
     const unsigned clipped = masks.clipped & wanted;
@@ -343,7 +343,7 @@ void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::S
     std::size_t at = 0;
     for (; at + kLanes < end; at += kLanes) projectAndLightEight(lighting, vertices + at, points_.data() + at);
     std::array<SurfaceVertex, kLanes + 1> lastVertices{};
-    std::array<Point, kLanes> lastPoints;
+    std::array<LitVertex, kLanes> lastPoints;
     std::copy(vertices + at, vertices + end, lastVertices.begin());
     projectAndLightEight(lighting, lastVertices.data(), lastPoints.data());
     std::copy_n(lastPoints.begin(), end - at, points_.begin() + static_cast<std::ptrdiff_t>(at));
@@ -352,7 +352,7 @@ void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::S
 namespace {
 
 template <Blending blending, typename DrawClipped>
-void drawTriangles(const SurfaceCanvas& canvas, const Point* points, std::span<const std::uint32_t> indices,
+void drawTriangles(const SurfaceCanvas& canvas, const LitVertex* points, std::span<const std::uint32_t> indices,
                    const DrawClipped& drawClipped) {
     TriangleSetup lanes;
     std::array<std::uint32_t, 3 * kLanes> last{};
@@ -386,11 +386,11 @@ void SurfaceRasterizer::draw(const SurfaceCanvas& canvas, std::span<const std::u
 // Draws the part of a triangle that is in front of the eye, at a depth of at least kNearPlane.
 void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners,
                                     Blending blending) const {
-    std::array<Point, 4> polygon;
+    std::array<LitVertex, 4> polygon;
     std::size_t count = 0;
     const glm::vec2 half(0.5F * static_cast<float>(viewport_.width), 0.5F * static_cast<float>(viewport_.height));
-    const auto add = [&](const glm::vec3& clip, const Point& color) {
-        Point point = color;
+    const auto add = [&](const glm::vec3& clip, const LitVertex& color) {
+        LitVertex point = color;
         point.nearness = 1 / clip.z;
         point.x = (clip.x / clip.z + 1) * half.x;
         point.y = (clip.y / clip.z + 1) * half.y;
@@ -400,18 +400,18 @@ void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint
         const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
         const glm::vec3 &a = surfaces_->vertices()[from].clip, &b = surfaces_->vertices()[to].clip;
         const bool keepA = a.z >= kNearPlane, keepB = b.z >= kNearPlane;
-        const Point &colorA = points_[from], &colorB = points_[to];
+        const LitVertex &colorA = points_[from], &colorB = points_[to];
         if (keepA) add(a, colorA);
         if (keepA == keepB) continue;
         const float t = (kNearPlane - a.z) / (b.z - a.z);
-        Point color = colorA;
-        for (float Point::* channel : {&Point::r, &Point::g, &Point::b, &Point::a})
+        LitVertex color = colorA;
+        for (float LitVertex::* channel : {&LitVertex::r, &LitVertex::g, &LitVertex::b, &LitVertex::a})
             color.*channel += t * (colorB.*channel - colorA.*channel);
         add(a + t * (b - a), color);
     }
     if (count < 3 || std::any_of(
                          polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(count),
-                         [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }))
+                         [](const LitVertex& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }))
         return;
     constexpr std::array<std::uint32_t, 6> kFan{0, 1, 2, 0, 2, 3};
     const std::span<const std::uint32_t> triangles = std::span(kFan).first(3 * (count - 2));

@@ -48,7 +48,7 @@ class SurfaceRasterizer {
     double estimateMeanScreenY(std::span<const std::uint32_t> indices) const;
 
     /// A projected and lit vertex. It fills one 256-bit register.
-    struct alignas(32) Point {
+    struct alignas(32) LitVertex {
         float nearness;  ///< 1 / (the distance from the eye along the view axis)
         float x, y;      ///< in pixels from the lower left corner; NaN if the vertex is behind the eye or too close
         float unused;
@@ -60,7 +60,7 @@ class SurfaceRasterizer {
 
     const SurfaceBatch* surfaces_ = nullptr;
     scene::Viewport viewport_;
-    std::vector<Point> points_;  // one per vertex of the batch
+    std::vector<LitVertex> points_;  // one per vertex of the batch
 };
 
 }  // namespace oval4d::render

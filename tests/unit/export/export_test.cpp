@@ -18,7 +18,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;
     const ExportRequest skeleton{
-        .format = formatNamed("stl"), .contents = ExportContents::oval, .body = Body::skeleton};
+        .format = formatNamed("stl"), .contents = ExportContents::oval, .body = BodyKind::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
     ExportLimits limits = kUnhurried;
     limits.triangles = 1000;
@@ -41,9 +41,9 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
 // The bars of this slice, three long edges, are much thinner than it is long.
 TEST(File, isRefusedIfItsBarsAreTooThin) {
     const Polytope& p = named("3,12000-duoprism");
-    ExportRequest request{.format = formatNamed("stl"), .body = Body::skeleton};
+    ExportRequest request{.format = formatNamed("stl"), .body = BodyKind::skeleton};
     EXPECT_NE(fileOf(p, {}, {0, 1, 1, 0.1}, request, kUnhurried).find("too thin"), std::string::npos);
-    request.body = Body::solid;
+    request.body = BodyKind::solid;
     EXPECT_EQ(fileOf(p, {}, {0, 1, 1, 0.1}, request, kUnhurried).find("too thin"), std::string::npos);
 }
 
@@ -82,15 +82,16 @@ TEST(File, tellsWhatItLacks) {
     EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval}),
               (Warnings{"2 of 5 slices are empty and left out: w = −2, 3",
                         "1 of 5 slices is flat or too thin and left out: w = 1.41421"}));
-    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval, .body = Body::skeleton}),
+    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval, .body = BodyKind::skeleton}),
               Warnings{"2 of 5 slices are empty and left out: w = −2, 3"});
     EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContents::oval}),
               Warnings{"3 of 5 slices are without faces and left out: w = −2, 1.41421, 3"});
     EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContents::oval}), Warnings{});
     // The slice at 1.2 is too small for letters, and the others are large enough.
     const Hyperplanes labeled{0, 2, 0.1, 0, {0, 1.2}};
-    const auto made = exported(
-        p, {}, labeled, {.format = formatNamed("stl"), .contents = ExportContents::oval, .label = Label::engraved});
+    const auto made =
+        exported(p, {}, labeled,
+                 {.format = formatNamed("stl"), .contents = ExportContents::oval, .label = LabelPlacement::engraved});
     EXPECT_EQ(std::get<ExportedFile>(made).warnings,
               Warnings{"only 1 of 2 bodies have a label, because the others have no face that is flat and large "
                        "enough"});
@@ -135,7 +136,7 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
     for (const int count : {1, 5, 21, 61}) {
         if (support::kSanitized && count > 21) continue;
         const double spacing = count == 1 ? 1 : 2 * p.circumradius / (count - 1);
-        for (const Body body : {Body::solid, Body::skeleton}) {
+        for (const BodyKind body : {BodyKind::solid, BodyKind::skeleton}) {
             const ExportRequest request{.format = formatNamed("obj"), .contents = ExportContents::oval, .body = body};
             const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing}, request));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));

@@ -82,7 +82,7 @@ TEST(Parse, GetAndShown) {
               scene::Background::white);
     for (const std::string name : {"skeleton", "frame"}) {  // "frame" is the former name
         const std::string text = R"({"type":"get","what":"file","format":"stl","body":")" + name + "\"}";
-        EXPECT_EQ(std::get<Get>(parsed(text).body).file.body, exports::Body::skeleton);
+        EXPECT_EQ(std::get<Get>(parsed(text).body).file.body, exports::BodyKind::skeleton);
     }
     const auto file = [](const std::string& members) {
         return std::get<Get>(parsed(R"({"type":"get","what":"file","format":"stl",)" + members + "}").body).file;

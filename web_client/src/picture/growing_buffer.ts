@@ -3,9 +3,9 @@
 
 import { BufferAttribute, DynamicDrawUsage } from "three";
 
-type Numbers = Float32Array | Int8Array | Uint8Array | Uint32Array;
+type NumberArray = Float32Array | Int8Array | Uint8Array | Uint32Array;
 
-export class GrowingBuffer<T extends Numbers> {
+export class GrowingBuffer<T extends NumberArray> {
     attribute: BufferAttribute;
     used = 0; // the number of items in use; an item has `itemSize` numbers
 

@@ -232,7 +232,7 @@ TEST(Scad, hasTheBodiesOfTheSlices) {
 TEST(Scad, hasTheSamePointsAsObj) {
     const auto textOf = [](const char* format) {
         const ExportRequest request{
-            .format = formatNamed(format), .contents = ExportContents::oval, .label = Label::separate};
+            .format = formatNamed(format), .contents = ExportContents::oval, .label = LabelPlacement::separate};
         return fileOf(named("24-cell"), {}, {-2, 5, 0.5}, request);
     };
     std::vector<glm::dvec3> points;

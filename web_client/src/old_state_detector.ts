@@ -4,7 +4,7 @@
 
 import type { State } from "@oval4d/protocol";
 
-export class LastChange {
+export class OldStateDetector {
     private revision = 0; // of the newest change
     private seen = 0; // of the newest state
 
