@@ -31,10 +31,10 @@ constexpr double kColumnFocusDrop = 0.8;
 // In a grid, the step from a slice to the slice below it leaves this much room between them, in heights of text: for
 // the label, with gaps above and below it.
 constexpr double kGridLabelRoom = 2.3;
-constexpr double kGridFocusRoom = 2.1;    // how much more the label of the focus slice needs, which is farther down
+constexpr double kGridFocusRoom = 2.1;    // the additional room for the label of the focus slice, which is farther down
 constexpr double kGridLabelWidth = 0.94;  // the greatest width of the other labels, as a fraction of the column step
-// Like kLineDistance, for the distance from the focus slice to the farthest column or row. Slices in the corners look
-// nearly as those in the middle.
+// The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
+// farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
 constexpr double kGridDistance = 8;
 constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
 
@@ -89,10 +89,10 @@ Arrangement columnOf(int count, double reach) {
 // Returns a grid with the number of columns at which the slices are largest. `reach`: the radius of a slice with its
 // balls.
 Arrangement gridOf(int count, double reach, const SliceRoom& room) {
-    // The projection takes this share of the room, in the direction in which it stands beside the grid. It takes less
-    // if its height or width would otherwise be more than the share kProjectionBreadth of the room.
+    // The square of the projection takes the share kProjectionShare of the width of the room if it is to the left of
+    // the grid, or of the height if it is above the grid; but at most the share kProjectionBreadth of the other side.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
-    constexpr double kLeastWideAspect = 1.3;  // of rooms in which the projection is to the left
+    constexpr double kLeastWideAspect = 1.3;  // from this width / height on, the projection is to the left
     if (count == 1) return focusSliceAlone();
     const double text = style().textHeight;
     SliceGrid grid;
@@ -100,7 +100,7 @@ Arrangement gridOf(int count, double reach, const SliceRoom& room) {
     grid.projectionIsAbove = room.size.x < kLeastWideAspect * room.size.y;
     double scale = 0;  // how many viewport heights a world unit takes up in the picture
     for (const glm::dvec2& part : room.besideAxes) {
-        glm::dvec2 left = part;  // what the projection leaves
+        glm::dvec2 left = part;  // the part without the square of the projection
         double side = 0;
         if (room.hasProjection) {
             double& length = grid.projectionIsAbove ? left.y : left.x;
@@ -154,7 +154,7 @@ ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double
 
 // Places the projection to the left of a grid or, unless the room is wide, above it.
 ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
-    constexpr double kShare = 0.94;  // of its square that the projection fills
+    constexpr double kShare = 0.94;  // the diameter of the projection, as a fraction of the side of its square
     const double half = grid.projectionSide / 2;
     const glm::dvec3 first = grid.positionOf(0), last = grid.positionOf(grid.count - 1);
     const glm::dvec3 center = grid.projectionIsAbove ? glm::dvec3(first.x + (grid.columns - 1) * grid.columnStep / 2,
@@ -171,7 +171,7 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
     Arrangement made;
     switch (view) {
         case View::oval:
-            // The ends of an oval are far away; two slices, which only files have, would be tiny there.
+            // The ends of an oval are far away; two slices, which only exported files have, would be tiny.
             made = count == 2 ? rowOf(count, 1 + relativeBall) : ovalOf(count, aspect);
             break;
         case View::single:

@@ -23,8 +23,8 @@ struct SliceRoom {
 };
 
 /// The places of slices that stand in rows, in the order in which a text is read. Each row but the last has the same
-/// number of slices. All lengths are in world units. The focus slice is the one in the middle of the sequence, or the
-/// one before the middle, and stands at the origin.
+/// number of slices. All lengths are in world units. The focus slice stands at the origin. It is the middle one or, if
+/// the number of slices is even, the last one before the middle.
 struct SliceGrid {
     int count = 0;  ///< the number of slices; 0 if the view has no grid
     int columns = 1;
@@ -43,10 +43,10 @@ struct SliceGrid {
 };
 
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
-/// slices stand in a grid or on a curve, a parabola, a straight row, a straight column or a single place. The middle of
-/// the curve is the origin. The focus slice is there, unless the number of slices is even, as it may be in files; in a
-/// grid, it always is. The camera looks at the origin from the distance `distance`, downward by the angle `pitch`
-/// (radians).
+/// slices stand in a grid or on a curve: a parabola, a straight row, a straight column or a single place. The middle of
+/// the curve is the origin. In a grid, the focus slice always stands at the origin; on a curve, unless the number of
+/// slices is even, as it may be in exported files. The camera looks at the origin from the distance `distance`,
+/// downward by the angle `pitch` (radians).
 struct Arrangement {
     double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth. In a grid, the greatest |x|
     double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight. In a grid, the greatest |y|
@@ -68,8 +68,8 @@ struct Arrangement {
     /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
     /// column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
     /// part of the column. If the labels are below the slices, the label of the focus slice keeps its size, because it
-    /// is farther down than the others. A grid may be narrower than the room; this is then the number of its columns
-    /// that the room would hold.
+    /// is farther down than the others. If a grid is narrower than the room, this is the number of columns that the
+    /// room could hold, which may be a fraction.
     double labelColumns = 0;
     SliceGrid grid = {};  ///< the grid in which the slices stand, if they do
 

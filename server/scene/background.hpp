@@ -13,13 +13,13 @@ enum class Scheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
     std::to_array<text::Choice<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
 
-/// The background of a picture. Stored sessions contain the numbers of the enumerators.
+/// The background of a picture. Stored sessions contain the numbers of the enumerators; therefore they must not change.
 enum class Background : std::uint8_t {
     automatic = 0,    ///< dark or light, as the viewer prefers; dark if the preference is unknown; "auto" in messages
     dark = 1,         ///< nearly black
     light = 2,        ///< nearly white, like the page in its light scheme
     white = 3,        ///< like paper
-    transparent = 4,  ///< transparent in PNG files, else white; the colors on it are those on `white`
+    transparent = 4,  ///< transparent in PNG files, else white; all other colors are as with `white`
 };
 inline constexpr auto kBackgrounds =
     std::to_array<text::Choice<Background>>({{"auto", Background::automatic},

@@ -24,9 +24,9 @@ std::string cssColor(Color color);
 /// Returns the contrast of two colors by WCAG 2.2: from 1 (equal luminance) to 21 (black and white).
 double contrast(Color a, Color b);
 
-// The colors below have the same hues for both schemes. Those for a light background have a contrast to white of at
-// least 3.6. Shading may brighten them; their contrast to white and to a nearly white background is then still at least
-// 3.
+// The following functions return colors with the same hues for both schemes. Colors for a light background have a
+// contrast to white of at least 3.6. Even if shading brightens them, their contrast to white and to a nearly white
+// background is at least 3.
 
 /// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
 /// of the object's cell types.

@@ -15,8 +15,8 @@ using slicing::Object;
 using slicing::SliceSet;
 
 // Writes to `out`, for each of `elements`, the cell that determines the color of the element. `sourceOf` returns the
-// source number of an element. If every element was cut from a cell, which then determines its color, leaves `out`
-// empty.
+// source number of an element (see SliceSet). If all source numbers are those of cells, which then determine the
+// colors, leaves `out` empty.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -185,7 +185,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                               .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
-    // The source of a section's face that is a 2-face of the object is not a cell.
+    // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
     for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
 
     projection.scale = out.projectionPlacement.objectRadius / out.circumradius;

@@ -22,7 +22,7 @@ constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a sec
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
-constexpr double kLeastLabelSize = 0.45;  // of the labels that shrink
+constexpr double kLeastLabelSize = 0.45;  // the least SlicePlacement::labelSize of labels that shrink
 
 }  // namespace
 
@@ -110,8 +110,8 @@ void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
                         overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
-        // The labels of slices nearer to the focus slice are decided before this one, and so is the label at the same
-        // distance if its index is less. Some of these labels are removed; this label must not overlap the others.
+        // The labels of slices nearer to the focus slice have been decided before this one, and so has the label at the
+        // same distance if its index is less. This label must not overlap any of them that is kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

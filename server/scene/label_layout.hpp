@@ -16,7 +16,7 @@
 
 namespace oval4d::scene {
 
-/// Decides where the labels are and which of them are shown.
+/// Decides where the labels of slices are, how large they are, and which of them are shown.
 class LabelLayout {
   public:
     /// `decimals` is the number of decimals in the labels. `originW`: see LayoutObjectInfo. `arrangement` and

@@ -161,7 +161,7 @@ std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
 }
 
 // Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
-// slices and of the projection. If one of them would overlap the symbol, uses only the part of `room` to the right of
+// slices and of the projection. If a circle would overlap the symbol, uses only the part of `room` to the right of
 // the symbol or the part below it, whichever lets the slices be larger. Uses the part to the right only if labels
 // beside the slices take at most half of its width.
 Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, const std::vector<Circle>& circles,

@@ -89,8 +89,8 @@ struct Scene : Layout {
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether drawing the slices needs a depth buffer, because the order in which their shapes hide each other is not
-    /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If it does,
-    /// faces are opaque, and `fill` is drawn instead of the loops of the faces.
+    /// known in advance: for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If true, faces
+    /// are opaque, and the triangles of `fill` are drawn instead of the polygons of the faces.
     bool needsDepthBuffer = false;
     slicing::FilledFaces fill;             ///< the filled faces; empty for a field, if faces are hidden, and if
                                            ///< `needsDepthBuffer` is false
