@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// For this long after concurrent pictures, the next pictures are expected to be concurrent, too.
+// For this long after two pictures were drawn or queued at the same time, more such pictures are expected.
 constexpr auto kCrowded = 100ms;
 // The next picture is expected to be large if the last one took longer than this to draw, in seconds.
 constexpr double kLarge = 0.004;
