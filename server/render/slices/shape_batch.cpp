@@ -20,7 +20,7 @@ namespace {
 // radius, but more transparent.
 constexpr float kMinRadius = 0.6f;
 constexpr float kMinAlpha = 0.02f;      // shapes with a lower opacity are not drawn
-constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
+constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars have no foot (see ShapeBatch::addBar())
 
 /// How a shape is drawn whose radius is clamped to at least kMinRadius.
 struct ClampedRadius {
