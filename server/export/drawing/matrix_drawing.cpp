@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
 constexpr double kNumberRoom = 14;       // the room for numbers to the left of the matrix and below it
-constexpr double kNumberCharacters = 4;  // how many characters of the size kNumberSize have this room
+constexpr double kNumberCharacters = 4;  // how many characters of the size kNumberSize fit into kNumberRoom
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
 

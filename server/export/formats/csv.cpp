@@ -47,8 +47,8 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
 
-// Returns the size of the tables in which a ClosedSurfaceSlicer has two numbers for each index along each axis of an
-// array. Those of a formula are small.
+// Returns the size in bytes of the tables of a ClosedSurfaceSlicer, which have two numbers for each index along each
+// axis of an array. Returns 0 for a formula, whose tables are small.
 std::size_t tableBytes(const fields::Field& field) {
     std::size_t indices = 0;
     if (field.array)

@@ -37,16 +37,17 @@ float channel(scene::Color color, int shift) { return static_cast<float>(color >
 // lines of slices close to the eye. Lines and polygons are therefore cut at ±kFarthest, in the units of the drawing.
 constexpr double kFarthest = 30'000;
 
-// Returns how far a position is inside one of the four bounds of a coordinate axis, at ±kFarthest; less than 0 outside.
+// Returns the distance of a position from a bound, positive inside and negative outside. The bounds 0 … 3 are
+// x = kFarthest, x = −kFarthest, y = kFarthest and y = −kFarthest.
 double insideBound(const glm::dvec2& at, int bound) { return kFarthest - (bound % 2 == 0 ? 1 : -1) * at[bound / 2]; }
 
-// Returns where the line from `a` to `b` crosses a bound. `insideA` and `insideB`: insideBound() of the ends, one of
-// which is less than 0.
+// Returns where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of insideBound() for
+// the ends; exactly one of them must be negative.
 glm::dvec2 crossingOfBound(const glm::dvec2& a, const glm::dvec2& b, double insideA, double insideB) {
     return a + insideA / (insideA - insideB) * (b - a);
 }
 
-// Cuts a line at the bounds. Returns false if all of it is outside.
+// Cuts a line at the bounds. Returns false if no part of the line is within them.
 bool cutAtBounds(glm::dvec2& from, glm::dvec2& to) {
     for (int bound = 0; bound < 4; ++bound) {
         const double a = insideBound(from, bound), b = insideBound(to, bound);
