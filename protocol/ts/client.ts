@@ -1,5 +1,5 @@
-// A client of one session. If its connection breaks, the client reconnects automatically, and returns to the session
-// with the token. It reports the status of the connection.
+// A client of one session. If its connection breaks, the client reconnects automatically, and identifies itself with
+// the token of the session to return to it. The client reports the status of the connection.
 
 import { Arena } from "./arena.js";
 import { decodeBinary, decodeText } from "./decode.js";
@@ -50,9 +50,9 @@ export interface Options {
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
     /**
-     * Called if the server refuses the first hello of a connection. If it returns a size, the client says hello once
-     * more with this size; for "default", with the server's default size. If it returns undefined, the client reports
-     * the refusal as the reason in the status, and connects again later.
+     * Called if the server refuses the first message `hello` of a connection. The result is the size of pictures with
+     * which the client says hello once more, or "default" for the server's default size. If the result is undefined,
+     * the client reports the refusal as the reason in the status, and connects again later.
      */
     onRefused?(error: RequestError): Viewport | "default" | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
@@ -323,14 +323,14 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsentBytes } = this; // without the bytes of the test, which leave this queue even if nothing arrives
+        const { unsentBytes } = this; // counted before the test is added, whose bytes may be sent but never arrive
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitAnswer(unsentBytes);
     }
 
     /**
-     * Waits for the answer to a test. If fewer than `unsentBytes` bytes wait to be sent after the time limit, waits
-     * once more.
+     * Waits for the answer to a test. If fewer than `unsentBytes` bytes are still unsent when the time limit expires,
+     * the connection is slow but works; then waits for the same time again.
      */
     private awaitAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);

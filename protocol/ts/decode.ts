@@ -18,7 +18,7 @@ const { setSizeLimits } = cborX as unknown as {
 
 let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeBinary()
 
-/** The classes of typed arrays, by their tags of RFC 8746. In MessagePack, these are types of extensions. */
+/** The classes of typed arrays, by their tags of RFC 8746. In MessagePack, the tags are extension types. */
 const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
     [64, Uint8Array],
     [69, Uint16Array],
@@ -66,7 +66,7 @@ class MsgpackReader {
         return value;
     }
 
-    /** Returns the value at the current position. Its first byte is its format, and contains small values and sizes. */
+    /** Reads the value at the current position. Its first byte is its format; small values and sizes are part of it. */
     private value(): unknown {
         const format = this.view.getUint8(this.skip(1));
         if (format < 0x80) return format;
@@ -88,7 +88,7 @@ class MsgpackReader {
         return format === 0xc0 ? null : format === 0xc3;
     }
 
-    /** Moves by some bytes. Returns the position before. */
+    /** Moves forward by `count` bytes. Returns the position before the move. */
     private skip(count: number): number {
         this.at += count;
         return this.at - count;
