@@ -95,8 +95,8 @@ export class App {
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        // The page learns the allowed sizes from the welcome to the default size, and then says hello with its own
-        // size, within these limits.
+        // If the size of the page's picture is not allowed, the page says hello with the default size. The answer, the
+        // welcome, states the limits; the page then says hello again, with a size within them.
         onRefused: ({ code }) => (code === "out_of_range" ? "default" : undefined),
         onLost: (reason) => this.session.sessionLost(reason, this.state),
     });
@@ -239,7 +239,7 @@ export class App {
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.requestStream());
         window.addEventListener("online", () => this.requestStream());
-        window.addEventListener("offline", () => this.client.test()); // tests: the server may be on this computer
+        window.addEventListener("offline", () => this.client.test()); // not closed: the server may be on this computer
         window.addEventListener("hashchange", () => this.session.joinShared());
         window.addEventListener("popstate", () => this.session.joinSessionOfEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());

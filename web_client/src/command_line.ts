@@ -216,7 +216,7 @@ export class CommandLine {
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
         const { openings } = this;
-        // False if the command line has been opened again meanwhile.
+        // Returns false if the command line has been opened again meanwhile.
         const isSame = (): boolean => openings === this.openings;
         try {
             await this.events.run(line);

@@ -51,7 +51,7 @@ export function usualFog([least, greatest]: [number, number], level: number, ins
         { value: edge, opacity: 0.5 },
         { value: edge + (far - edge) / 4, opacity: 0 },
     ];
-    const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4); // of the smaller difference
+    const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4); // the smaller difference between points
     const rounded = points.map(({ value, opacity }) => ({ value: roundedBeside(size, value, kDigits), opacity }));
     return inside === "below" ? rounded : rounded.reverse();
 }
@@ -86,6 +86,7 @@ export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
     }, 0);
 }
 
+/** The colors of the fog's color scale at its lower end, in its middle and at its upper end. */
 type ScaleColors = [least: number, middle: number, most: number];
 
 /** Whether the server accepts these points: increasing finite values, and opacities from 0 to 1. */

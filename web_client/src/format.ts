@@ -56,8 +56,8 @@ function formatRounded(value: number, decimals: number): string {
 }
 
 /**
- * The value with `digits` significant digits, and with more if it is larger than `size`: as many as it takes to write
- * `size`, such as the difference to another value, with `digits` digits.
+ * The value, rounded to `digits` significant digits. If it is larger than `size`, it is rounded less: to the place of
+ * the last of `digits` significant digits of `size`, which is, for example, the difference from another value.
  */
 export function roundedBeside(size: number, value: number, digits: number): number {
     const more = exponentOf(value) - exponentOf(size) || 0; // 0 if the size is not finite

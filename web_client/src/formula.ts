@@ -73,7 +73,7 @@ export function rangeFor(value: number): { min: number; max: number; step: numbe
     return value < 0 ? { min: -most, max: 0, step } : value > 0 ? { min: 0, max: most, step } : { min: -1, max: 1, step };
 }
 
-/** A value of a slider with the decimals of its step. */
+/** The text of a slider's value, with as many decimals as the slider's step has. */
 export function textOfStep(value: number, step: number): string {
     return String(Number(value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))));
 }

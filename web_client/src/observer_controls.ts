@@ -78,8 +78,8 @@ export class ObserverControls {
     }
 
     private showPace(pace: number): void {
-        // If the thumb already stands for this pace, rounded, it is not moved. Otherwise an arrow key might not reach
-        // the next rounded pace.
+        // The thumb stays where it is if its position already rounds to this pace. If it moved back to the rounded pace
+        // after each press of an arrow key, the key might never reach the next pace.
         if (this.chosenPace !== pace) this.pace.value = String(Math.log10(pace));
         const text = formatDecimal(pace, 3);
         this.paceValue.textContent = text;

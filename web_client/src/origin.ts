@@ -1,4 +1,4 @@
-// Converts coordinates. In pictures, the origin is the center of the object; in its file, it may be elsewhere.
+// Converts coordinates. In pictures, the origin is the center of the object; in the object's file, it may be elsewhere.
 
 import type { State } from "@oval4d/protocol";
 

@@ -67,14 +67,14 @@ export class PageSession {
         ]);
     }
 
-    /** In a new session, restores the view of a lost session, or applies the initial view; otherwise does nothing. */
+    /** In a new session, restores the view of a lost session, or applies the initial view. Else does nothing. */
     async restoreView(): Promise<void> {
         const { lines, field, faults } = this.view;
         this.clearView();
         try {
             if (this.lostState) await this.restore(this.lostState);
         } catch (error) {
-            if ((error as RequestError).code === "not_connected") throw error; // this is called again on the next one
+            if ((error as RequestError).code === "not_connected") throw error; // tried again on the next connection
             this.actions.tell([(error as Error).message]);
         }
         this.lostState = undefined;

@@ -4,7 +4,7 @@
 
 import type { Plane } from "@oval4d/protocol";
 
-/** Angles in radians. R_ab turns the +a axis toward the +b axis. */
+/** The angle in radians by which each plane turns; the plane "xw" turns the +x axis toward the +w axis. */
 export type AnglesByPlane = Partial<Record<Plane, number>>;
 
 /** Which ball is rolled: the 4-D ball, or the 3-D ball of every slice, which stays in its hyperplane. */

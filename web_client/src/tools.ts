@@ -211,8 +211,8 @@ export class Tools {
         }
         button.addEventListener("click", ({ detail }) => {
             stop();
-            // No click follows if a held button is left before it is released; the click of a key (detail 0) does not
-            // belong to it.
+            // The click at the end of a repetition does not press once more. A click by the keyboard (detail 0) always
+            // presses: `repeated` may still be set if the pointer left the held button, because no click followed.
             if (!repeated || detail === 0) this.events.press(binding, inverse, false);
             repeated = false;
         });

@@ -28,7 +28,7 @@ export class SliceElements {
     corners = new Uint32Array(0);
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
-    readonly edgesByVertex = new EdgeBuckets(); // by the vertex with the smaller index
+    readonly edgesByVertex = new EdgeBuckets(); // the edges, grouped by their end with the smaller index
     private readonly spare: SliceRanges[] = []; // unused objects, kept for pictures with more slices
 
     /** Replaces the elements by those of a new picture. */

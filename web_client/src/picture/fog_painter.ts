@@ -76,7 +76,7 @@ void main() {
     for (float i = 0.0; i < count && clear > 0.002; ++i, at += move) {
         vec3 block = clamp((at * size - 0.5) / 4.0, vec3(0.0), (size - 1.001) / 4.0);
         if (texelFetch(blocks, ivec3(block), 0).r == 0.0) {
-            // This block has no fog. Leaps to its last step; the next step of the loop is outside it.
+            // No fog is in this block. Leaps to the last sample in it; the next one is in another block.
             vec3 perStep = move * size / 4.0;
             vec3 steps = (floor(block) + vec3(greaterThan(perStep, vec3(0.0))) - block) / perStep;
             float leap = max(ceil(min(steps.x, min(steps.y, steps.z))) - 1.0, 0.0);

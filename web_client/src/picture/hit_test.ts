@@ -24,7 +24,7 @@ interface PickableMesh {
     slice?: Slice;
     position: Vector;
     scale: number;
-    magnification: number; // by how much vertices may be farther from `position` than scale · circumradius, at most
+    magnification: number; // vertices are at most this many times scale · circumradius from `position`
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
@@ -84,7 +84,7 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
     const { position, scale, magnification, ball, elements } = mesh;
     const center = viewCamera.project(position);
     const depth = viewCamera.depthOf(position);
-    const kRoom = 2; // for elements that are hit beside their centers, and for the camera's perspective
+    const kRoom = 2; // a factor: elements are also hit beside their centers, and perspective enlarges the front
     const largest = elements.balls?.scale.reduce((most, one) => Math.max(most, one), 1) ?? 1;
     const radius = kRoom * magnification * scale * scene.circumradius + kBallRise * ball * largest;
     if (!center || depth <= radius) return true;

@@ -22,7 +22,7 @@ export class PaintersOrder {
     private scratch = new Uint32Array(0); // for sorting
     private rank = new Uint32Array(0); // the index of each vertex in `order`
     private readonly sliceRanges: SliceRanges[] = []; // from far to near
-    private readonly edgesByRank = new EdgeBuckets(); // by the rank of the farther vertex
+    private readonly edgesByRank = new EdgeBuckets(); // a slice's edges, grouped by the rank of their farther end
     private out = new Uint32Array(0);
     private used = 0;
     /** The number of indices of the slices that are farther from the eye than the point passed to writeIndices(). */

@@ -47,7 +47,7 @@ export class SliceMesh {
         this.writeFaces();
         this.shapes.markChanged();
         this.paint(picture, highlighted);
-        const hasPoints = picture.slices.some((slice) => slice.balls); // those of a cloud are small without balls
+        const hasPoints = picture.slices.some((slice) => slice.balls); // points of a cloud are drawn even without balls
         this.order.update({ ...shown, faces: shown.faces && faces, balls: shown.balls || hasPoints });
     }
 
