@@ -78,11 +78,11 @@ Arrangement columnOf(int count, double reach) {
     if (count == 1) return focusSliceAlone();
     Arrangement made = rowOf(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
-    made.isClearOfAxes = true;  // in tall pictures, the uppermost slices would often cover the axes
+    made.isClearOfAxes = true;  // the uppermost slices would often cover the axes symbol of tall pictures
     made.labelDrop = 0;
     made.focusLabelDrop = kColumnFocusDrop;
     made.labelsAreBeside = true;
-    made.labelColumns = 2;  // the slices, and their labels
+    made.labelColumns = 2;  // one column for the slices, and one for their labels
     return made;
 }
 
@@ -204,7 +204,7 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
             return besideFocusSlice(reach, aspect);
         case View::oval:
             if (count > 2) break;
-            [[fallthrough]];  // two slices stand in a row
+            [[fallthrough]];  // an oval of two slices is a row: see arrangementOf()
         case View::strip:
             return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
         case View::column:

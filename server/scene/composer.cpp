@@ -81,7 +81,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
     const auto counts = slicing::elementCounts(object);
-    const bool isSurface = counts[1] > 0 && counts[3] == 0;  // its slices are curves
+    const bool isSurface = counts[1] > 0 && counts[3] == 0;  // a surface has edges, but no cells; its slices are curves
     out.needsDepthBuffer = isField || !info.convex || isSurface;
     out.faceOpacity = out.needsDepthBuffer ? 1 : out.style().faceOpacity;
     out.surfaces.clear();

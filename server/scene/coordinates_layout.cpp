@@ -16,7 +16,7 @@ double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, asp
 
 constexpr double kMaxAxisStep = 0.42;  // the maximum of CoordinatesLayout::lineStep for a strip or histogram
 constexpr double kPlotAmplitude = 0.056;
-constexpr double kStripNameRoom = 1.1;  // below the plot, for the names of the axes; in heights of text
+constexpr double kStripNameRoom = 1.1;  // the room for the names of the axes below the plot, in heights of text
 
 void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};
@@ -27,7 +27,7 @@ void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& 
 }
 
 void layOutHistogram(double aspect, CoordinatesLayout& out) {
-    constexpr double kGap = 0.08;  // between two panels, as a fraction of the distance from one to the next
+    constexpr double kGap = 0.08;  // the gap between two panels, as a fraction of CoordinatesLayout::lineStep
     out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
     out.panel = (1 - kGap) * out.lineStep;

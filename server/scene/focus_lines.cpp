@@ -7,7 +7,7 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr double kHalfLength = 0.12;  // in circumradii of the object
+constexpr double kHalfLength = 0.12;  // half the length of each line, in circumradii of the object
 
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr double kLabelGap = 0.014;  // between a slice and its label, as a fraction of the viewport's height
+constexpr double kLabelGap = 0.014;  // the gap between a slice and its label, as a fraction of the viewport's height
 
 // The sizes of characters and of the plates behind labels, as fractions of the font size. The widths of characters are
 // those of DejaVu Sans, rounded up.

@@ -96,8 +96,8 @@ class LabelLayout {
 
     const Arrangement& arrangement_;
     InitialViewSpace space_;
-    double width_ = 0;      // of the longest number, as a multiple of the font size
-    double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
+    double width_ = 0;      // the width of the longest number, in font sizes
+    double nameWidth_ = 0;  // the width of the section's name in the focus slice's label, in font sizes
     std::vector<SlicePlacement>& placements_;
 };
 

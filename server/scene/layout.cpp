@@ -226,7 +226,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
-    const double side = std::min(kMargin, aspect / 4);  // half of the width or more is left, however narrow the picture
+    const double side = std::min(kMargin, aspect / 4);  // leaves at least half of the width of a narrow picture
     Rect room{side, aspect - side, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are

@@ -223,7 +223,7 @@ class Picker {
 
     const Scene& scene_;
     const std::array<std::size_t, 4> counts_;
-    const bool drawsFaces_;  // whether slices have faces; those of the box of a field are not drawn
+    const bool drawsFaces_;  // whether faces of slices are drawn; always false for a field
     const glm::dmat4 view_;
     glm::dmat4 projection_;
     glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner
