@@ -78,7 +78,7 @@ class RasterizerService {
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::file_descriptor) continue;  // the object that refers to the file follows
+            if (type == MessageType::file_descriptor) continue;  // an object that refers to the file follows
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.state.object = *object;
