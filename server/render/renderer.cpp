@@ -209,7 +209,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceHalves;
     const auto prepare = [&](NearOrFarSurfaces& pass, SurfaceBatch::DepthHalf half) {
-        DepthRange depths;  // collect() needs it, but only OpenGL uses it
+        DepthRange depths;  // collect() writes it, but only drawing with OpenGL reads it
         pass.batch.collect(scene, depths, half);
         pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
     };

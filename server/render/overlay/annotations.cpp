@@ -16,7 +16,7 @@ namespace {
 
 // The opacity of the bands behind the parallel coordinates of highlighted vertices.
 constexpr float kHighlightOpacity = 0.35F;
-constexpr float kLevelOpacity = 0.8F;  // of the lines of levels in the histogram of a field
+constexpr float kLevelOpacity = 0.8F;  // the opacity of the lines of levels in the histogram of a field
 constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
 
 /// Returns this fraction of the picture's height, rounded to whole pixels; at least 1.

@@ -38,7 +38,7 @@ class CoordinatesPlot {
 
     ShaderProgram program_;
     GLuint texture_ = 0;
-    int columns_ = 0, rows_ = 0;  // of the texture
+    int columns_ = 0, rows_ = 0;  // the size of the texture
     std::vector<Corner> corners_;
     std::vector<std::uint32_t> indices_;
 };

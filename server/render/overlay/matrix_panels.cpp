@@ -120,7 +120,7 @@ class SectionPainter {
     Overlay& overlay_;
     const double height_, pixelsPerUnit_;
     bool transposed_ = false;
-    glm::dvec2 center_{0};  // of the current panel, in pixels
+    glm::dvec2 center_{0};  // the center of the current panel, in pixels
     std::vector<glm::vec2> points_, polygon_;
 };
 

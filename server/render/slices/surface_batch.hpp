@@ -69,7 +69,7 @@ class SurfaceBatch {
     Projection projection_;
     std::vector<std::uint32_t> order_;  // slices, from the farthest to the nearest
     std::vector<std::size_t> translucentEnds_;
-    std::vector<glm::vec3> points_, normals_;  // of the current slice, in view coordinates
+    std::vector<glm::vec3> points_, normals_;  // those of the current slice, in view coordinates
     std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone
     std::vector<SurfaceVertex> vertices_;
     // Three indices of vertices per triangle. facing_ has the triangles of the current level that face the eye.
@@ -77,7 +77,7 @@ class SurfaceBatch {
     std::size_t fringesBegin_ = 0;
     std::vector<std::uint32_t> front_;       // the triangles of the current slice and level that face the eye
     std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away from the eye
-    std::vector<RimEdge> silhouette_;        // of the current slice and level
+    std::vector<RimEdge> silhouette_;        // the silhouette of the current level in the current slice
     std::vector<glm::vec2> outward_;  // per point of the silhouette: a vector away from the surface, in the picture
 };
 

@@ -50,7 +50,7 @@ OVAL4D_AVX2 inline void transpose(__m256 (&rows)[kLanes]) {
 
 // The properties of the picture and the light that all vertices share.
 struct Lighting {
-    float halfWidth, halfHeight;  // of the picture, in pixels
+    float halfWidth, halfHeight;  // half the size of the picture, in pixels
     float ambient, diffuse;
     float gloss;  // the specular intensity, 0 … 255
     unsigned shininess;
@@ -145,8 +145,8 @@ OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest
 
 // Which of eight triangles may cover pixels, one bit per triangle.
 struct TriangleMasks {
-    unsigned drawn;    // its bounding box contains the center of a pixel, and all its corners have positions
-    unsigned clipped;  // the position of a corner is NaN: the corner is behind the eye or too close
+    unsigned drawn;    // the bounding box contains the center of a pixel, and no corner has a position of NaN
+    unsigned clipped;  // a corner has a position of NaN, because it is behind the eye or too close
 };
 
 // The indices of the corners of eight triangles: `a` has the first corner of each triangle, `b` the second, `c` the
