@@ -94,7 +94,7 @@ class Exporter {
 
     std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
-        std::vector<int> empty, thin;  // the slices without bodies, which are left out
+        std::vector<int> empty, thin;  // the slices that are left out: empty ones, and those too thin for a body
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == BodyKind::skeleton) prepareSkeleton();

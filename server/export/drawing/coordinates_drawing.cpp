@@ -65,7 +65,7 @@ Drawing drawStrip(const scene::Scene& scene) {
 
 Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation) {
     using slicing::CoordinateHistograms;
-    constexpr double kGap = 12;  // between two panels
+    constexpr double kGap = 12;  // the gap between two panels
     const slicing::FieldSettings& settings = scene.look.field;
     CoordinateHistograms histogram;
     histogram.measure(field, orientation, settings.levels);

@@ -33,7 +33,7 @@ std::string ply(const MeshesToWrite& meshes) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
-    const bool colored = meshes.havePointColors();  // otherwise triangles have colors
+    const bool colored = meshes.havePointColors();  // whether points have colors; if not, triangles have colors
     const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment oval4d, millimeters\nelement vertex " +
                       std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +

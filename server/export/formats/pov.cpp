@@ -111,7 +111,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     out += "mesh2 {\n";
     appendPovVectors(out, "vertex_vectors", mesh.points);
     if (!mesh.normals.empty()) appendPovVectors(out, "normal_vectors", mesh.normals);
-    std::map<std::uint32_t, std::size_t> places;  // of textures in the list of the mesh
+    std::map<std::uint32_t, std::size_t> places;  // per texture number: its index in the texture list of the mesh
     for (const auto& corners : mesh.textures) {
         for (const std::uint32_t texture : corners) places.try_emplace(texture, 0);
     }
@@ -296,8 +296,9 @@ class PovWriter {
     void addSurface(std::size_t slice, const PovPart& part, const scene::SurfaceLook::Level& level, bool ofCaps) {
         const slicing::SliceSurface& surface = set_.surfaces[slice];
         PovMesh mesh;
-        std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);  // per point of the surface
-        std::vector<std::uint32_t> textureOf;                                    // per point of the mesh
+        // Per point of the surface: its index in the mesh.
+        std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);
+        std::vector<std::uint32_t> textureOf;  // per point of the mesh: the number of its texture
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
             if (surface.levelIndex(t) != level.index || surface.isCap(t) != ofCaps) continue;
             auto& corners = mesh.triangles.emplace_back();
@@ -401,7 +402,7 @@ class PovWriter {
     const glm::dmat3 axes_;  // the right, up and backward directions of the camera
     PovTextures textures_;
     std::string objects_;
-    std::size_t triangles_ = 0;  // of surfaces
+    std::size_t triangles_ = 0;  // the number of triangles of the surfaces so far
 };
 
 }  // namespace

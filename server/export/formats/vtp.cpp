@@ -29,7 +29,7 @@ ListedElementKind elementsOf(const slicing::Object& object) {
 /// The arrays of the file.
 struct PolyData {
     ListedElementKind elements = ListedElementKind::faces;
-    std::vector<float> points, normals;               // three numbers for each point
+    std::vector<float> points, normals;               // x, y, z of each point; x, y, z of its normal
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
     std::vector<std::int64_t> corners, ends;          // per corner: its point; per element: its end in `corners`
     std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
