@@ -99,9 +99,9 @@ const kWelcomeTimeout = 30; // seconds within which the server, which may have t
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kLongTestTimeout = 300; // seconds: kTestTimeout while a request that may take long is unanswered
+const kLongTestTimeout = 300; // seconds; replaces kTestTimeout while a request that may take long is unanswered
 const kOpen = 1; // WebSocket.OPEN
-const kUnauthorized = 401; // the status of an HTTP answer
+const kUnauthorized = 401; // the HTTP status if the token is missing or wrong
 const kNoAnswer = "no answer";
 const kTokenRequired = "the server requires its token: open the address that it printed at startup";
 
@@ -250,7 +250,7 @@ export class Client {
         const keep = !this.options.transient || this.isAwaiting("slices");
         const message = decodeBinary(bytes, keep ? undefined : this.arena);
         if (message === "file") {
-            this.heldFile = bytes; // until the `done` of the file arrives
+            this.heldFile = bytes; // kept until the message `done` of the request arrives
         } else if (message !== "frame") {
             this.handle(message);
         } else if (this.isAwaiting("frame")) {
@@ -365,7 +365,7 @@ export class Client {
 
     /**
      * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests; or that the server has another token than before.
+     * pass on the headers of WebSocket requests, or another token of the server than before.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
@@ -416,7 +416,7 @@ function mayTakeLong(message: Request): boolean {
         case "set":
             return message.polytope !== undefined || message.field !== undefined;
         case "key":
-            return message.key === ")" || message.key === "("; // they search for the critical w of a field
+            return message.key === ")" || message.key === "("; // these keys search for the next critical w of a field
         case "get":
             return ["frame", "slices", "at", "file"].includes(message.what);
         default:
