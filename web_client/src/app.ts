@@ -307,7 +307,7 @@ export class App {
         this.hello({ stream, viewport: this.stage.size });
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
-        else this.client.test(); // the connection may have broken without an event
+        else this.client.test(); // because no event reports a broken network
     }
 
     /**

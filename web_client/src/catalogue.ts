@@ -24,7 +24,7 @@ interface IndexedEntry {
 
 export class Catalogue {
     private readonly indexed: IndexedEntry[];
-    private readonly families: string[]; // in the order of the catalogue
+    private readonly families: string[]; // the names of the families, in the order of the catalogue
 
     constructor(readonly entries: readonly CatalogueEntry[]) {
         this.indexed = entries.map((entry) => {

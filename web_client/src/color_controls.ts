@@ -71,7 +71,7 @@ export class ColorControls {
     private readonly backgrounds = element("div", { class: "segments", role: "group", "aria-label": "Background" });
     private readonly list = element("div", { class: "kinds" });
     private rows: HTMLElement[] = [];
-    private listedKinds: string | undefined; // identifies the kinds of cells in the rows
+    private listedKinds: string | undefined; // a text that identifies the kinds of cells that are listed
     private state: State | undefined;
 
     /** `applyChange` is called to change the state. */

@@ -6,7 +6,7 @@ import { toSentence } from "./format";
 import { readStored, writeStored } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
-const kMaxHistory = 100; // lines
+const kMaxHistory = 100; // the most lines that the history keeps
 const kPage = 0.8; // the fraction of the panel's height by which Page Down scrolls
 
 export interface CommandLineEvents {

@@ -30,7 +30,7 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private bodyToRestore: string | undefined; // the chosen body, while an element without volume needs the skeleton
+    private bodyToRestore: string | undefined; // the user's choice, while an element without volume forces "skeleton"
     private isForElement = false; // whether the dialog was opened to export an element, which changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 

@@ -8,7 +8,7 @@ import { type MatrixPanel, panelAt } from "./picture/matrix_panel";
 import type { Stage } from "./picture/stage";
 
 export class FocusPointDrag {
-    private panel: MatrixPanel | undefined; // in which the drag began
+    private panel: MatrixPanel | undefined; // the panel in which the drag began
     private hovering: Point | undefined; // where the mouse hovers
 
     /** `matrix` returns the matrix in the picture; undefined if there is none, or while its place is not known. */

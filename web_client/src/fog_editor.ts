@@ -13,7 +13,7 @@ import { NewestOnly } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
-const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the curve, in units of its viewBox
+const [kWidth, kHeight, kMargin] = [240, 96, 9]; // the size and margin of the curve, in units of its viewBox
 const kSvg = "http://www.w3.org/2000/svg";
 
 interface Row {
@@ -52,7 +52,7 @@ export class FogEditor {
         this.showButton.addEventListener("click", () => this.change(this.usualPoints()));
         this.offButton.addEventListener("click", () => {
             this.change([]);
-            this.showButton.focus(); // the button Off disappears
+            this.showButton.focus(); // the button Off, which had the focus, disappears
         });
         this.curve.addEventListener("pointerdown", (event) => this.grab(event));
         this.curve.addEventListener("pointermove", (event) => this.moveGrabbed(event));

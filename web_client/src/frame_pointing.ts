@@ -19,7 +19,7 @@ const kFollow = 24; // pixels within which the label goes along with the pointer
 export class FramePointing {
     private pointer: Point | undefined;
     private named: Point | undefined; // the point whose element the label names
-    private revision: number | undefined; // of the picture at rest; undefined while no picture rests
+    private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
     private asked = ""; // the pixel of the last request about this picture
     private isAsking = false;
     private resting: ReturnType<typeof setTimeout> | undefined;

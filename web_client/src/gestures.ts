@@ -15,7 +15,7 @@ const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of t
 const kLineHeight = 16; // pixels per line, for wheels that report lines
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
 const kLongPress = 600; // milliseconds of touch after which the menu opens
-const kButtons = { left: 0, middle: 1, right: 2 }; // of a mouse
+const kButtons = { left: 0, middle: 1, right: 2 }; // the values of MouseEvent.button
 const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
 
 export interface GestureTargets {

@@ -94,7 +94,7 @@ export class HeaderValue {
     /** Closes the field. If it has the focus, moves the focus to where it was before editing. */
     private close(): void {
         const hadFocus = document.activeElement === this.input;
-        this.before = this.input.value; // nothing is left to apply when the field loses the focus
+        this.before = this.input.value; // so that blurred() applies nothing
         this.setOpen(false);
         if (hadFocus) this.focusAfter?.focus();
     }

@@ -97,7 +97,7 @@ export class HeaderValues {
         for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
-        if (state.turning && this.timer !== undefined) return; // each step of turning would delay the announcement
+        if (state.turning && this.timer !== undefined) return; // so that turning does not delay the announcement
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.announce(), kSpeechDelay);
     }

@@ -47,7 +47,7 @@ export class Help {
             this.dialog.close();
         });
         this.dialog.addEventListener("click", (event) => {
-            if (event.target === this.dialog) this.dialog.close(); // a click outside the sheet
+            if (event.target === this.dialog) this.dialog.close(); // a click outside the content of the dialog
         });
         byId("help-all").addEventListener("click", () => this.filter(""));
     }

@@ -8,7 +8,7 @@ import type { KeyBinding } from "@oval4d/protocol";
 const kTextFields = "textarea, select, [contenteditable], input:not([type=radio], [type=checkbox], [type=range])";
 const kButtons = "button, a[href]";
 const kButtonKeys = /^( |Enter)$/;
-const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // of sliders, radio buttons and checkboxes
+const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // the keys that sliders, radio buttons and checkboxes use
 
 /** The members of a `key` message. */
 export interface KeyStroke {

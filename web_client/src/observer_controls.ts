@@ -30,7 +30,7 @@ export class ObserverControls {
     };
     private continues = false; // whether the next pace belongs to the undo step of the last one
     private readonly lastPace = new OldStateDetector();
-    private statePace = 1; // of the newest state
+    private statePace = 1; // the pace in the newest state
     private readonly errors = { pace: "", follow: "", boost: "" };
 
     /** `set` changes settings. If the server refuses, it must reject with an Error, whose message is shown. */

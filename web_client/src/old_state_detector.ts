@@ -5,8 +5,8 @@
 import type { State } from "@oval4d/protocol";
 
 export class OldStateDetector {
-    private revision = 0; // of the newest change
-    private seen = 0; // of the newest state
+    private revision = 0; // the revision of the newest change that this page has made
+    private seen = 0; // the revision of the newest state
 
     /** Takes note of the revision in the answer to a change. */
     answered(revision: number): void {
@@ -20,7 +20,7 @@ export class OldStateDetector {
 
     /** Records this state, which must be the newest one. Returns whether the last change was made after it. */
     recordAndCheckIfOld({ revision }: State): boolean {
-        if (revision < this.seen) this.revision = 0; // the revisions of another session
+        if (revision < this.seen) this.revision = 0; // the state is of another session
         this.seen = revision;
         return revision < this.revision;
     }

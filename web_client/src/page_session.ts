@@ -44,7 +44,7 @@ export class PageSession {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tell([fault]);
         if (credentials) this.join(credentials);
-        else if (this.client.credentials) rememberSession(this.client.credentials); // this entry of the history is new
+        else if (this.client.credentials) rememberSession(this.client.credentials); // for the new entry of the history
     }
 
     /**

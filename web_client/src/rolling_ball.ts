@@ -10,9 +10,9 @@ export type AnglesByPlane = Partial<Record<Plane, number>>;
 /** Which ball is rolled: the 4-D ball, or the 3-D ball of every slice, which stays in its hyperplane. */
 export type BallKind = "4-D" | "3-D";
 
-const kWheelTurn = 0.0015; // radians per pixel
-const kStickRate = Math.PI / 2; // radians per second
-const kStickDeadZone = 0.15; // of the range from 0 to 1
+const kWheelTurn = 0.0015; // radians per pixel of the wheel
+const kStickRate = Math.PI / 2; // radians per second, with a stick or trigger at its end
+const kStickDeadZone = 0.15; // deflections below this fraction of the greatest one count as 0
 
 /** Turns by a drag of (dx, dy) pixels, right and down, on a picture of this height: half a turn per height. */
 export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: number): AnglesByPlane {

@@ -9,8 +9,8 @@ import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, setFont } from "./pen";
 
-const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
-const kLevelOpacity = 0.8; // of the lines of levels in a histogram
+const kHighlightOpacity = 0.35; // the opacity of the bands behind highlighted vertices
+const kLevelOpacity = 0.8; // the opacity of the lines of levels in a histogram
 const kFocusMark = 0.009; // half the width of the mark at the focus slice's w, as a fraction of the viewport's height
 
 const density = new DensityImage();

@@ -12,7 +12,7 @@ export interface SliceRanges {
     vertices: Range;
     edges: Range;
     faces: Range;
-    distance: number; // from the eye, as of the last sort
+    distance: number; // the distance from the eye, as of the last sort
 }
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
@@ -23,7 +23,7 @@ export class SliceElements {
     faceCount = 0;
     cornerCount = 0;
     points = new Float32Array(0); // x, y, z of each vertex
-    edges = new Uint32Array(0); // pairs of vertices
+    edges = new Uint32Array(0); // the indices of two vertices for each edge
     cornerBegin = new Uint32Array(1); // face f is the loop corners[cornerBegin[f]] … corners[cornerBegin[f + 1] − 1]
     corners = new Uint32Array(0);
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next

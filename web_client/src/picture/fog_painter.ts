@@ -127,7 +127,7 @@ type FogOccluders = "frame" | "surfaces";
 export class FogPainter {
     private picture: Slices | undefined; // the newest picture; undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // created when needed; the occluders' depths
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // the occluders' depths; created when needed
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -309,7 +309,7 @@ function valueTexelsOf({ values }: Fog): Uint8Array {
 function blocksOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;
     const [u, v, w] = size.map((points) => Math.max(Math.ceil((points - 1) / kBlock), 1)) as [number, number, number];
-    const visibleBelow = new Uint16Array(table.length + 1); // how many values below this one are not transparent
+    const visibleBelow = new Uint16Array(table.length + 1); // entry v: how many values below v are not transparent
     for (let i = 0; i < table.length; ++i) visibleBelow[i + 1] = visibleBelow[i]! + (table[i]! >>> 24 ? 1 : 0);
     const texels = new Uint8Array(u * v * w);
     for (let at = 0; at < texels.length; ++at) {

@@ -28,7 +28,7 @@ interface PickableMesh {
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
-    distance: number; // from the eye
+    distance: number; // the distance of `position` from the eye
 }
 
 export const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
@@ -63,7 +63,7 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
-        const hasFaces = shown.faces && !scene.surfaces; // the box of a field has none
+        const hasFaces = shown.faces && !scene.surfaces; // faces of the box of a field are never drawn
         const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces };
         const placed = { position, scale, magnification: 1, distance: distance(position) };
         meshes.push({ elements: slice, slice, ...placed, ...look });

@@ -9,9 +9,9 @@ import type { ViewCamera } from "./view_camera";
 
 const kPanelOpacity = 0.22;
 const kFillOpacity = 0.16;
-const kAxisOpacity = 0.55; // of the lines through the focus point
+const kAxisOpacity = 0.55; // the opacity of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
-const kNameHeight = 0.3; // of an axis' name, as a fraction of a panel's side
+const kNameHeight = 0.3; // the font size of an axis' name, as a fraction of a panel's side
 const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
 // The lines that show the focus point in the focus slice: half their length, in circumradii, and their width, as a
 // fraction of the viewport's height.

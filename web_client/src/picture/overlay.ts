@@ -73,7 +73,7 @@ function drawLabels(
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
     // All labels take as much room as the widest one. Otherwise more labels would be omitted on the side of the focus
     // where they have a minus sign than on the other side.
-    const sample = 100; // a font size
+    const sample = 100; // the font size at which the labels are measured
     setFont(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
     // Labels nearer to the focus slice are placed first; of two at the same distance, the one that comes first in

@@ -19,9 +19,9 @@ export class PaintersOrder {
     private faceInFront = new Uint8Array(0);
     private nearness = new Float32Array(0); // for each vertex; increases toward the viewer
     private order = new Uint32Array(0); // each slice's vertices from far to near
-    private scratch = new Uint32Array(0); // for sorting
+    private scratch = new Uint32Array(0); // the working memory of sortByKey()
     private rank = new Uint32Array(0); // the index of each vertex in `order`
-    private readonly sliceRanges: SliceRanges[] = []; // from far to near
+    private readonly sliceRanges: SliceRanges[] = []; // the slices from far to near
     private readonly edgesByRank = new EdgeBuckets(); // a slice's edges, grouped by the rank of their farther end
     private out = new Uint32Array(0);
     private used = 0;

@@ -28,7 +28,7 @@ export interface SizeLimits {
     max_pixels?: number;
 }
 
-const kMaxPixels = 4_000_000; // of a picture on the page; more pixels take time without a visible benefit
+const kMaxPixels = 4_000_000; // of a picture on the page; more would cost time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
@@ -45,14 +45,14 @@ function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels
 
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
-    size: Viewport = { width: 1280, height: 720 }; // of the picture, in device pixels
+    size: Viewport = { width: 1280, height: 720 }; // the size of the picture, in device pixels
     private currentMode: Mode = "frames";
     private readonly geometry: GeometryView | undefined;
     private isContextLost = false;
     private readonly frames: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private isDraft = false; // whether a finer picture will follow the newest one
-    private unpresentedRevision: number | undefined; // of the new picture that the next drawing presents
+    private unpresentedRevision: number | undefined; // the revision of the new picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
     private readonly afterRendering = new MessageChannel(); // its message arrives after the browser has rendered
     private scheduled = false;

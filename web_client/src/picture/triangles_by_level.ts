@@ -3,7 +3,7 @@
 
 import type { Integers, Surface } from "@oval4d/protocol";
 
-const kMaxLevels = 4; // of a field, as in protocol/README.md
+const kMaxLevels = 4; // the most levels of a field, as in protocol/README.md
 const kGroups = 2 * kMaxLevels;
 
 export class TrianglesByLevel {
@@ -11,7 +11,7 @@ export class TrianglesByLevel {
     triangles: Integers = new Uint8Array(0);
     private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
     private readonly next = new Uint32Array(kGroups);
-    private memory = new ArrayBuffer(0); // for triangles that are not in order
+    private memory = new ArrayBuffer(0); // holds `triangles` if the surface has them in another order
 
     /** Groups the triangles of a surface. */
     update(surface: Surface): void {
