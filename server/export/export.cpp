@@ -30,7 +30,7 @@ namespace {
 
 // The width of the cubes in which a skeleton is meshed, as a multiple of the bar radius. It is kFineCube, unless the
 // file would then have more than kTargetTriangles triangles, or the cubes would be less than kGoodFieldStep grid steps
-// wide. In these cases it is larger, up to kCoarseCube.
+// wide. In these two cases, the cubes are larger, up to kCoarseCube.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;

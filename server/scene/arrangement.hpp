@@ -55,7 +55,7 @@ struct Arrangement {
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
     double reach = 1;        ///< the radius of a slice with its balls
     /// Whether the layout places the slices and the projection such that they do not overlap the symbol of the axes.
-    /// Otherwise they may overlap it.
+    /// If false, they may overlap it.
     bool isClearOfAxes = false;
     bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
     /// The direction from a slice to its label: a downward vector of this length is added to the unit vector away from

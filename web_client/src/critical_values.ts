@@ -25,7 +25,7 @@ export class CriticalValues {
     isExact = false;
     /** The lowest and the highest w of the object or, until those of a field are known, of its slices; initially 0. */
     range: [number, number] = [0, 0];
-    private originW = 0; // added to a w in pictures, gives the w in the object's file
+    private originW = 0; // the w, in the object's file, of the center of the object, where w is 0 in pictures
     // Identifies the object, orientation and spacing of the known or requested values; "" if a request has failed.
     private knownFor = "";
     private restTime = kRestTime;

@@ -31,8 +31,8 @@ export function formatLength(value: number): string {
 }
 
 /**
- * A coordinate, such as one of a vertex, with three decimals at most, or with more if slices that are `spacing` apart
- * could not be told apart otherwise.
+ * A coordinate, such as one of a vertex, with three decimals at most, or with as many more as it takes to distinguish
+ * the w of neighboring slices, which differ by `spacing`.
  */
 export function formatCoordinate(value: number, spacing: number): string {
     return formatRounded(value, Math.max(3, 1 - exponentOf(spacing)));

@@ -108,7 +108,7 @@ export class HeaderValue {
         if (event.key === "Enter") void this.submit();
     }
 
-    /** Applies a change when the focus leaves the field, unless the window loses it, or the text was refused. */
+    /** Applies the text when the field loses the focus, unless the whole window loses it, or the text was refused. */
     private blurred(): void {
         if (this.label.hidden || !document.hasFocus() || this.input.value === this.refused) return;
         void this.submit();

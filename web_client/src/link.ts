@@ -12,9 +12,9 @@ export interface InitialView {
     credentials?: Credentials;
     /** The field of the query, which is loaded in a new session before the commands. */
     field?: FormulaWithBox;
-    /** What is wrong with the link to a session or the box in the query. The server finds the faults of the rest. */
+    /** What is wrong with the link to a session, or with the box in the query. The server finds all other faults. */
     faults: string[];
-    /** Commands that produce the rest of the view of the query. */
+    /** Commands that produce the view of the query, except its field. */
     lines: string[];
 }
 

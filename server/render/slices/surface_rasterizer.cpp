@@ -118,8 +118,8 @@ struct alignas(32) TriangleSetup {
     // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
     FloatLanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
     // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has
-    // d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy. The first corner of this order is at (originX, originY),
-    // relative to the center of pixel (0, 0).
+    // d/dx = (b − a) · xB + (c − a) · xC; for d/dy, yB and yC replace xB and xC. The first corner is at
+    // (originX, originY), relative to the center of pixel (0, 0).
     FloatLanes xB, xC, yB, yC, originX, originY;
 };
 
