@@ -442,10 +442,12 @@ void WriteBehindStore::poll() {
         const std::lock_guard lock(mutex_);
         pollAt_ = now_() + kPollInterval;
     }
+    std::size_t stored = 0;
     try {
         if (now_() >= refreshAt_) refreshExpiry();
         for (const auto& [id, fence] : timed("pulse", [&] { return store_->pollLostSessions(); }))
             dropClaimed(id, fence);
+        stored = store_->size();  // a store may wait for its own lock, so not while mutex_ is held
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;
@@ -453,7 +455,7 @@ void WriteBehindStore::poll() {
     bool waiting = false;
     {
         const std::lock_guard lock(mutex_);
-        storedCount_ = store_->size();
+        storedCount_ = stored;
         neverSaved_ = cached_.neverSaved();
         waiting = hasPendingChanges();
     }

@@ -96,39 +96,74 @@ class Columns {
     Column vertices_, edges_, faces_;
 };
 
+/// The columns that describe the elements of slices, or of the parts of a projection.
+class ElementColumns {
+  public:
+    explicit ElementColumns(const json& columns)
+        : tinted_(columns.contains("tints")),
+          faint_(columns.contains("seen")),
+          vertexCounts_(columns.at("counts").at("vertices")),
+          edgeCounts_(columns.at("counts").at("edges")),
+          faceCounts_(columns.at("counts").at("faces")),
+          vertices_(columns.at("vertices")),
+          edges_(columns.at("edges")),
+          sides_(columns.at("sides")),
+          corners_(columns.at("corners")),
+          tints_(tinted_ ? columns.at("tints") : kNone),
+          of_(columns.at("of")),
+          seen_(faint_ ? columns.at("seen") : kNowhere) {}
+
+    /// Adds the elements of the next slice or part to `row`.
+    void readInto(json& row) {
+        const std::size_t v = vertexCounts_.next(), e = edgeCounts_.next(), f = faceCounts_.next();
+        row["vertices"] = vertices_.rows(v, 3);
+        row["edges"] = edges_.rows(e, 2);
+        row["faces"] = json::array();
+        while (row["faces"].size() < f) row["faces"].push_back(corners_.next(sides_.next()));
+        row["of"] = of_.next(v, e, f);
+        if (faint_) row["seen"] = seen_.next(v, e, f);
+        if (json own = tints_.next(tinted_ ? f : 0); tinted_ && own != row["of"]["faces"])
+            row["tints"] = std::move(own);
+    }
+
+  private:
+    static inline const json kNone = json::array();
+    static inline const json kNowhere{{"vertices", kNone}, {"edges", kNone}, {"faces", kNone}};
+
+    bool tinted_, faint_;
+    Column vertexCounts_, edgeCounts_, faceCounts_, vertices_, edges_, sides_, corners_, tints_;
+    Columns of_, seen_;
+};
+
+json partsOf(const json& columns) {
+    json parts = columns.at("looks");
+    ElementColumns elements(columns);
+    for (json& part : parts) elements.readInto(part);
+    return parts;
+}
+
 json rowsOf(const json& columns) {
     const json none = json::array();
-    const json nowhere{{"vertices", none}, {"edges", none}, {"faces", none}};
-    const bool tinted = columns.contains("tints"), faint = columns.contains("seen"), filled = columns.contains("fill");
+    const bool filled = columns.contains("fill");
     const json noFill{
         {"counts", {{"points", none}, {"triangles", none}}}, {"points", none}, {"triangles", none}, {"tints", none}};
     const json& fill = filled ? columns.at("fill") : noFill;
     const bool faintFill = fill.contains("seen");
     Column w(columns.at("w")), labelSize(columns.at("label_size")), position(columns.at("position"));
-    Column labelAt(columns.at("label_at")), vertices(columns.at("vertices")), edges(columns.at("edges"));
-    Column sides(columns.at("sides")), corners(columns.at("corners")), tints(tinted ? columns.at("tints") : none);
+    Column labelAt(columns.at("label_at"));
     Column index(columns.at("index")), label(columns.at("label")), focus(columns.at("focus")),
         drawn(columns.at("drawn"));
-    const json& counts = columns.at("counts");
-    Column vertexCounts(counts.at("vertices")), edgeCounts(counts.at("edges")), faceCounts(counts.at("faces"));
-    Columns of(columns.at("of")), seen(faint ? columns.at("seen") : nowhere);
+    ElementColumns elements(columns);
     Column points(fill.at("points")), triangles(fill.at("triangles")), fillTints(fill.at("tints"));
     Column fillSeen(faintFill ? fill.at("seen") : none);
     Column pointCounts(fill.at("counts").at("points")), triangleCounts(fill.at("counts").at("triangles"));
     json rows = json::array();
     for (std::size_t i = 0; i < columns.at("index").size(); ++i) {
-        const std::size_t v = vertexCounts.next(), e = edgeCounts.next(), f = faceCounts.next();
         json row{{"index", index.next()}, {"label", label.next()},          {"focus", focus.next()},
                  {"drawn", drawn.next()}, {"label_size", labelSize.next()}, {"w", w.next()}};
         row["position"] = position.next(3);
         row["label_at"] = labelAt.next(3);
-        row["vertices"] = vertices.rows(v, 3);
-        row["edges"] = edges.rows(e, 2);
-        row["faces"] = json::array();
-        while (row["faces"].size() < f) row["faces"].push_back(corners.next(sides.next()));
-        row["of"] = of.next(v, e, f);
-        if (faint) row["seen"] = seen.next(v, e, f);
-        if (json own = tints.next(tinted ? f : 0); tinted && own != row["of"]["faces"]) row["tints"] = std::move(own);
+        elements.readInto(row);
         if (filled) {
             const std::size_t p = pointCounts.next(), t = triangleCounts.next();
             json own;
@@ -161,12 +196,16 @@ json fromBinary(const json& decoded) {
     if (message.contains("density"))
         message["density"] = rows(message["density"], message["scene"]["coordinates"]["columns"]);
     message["slices"] = rowsOf(message["slices"]);
+    if (message.contains("projection")) message["projection"]["parts"] = partsOf(message["projection"]["parts"]);
     return message;
 }
 
 json fromJson(const std::string& text) {
     json message = fuzz::requireJson(text);
     if (message.contains("coordinates")) roundToFloats(message["coordinates"]);
+    if (message.contains("projection")) {
+        for (json& part : message["projection"]["parts"]) roundToFloats(part["vertices"]);
+    }
     for (json& slice : message["slices"]) {
         for (const char* name : {"position", "label_at", "vertices"}) roundToFloats(slice[name]);
         if (!slice.contains("fill")) continue;
