@@ -1,8 +1,9 @@
 #pragma once
-// Vector drawings for printing. The writers of SVG and PDF files get a Drawing and no other data.
+// Vector drawings for printing. The writers of figure formats get a Drawing and no other data.
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -64,6 +65,18 @@ struct DensityImage {
     std::uint8_t alpha(int row, int column) const {
         return alphas[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                       static_cast<std::size_t>(column)];
+    }
+    scene::Color color(int column) const {
+        const std::size_t last = colors.size() - 1;
+        const double at = static_cast<double>(column) * static_cast<double>(last) / (columns - 1);
+        const auto first = std::min(static_cast<std::size_t>(at), last);
+        scene::Color mixed = 0;
+        for (const int shift : {16, 8, 0}) {
+            const double from = colors[first] >> shift & 255U, to = colors[std::min(first + 1, last)] >> shift & 255U;
+            const double channel = from + (at - static_cast<double>(first)) * (to - from);
+            mixed |= static_cast<scene::Color>(std::lround(channel)) << shift;
+        }
+        return mixed;
     }
 };
 using Shape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;

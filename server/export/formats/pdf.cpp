@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -15,8 +14,9 @@
 
 #include <hpdf.h>
 #include <boost/locale/encoding_utf.hpp>
-#include <glm/common.hpp>
 #include <glm/vec2.hpp>
+
+#include "export/drawing/bounds.hpp"
 
 namespace oval4d::exports {
 
@@ -34,44 +34,8 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
 // libharu writes numbers beyond ±32,767 as ±32,767. This would bend lines that reach so far beyond the page, such as
-// lines of slices close to the eye. Lines and polygons are therefore cut at ±kFarthest, in the units of the drawing.
+// lines of slices close to the eye. Shapes are therefore cut at ±kFarthest, in the units of the drawing.
 constexpr double kFarthest = 30'000;
-
-// Returns the distance of a position from a bound, positive inside and negative outside. The bounds 0 … 3 are
-// x = kFarthest, x = −kFarthest, y = kFarthest and y = −kFarthest.
-double insideBound(const glm::dvec2& at, int bound) { return kFarthest - (bound % 2 == 0 ? 1 : -1) * at[bound / 2]; }
-
-// Returns where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of insideBound() for
-// the ends; exactly one of them must be negative.
-glm::dvec2 crossingOfBound(const glm::dvec2& a, const glm::dvec2& b, double insideA, double insideB) {
-    return a + insideA / (insideA - insideB) * (b - a);
-}
-
-// Cuts a line at the bounds. Returns false if no part of the line is within them.
-bool cutAtBounds(glm::dvec2& from, glm::dvec2& to) {
-    for (int bound = 0; bound < 4; ++bound) {
-        const double a = insideBound(from, bound), b = insideBound(to, bound);
-        if (a < 0 && b < 0) return false;
-        if (a < 0) from = crossingOfBound(from, to, a, b);
-        if (b < 0) to = crossingOfBound(from, to, a, b);
-    }
-    return true;
-}
-
-// Returns the part of a polygon within the bounds.
-std::vector<glm::dvec2> cutAtBounds(std::vector<glm::dvec2> corners) {
-    for (int bound = 0; bound < 4; ++bound) {
-        std::vector<glm::dvec2> kept;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::dvec2 &here = corners[i], &next = corners[(i + 1) % corners.size()];
-            const double a = insideBound(here, bound), b = insideBound(next, bound);
-            if (a >= 0) kept.push_back(here);
-            if ((a < 0) != (b < 0)) kept.push_back(crossingOfBound(here, next, a, b));
-        }
-        corners = std::move(kept);
-    }
-    return corners;
-}
 
 // Draws shapes on a page, in the units of the drawing. PDF measures positions from the lower left corner.
 class PageWriter {
@@ -80,19 +44,16 @@ class PageWriter {
         : document_(document), page_(page), height_(height), font_(HPDF_GetFont(document, "Helvetica", nullptr)) {}
 
     void operator()(const Line& line) {
-        glm::dvec2 from = line.from, to = line.to;
-        if (!cutAtBounds(from, to)) return;
         setOpacity(line.opacity);
         HPDF_Page_SetRGBStroke(page_, channel(line.color, 16), channel(line.color, 8), channel(line.color, 0));
         HPDF_Page_SetLineWidth(page_, static_cast<float>(line.width));
         HPDF_Page_SetLineCap(page_, line.roundEnds ? HPDF_ROUND_END : HPDF_BUTT_END);
-        HPDF_Page_MoveTo(page_, x(from), y(from));
-        HPDF_Page_LineTo(page_, x(to), y(to));
+        HPDF_Page_MoveTo(page_, x(line.from), y(line.from));
+        HPDF_Page_LineTo(page_, x(line.to), y(line.to));
         HPDF_Page_Stroke(page_);
     }
     void operator()(const FilledPolygon& polygon) {
-        const std::vector<glm::dvec2> corners = cutAtBounds(polygon.corners);
-        if (corners.empty()) return;
+        const std::vector<glm::dvec2>& corners = polygon.corners;
         setFill(polygon.color, polygon.opacity);
         HPDF_Page_MoveTo(page_, x(corners[0]), y(corners[0]));
         for (std::size_t i = 1; i < corners.size(); ++i) HPDF_Page_LineTo(page_, x(corners[i]), y(corners[i]));
@@ -100,8 +61,6 @@ class PageWriter {
         HPDF_Page_Fill(page_);
     }
     void operator()(const Disk& disk) {
-        const glm::dvec2 reach = glm::abs(disk.center) + disk.radius;
-        if (std::max(reach.x, reach.y) > kFarthest) return (*this)(polygonOf(disk));
         setFill(disk.color, disk.opacity);
         HPDF_Page_Circle(page_, x(disk.center), y(disk.center), static_cast<float>(disk.radius));
         HPDF_Page_Fill(page_);
@@ -121,15 +80,8 @@ class PageWriter {
         std::vector<HPDF_BYTE> colors;
         for (int row = 0; row < density.rows(); ++row) {
             for (int column = 0; column < density.columns; ++column) {
-                const std::size_t last = density.colors.size() - 1;
-                const double at = static_cast<double>(column) * static_cast<double>(last) / (density.columns - 1);
-                const auto first = std::min(static_cast<std::size_t>(at), last);
-                for (const int shift : {16, 8, 0}) {
-                    const float from = channel(density.colors[first], shift);
-                    const float to = channel(density.colors[std::min(first + 1, last)], shift);
-                    const double t = at - static_cast<double>(first);
-                    colors.push_back(static_cast<HPDF_BYTE>(std::lround(255 * (from + t * (to - from)))));
-                }
+                const scene::Color color = density.color(column);
+                for (const int shift : {16, 8, 0}) colors.push_back(static_cast<HPDF_BYTE>(color >> shift & 255U));
             }
         }
         const auto width = static_cast<HPDF_UINT>(density.columns), height = static_cast<HPDF_UINT>(density.rows());
@@ -148,17 +100,6 @@ class PageWriter {
   private:
     static float x(const glm::dvec2& at) { return static_cast<float>(at.x); }
     float y(const glm::dvec2& at) const { return static_cast<float>(height_ - at.y); }
-
-    // Returns a polygon that approximates a disk, which reaches too far to be drawn as a circle.
-    static FilledPolygon polygonOf(const Disk& disk) {
-        constexpr int kCorners = 360;
-        FilledPolygon polygon{{}, disk.color, disk.opacity};
-        for (int i = 0; i < kCorners; ++i) {
-            const double angle = 2 * std::numbers::pi * i / kCorners;
-            polygon.corners.push_back(disk.center + disk.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-        }
-        return polygon;
-    }
 
     void setFill(scene::Color color, double opacity) {
         setOpacity(opacity);
@@ -223,7 +164,9 @@ std::string pdf(const Drawing& drawing) {
     HPDF_Page_Concat(page, static_cast<float>(scale), 0, 0, static_cast<float>(scale), 0, 0);
     PageWriter writer(document.get(), page, drawing.height);
     for (const ShapeGroup& group : drawing.groups) {
-        for (const Shape& shape : group.shapes) std::visit(writer, shape);
+        for (const Shape& shape : group.shapes) {
+            if (const auto drawn = cutAtBounds(shape, kFarthest)) std::visit(writer, *drawn);
+        }
     }
     HPDF_SaveToStream(document.get());
     std::string out(HPDF_GetStreamSize(document.get()), '\0');

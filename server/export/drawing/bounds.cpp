@@ -1,0 +1,82 @@
+#include "export/drawing/bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include <glm/common.hpp>
+
+namespace oval4d::exports {
+
+namespace {
+
+// A visitor that cuts shapes at x = ±farthest and y = ±farthest.
+class ShapeCutter {
+  public:
+    explicit ShapeCutter(double farthest) : farthest_(farthest) {}
+
+    std::optional<Shape> operator()(Line line) const {
+        for (int bound = 0; bound < 4; ++bound) {
+            const double a = insideBound(line.from, bound), b = insideBound(line.to, bound);
+            if (a < 0 && b < 0) return std::nullopt;
+            if (a < 0) line.from = crossingOfBound(line.from, line.to, a, b);
+            if (b < 0) line.to = crossingOfBound(line.from, line.to, a, b);
+        }
+        return line;
+    }
+    std::optional<Shape> operator()(FilledPolygon polygon) const {
+        for (int bound = 0; bound < 4; ++bound) {
+            std::vector<glm::dvec2> kept;
+            for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+                const glm::dvec2 &here = polygon.corners[i], &next = polygon.corners[(i + 1) % polygon.corners.size()];
+                const double a = insideBound(here, bound), b = insideBound(next, bound);
+                if (a >= 0) kept.push_back(here);
+                if ((a < 0) != (b < 0)) kept.push_back(crossingOfBound(here, next, a, b));
+            }
+            polygon.corners = std::move(kept);
+        }
+        if (polygon.corners.empty()) return std::nullopt;
+        return polygon;
+    }
+    std::optional<Shape> operator()(const Disk& disk) const {
+        const glm::dvec2 reach = glm::abs(disk.center) + disk.radius;
+        if (std::max(reach.x, reach.y) <= farthest_) return disk;
+        constexpr int kCorners = 360;
+        FilledPolygon polygon{{}, disk.color, disk.opacity};
+        for (int i = 0; i < kCorners; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kCorners;
+            polygon.corners.push_back(disk.center + disk.radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+        }
+        return (*this)(std::move(polygon));
+    }
+    std::optional<Shape> operator()(const TextLine& line) const {
+        if (std::max(std::abs(line.at.x), std::abs(line.at.y)) > farthest_) return std::nullopt;
+        return line;
+    }
+    std::optional<Shape> operator()(const DensityImage& density) const { return density; }
+
+  private:
+    // Returns the distance of a position from a bound, positive inside and negative outside. The bounds 0 … 3 are
+    // x = farthest, x = −farthest, y = farthest and y = −farthest.
+    double insideBound(const glm::dvec2& at, int bound) const {
+        return farthest_ - (bound % 2 == 0 ? 1 : -1) * at[bound / 2];
+    }
+
+    // Returns where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of insideBound()
+    // for the ends; exactly one of them must be negative.
+    static glm::dvec2 crossingOfBound(const glm::dvec2& a, const glm::dvec2& b, double insideA, double insideB) {
+        return a + insideA / (insideA - insideB) * (b - a);
+    }
+
+    double farthest_;
+};
+
+}  // namespace
+
+std::optional<Shape> cutAtBounds(const Shape& shape, double farthest) {
+    return std::visit(ShapeCutter(farthest), shape);
+}
+
+}  // namespace oval4d::exports
