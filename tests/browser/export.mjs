@@ -64,6 +64,7 @@ test("export: every format makes its file, with a descriptive name", async () =>
         csv: /^n,w,/,
         svg: /^<(\?xml|svg)/,
         pdf: /^%PDF-1/,
+        tikz: /^% .*\n% A figure of [^]*\\begin\{tikzpicture\}/,
         x3d: /^<\?xml[^]*<X3D/,
         scad: /^\/\/ 24-cell, in millimeters, from oval4d\n/,
         vtp: /^<\?xml[^]*<PolyData/,

@@ -237,7 +237,7 @@ def test_vti_samples_the_slice(server):
     ("vti", {"focus": 40}, "is empty"),
     ("stl", {"levels": "-5"}, "change the levels"),
     ("stl", {"label": "engraved"}, "separate label"),
-    ("csv", {"of": "matrix"}, "svg or pdf"),
+    ("csv", {"of": "matrix"}, "svg, pdf or tikz"),
     ("csv", {"of": "critical"}, "get critical"),
 ])
 def test_what_a_field_has_not_is_refused(server, format_, query, reason):

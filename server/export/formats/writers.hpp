@@ -94,6 +94,10 @@ std::string pdf(const Drawing& drawing);
 /// Returns the drawing as an SVG 1.1 image.
 std::string svg(const Drawing& drawing);
 
+/// Returns the drawing as an environment `tikzpicture` for LaTeX with the package tikz, in ASCII but for the title in
+/// its first line, a comment. Shapes are cut where TeX has no lengths, at 16,000 points.
+std::string tikz(const Drawing& drawing);
+
 // --- All of them.
 
 /// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
@@ -119,6 +123,7 @@ inline constexpr auto kWriters =
                            {.name = "scad", .ofBodies = scad},
                            {.name = "stl", .ofBodies = stl},
                            {.name = "svg", .ofDrawing = svg},
+                           {.name = "tikz", .ofDrawing = tikz},
                            {.name = "vti", .ofScene = vti},
                            {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
                            {.name = "x3d", .ofBodies = x3d}});

@@ -1,0 +1,164 @@
+#include "export/formats/writers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include <glm/vec2.hpp>
+
+#include "export/drawing/bounds.hpp"
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+// TeX has no lengths of 16,384 points or more (The TeXbook, chapter 10).
+constexpr double kFarthestPoints = 16'000, kPointsPerMillimeter = 72.27 / 25.4;
+
+// Returns a number with at most this many decimals.
+std::string decimals(double value, int count) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", count, value);
+    std::string out = text.data();
+    if (out.find('.') == std::string::npos) return out;
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.back() == '.') out.pop_back();
+    return out == "-0" ? "0" : out;
+}
+
+std::string position(const glm::dvec2& at) { return '(' + decimals(at.x, 2) + ',' + decimals(at.y, 2) + ')'; }
+
+// Returns ASCII text as LaTeX, with a minus sign before numbers.
+std::string latexEscaped(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const bool isSign =
+            c == '-' && i + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[i + 1])) != 0;
+        if (isSign && (i == 0 || text[i - 1] == ' ')) {
+            out += "$-$";
+        } else if (c == '\\') {
+            out += "\\textbackslash{}";
+        } else if (c == '~') {
+            out += "\\textasciitilde{}";
+        } else if (c == '^') {
+            out += "\\textasciicircum{}";
+        } else if (c == '<' || c == '>' || c == '|') {
+            out += std::string("$") + (c == '|' ? "\\vert" : std::string(1, c)) + '$';
+        } else {
+            if (std::string_view("{}#$%&_").find(c) != std::string_view::npos) out += '\\';
+            out += c;
+        }
+    }
+    return out;
+}
+
+/// A visitor that writes shapes as TikZ commands, and collects the colors of the shapes.
+class CommandWriter {
+  public:
+    /// `unit`: as returned by Drawing::unit().
+    explicit CommandWriter(double unit) : unit_(unit) {}
+
+    void operator()(const Line& line) {
+        out += "\\draw[" + use(line.color) + ",line width=" + millimeters(line.width) +
+               (line.roundEnds ? ",line cap=round" : "") + opacityOption("draw", line.opacity) + "] " +
+               position(line.from) + " -- " + position(line.to) + ";\n";
+    }
+    void operator()(const FilledPolygon& polygon) {
+        constexpr std::size_t kCornersPerLine = 6;
+        out += "\\fill[" + use(polygon.color) + opacityOption("fill", polygon.opacity) + ']';
+        for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+            out += i > 0 && i % kCornersPerLine == 0 ? '\n' : ' ';
+            out += position(polygon.corners[i]) + " --";
+        }
+        out += " cycle;\n";
+    }
+    void operator()(const Disk& disk) {
+        out += "\\fill[" + use(disk.color) + opacityOption("fill", disk.opacity) + "] " + position(disk.center) +
+               " circle[radius=" + millimeters(disk.radius) + "];\n";
+    }
+    void operator()(const TextLine& line) {
+        const std::string size = decimals(line.size * unit_ * kPointsPerMillimeter, 2);
+        out += "\\node[anchor=base,inner sep=0pt,text=" + use(line.color) + ",font=\\fontsize{" + size + "}{" + size +
+               "}\\selectfont] at " + position(line.at) + " {" + latexEscaped(line.text) + "};\n";
+    }
+    void operator()(const DensityImage& density) {
+        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
+        const glm::dvec2 size = density.bottomRight - density.topLeft;
+        const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
+        for (int column = 0; column < density.columns; ++column) {
+            const std::string color = use(density.color(column));
+            for (int row = 0, end = 0; row < density.rows(); row = end) {
+                const std::uint8_t alpha = density.alpha(row, column);
+                while (end < density.rows() && density.alpha(end, column) == alpha) ++end;
+                if (alpha == 0) continue;
+                const auto corner = [&](int x, int y) {
+                    return position(density.topLeft + (glm::dvec2(x, y) - 0.5) * pixel);
+                };
+                out += "\\fill[" + color + opacityOption("fill", alpha / 255.0) + "] " + corner(column, row) +
+                       " rectangle " + corner(column + 1, end) + ";\n";
+            }
+        }
+    }
+
+    /// Returns the definitions of all colors that have been used.
+    std::string colorDefinitions() const {
+        std::string definitions;
+        for (const scene::Color color : colors_)
+            definitions += "\\definecolor{" + nameFor(color) + "}{HTML}{" + hexadecimal(color) + "}\n";
+        return definitions;
+    }
+
+    std::string out;  ///< the commands
+
+  private:
+    std::string millimeters(double length) const { return decimals(length * unit_, 3) + "mm"; }
+
+    static std::string opacityOption(std::string_view of, double opacity) {
+        return opacity < 1 ? ',' + std::string(of) + " opacity=" + decimals(opacity, 3) : std::string();
+    }
+    static std::string hexadecimal(scene::Color color) {
+        std::array<char, 8> digits{};
+        std::snprintf(digits.data(), digits.size(), "%06X", color & 0xFFFFFFU);
+        return digits.data();
+    }
+    static std::string nameFor(scene::Color color) { return "oval" + hexadecimal(color); }
+    // Returns the name of a color, and defines it.
+    std::string use(scene::Color color) {
+        colors_.insert(color);
+        return nameFor(color);
+    }
+
+    double unit_;
+    std::set<scene::Color> colors_;
+};
+
+}  // namespace
+
+std::string tikz(const Drawing& drawing) {
+    const double unit = drawing.unit(), farthest = kFarthestPoints / std::max(1.0, unit * kPointsPerMillimeter);
+    CommandWriter writer(unit);
+    for (const ShapeGroup& group : drawing.groups) {
+        writer.out += "% " + group.id + '\n';
+        for (const Shape& shape : group.shapes) {
+            if (const auto drawn = cutAtBounds(shape, farthest)) std::visit(writer, *drawn);
+        }
+    }
+    const std::string across = decimals(unit, 6) + "mm";
+    return "% " + xmlCharacters(drawing.title) + "\n% A figure of " + decimals(drawing.width * unit, 1) + " mm by " +
+           decimals(drawing.height * unit, 1) +
+           " mm for LaTeX. In the preamble: \\usepackage{tikz}. In the text: \\input{this file}.\n" +
+           "\\begin{tikzpicture}[x=" + across + ",y=-" + across + "]\n" + writer.colorDefinitions() +
+           "\\clip (0,0) rectangle " + position({drawing.width, drawing.height}) + ";\n" + writer.out +
+           "\\end{tikzpicture}%\n";
+}
+
+}  // namespace oval4d::exports
