@@ -9,6 +9,7 @@ export type Request =
     | LoadRequest
     | MeasureRequest
     | PingRequest
+    | RandomRequest
     | RedoRequest
     | ResetRequest
     | RotateRequest
@@ -84,6 +85,7 @@ export type Command =
     | CommandRequest
     | KeyRequest
     | LoadRequest
+    | RandomRequest
     | RedoRequest
     | ResetRequest
     | RotateRequest
@@ -311,6 +313,20 @@ export interface PingRequest {
      * Chosen by the client; the answer or error has the same id.
      */
     id?: number;
+}
+/**
+ * The new orientation is random, and all rotations are equally probable (Haar measure), so the slices are sections of random direction. One undo step; it ends a motion toward an element. The same `seed` gives the same orientation on every server, whatever the orientation was.
+ */
+export interface RandomRequest {
+    type: "random";
+    /**
+     * Chosen by the client; the answer or error has the same id.
+     */
+    id?: number;
+    /**
+     * Determines the orientation. If absent, the server draws a seed.
+     */
+    seed?: number;
 }
 /**
  * Redoes one step that was undone. Fails with nothing_to_undo if there is none.
@@ -1246,6 +1262,7 @@ export interface RequestAnswers {
     load: Done;
     measure: Measured;
     ping: Pong;
+    random: Done;
     redo: Done;
     reset: Done;
     rotate: Done;

@@ -153,6 +153,13 @@ struct Reset {
 };
 BOOST_DESCRIBE_STRUCT(Reset, (), ())
 
+/// Replaces the orientation by a random rotation; all rotations are equally probable.
+struct TurnAtRandom {
+    static constexpr std::string_view kMessageType = "random";
+    std::optional<std::uint64_t> seed;  ///< determines the rotation; if it is absent, the seed is random
+};
+BOOST_DESCRIBE_STRUCT(TurnAtRandom, (), (seed))
+
 /// Applies a line of the page's command line; see parseCommandLine().
 struct CommandLine {
     static constexpr std::string_view kMessageType = "command";
@@ -168,6 +175,7 @@ struct OpenAddress {
 };
 BOOST_DESCRIBE_STRUCT(OpenAddress, (), (query))
 
-using Command = std::variant<Key, Rotate, TurnToward, Set, LoadObject, Undo, Redo, Reset, CommandLine, OpenAddress>;
+using Command =
+    std::variant<Key, Rotate, TurnToward, TurnAtRandom, Set, LoadObject, Undo, Redo, Reset, CommandLine, OpenAddress>;
 
 }  // namespace oval4d::session

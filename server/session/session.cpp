@@ -1,13 +1,17 @@
 #include "session/session.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string_view>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
@@ -73,6 +77,20 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
 // Returns whether a parameter of a query describes the connection or the size of a picture, not the view.
 bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
+// Returns a random rotation; all rotations are equally probable. Its quaternions are uniformly distributed on the unit
+// sphere (K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992). The same seed gives the same rotation.
+geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
+    std::mt19937_64 random(seed ? *seed : std::random_device()());
+    const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11U), -53); };  // 0 ≤ u < 1
+    const auto quaternion = [&] {
+        const double u = uniform(), a = 2 * std::numbers::pi * uniform(), b = 2 * std::numbers::pi * uniform();
+        const double first = std::sqrt(1 - u), second = std::sqrt(u);
+        return glm::dquat(first * std::cos(a), first * std::sin(a), second * std::cos(b), second * std::sin(b));
+    };
+    const glm::dquat left = quaternion();
+    return {left, quaternion()};
+}
+
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class Applier {
   public:
@@ -101,6 +119,13 @@ class Applier {
     Done operator()(const TurnToward& command) {
         State next = session_.current;
         if (Done done = turnToward(next, command); !done) return done;
+        commit(session_, std::move(next), limits_);
+        return std::monostate{};
+    }
+    Done operator()(const TurnAtRandom& command) {
+        State next = session_.current;
+        next.orientation = randomRotation(command.seed);
+        next.ongoingTurnToward.reset();
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }

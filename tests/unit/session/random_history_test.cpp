@@ -211,7 +211,7 @@ Command randomCommand(Random& random) {
 std::string textOf(const Command& command) {
     if (const auto* key = std::get_if<Key>(&command)) return "key " + key->key + (key->ctrl ? " with Ctrl" : "");
     if (const auto* line = std::get_if<CommandLine>(&command)) return ":" + line->line;
-    const std::array names{"key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "line"};
+    const std::array names{"key", "rotate", "toward", "random", "set", "load", "undo", "redo", "reset", "line"};
     return names.at(command.index());
 }
 

@@ -53,6 +53,8 @@ TEST(Parse, Commands) {
     EXPECT_EQ(toward.number, 3U);
     EXPECT_FALSE(toward.immediately);
     EXPECT_FALSE(parsedCommand<session::TurnToward>(R"({"type":"toward","element":"cell"})").number);
+    EXPECT_EQ(parsedCommand<session::TurnAtRandom>(R"({"type":"random","seed":7})").seed, 7U);
+    EXPECT_FALSE(parsedCommand<session::TurnAtRandom>(R"({"type":"random"})").seed);
     parsedCommand<session::Undo>(R"({"type":"undo"})");
     parsedCommand<session::Redo>(R"({"type":"redo"})");
     parsedCommand<session::Reset>(R"({"type":"reset"})");
