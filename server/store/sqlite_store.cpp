@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "store/private_file.hpp"
 #include "store/secret.hpp"
 #include "store/sqlite_salvage.hpp"
+#include "store/sqlite_schema.hpp"
 
 namespace oval4d::store {
 
@@ -37,29 +37,6 @@ std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
         }
     }
     return static_cast<std::int64_t>(pages + small / kPageSize);
-}
-
-/// Throws StoreError if the file exists and is not a store of oval4d, so that the server neither changes nor renames
-/// it. The first page of a store contains the application_id of oval4d (kApplicationId) or, in version 1, the names of
-/// its tables. An empty file is accepted. So is a database without tables, because its tables may still be in the
-/// write-ahead log.
-void refuseForeignFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string start(kPageSize, '\0');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(file.gcount()));
-    constexpr std::string_view kMagic("SQLite format 3\0", 16);  // with the terminating zero
-    constexpr std::size_t kTableCount = 103;  // offset of two bytes: the number of rows of sqlite_schema on page 1
-    const bool isDatabase = start.starts_with(kMagic);
-    const bool hasNoTables =
-        isDatabase && start.size() == kPageSize && start.compare(kTableCount, 2, std::string_view("\0\0", 2)) == 0;
-    const bool hasOurNumber =
-        start.size() > kApplicationIdAt && std::string_view(start).substr(kApplicationIdAt).starts_with(kApplicationId);
-    if (start.empty() || hasNoTables || hasOurNumber || start.find("CREATE TABLE session") != std::string::npos) return;
-    throw StoreError(path +
-                     (isDatabase ? " is the database of another program, or its first page is damaged"
-                                 : " is not a database of SQLite") +
-                     "; it was not changed: move it away, or give another path");
 }
 
 std::string listed(const std::set<std::string>& ids) {

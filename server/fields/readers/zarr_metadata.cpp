@@ -1,9 +1,6 @@
 #include "fields/readers/zarr_metadata.hpp"
 
-#include <sodium.h>
-
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -14,6 +11,7 @@
 #include <utility>
 
 #include "fields/array/shape.hpp"
+#include "fields/readers/zarr_json.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::fields {
@@ -27,44 +25,8 @@ constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // maximum size
 constexpr std::size_t kMaxArrays = 10'000;                       // maximum number of arrays among which one is chosen
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Error badMetadata(std::string reason) {
-    return {ErrorCode::bad_field, "the Zarr metadata are not valid: " + std::move(reason)};
-}
 Error unsupported(const std::string& what) {
     return {ErrorCode::unsupported_format, "the Zarr array has " + what + ", which the server does not read"};
-}
-
-std::string quoted(const json& value) {
-    return text::inQuotes(value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', true).substr(0, 60));
-}
-
-/// Replaces NaN and Infinity, which Python writes into JSON files, by null.
-std::string withoutNan(std::string text) {
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '\\' && inString) {
-            ++i;  // the escaped character, which may be a quote, does not end the string
-            continue;
-        }
-        if (text[i] == '"') inString = !inString;
-        if (inString) continue;
-        for (const std::string_view word : {"-Infinity", "Infinity", "NaN"}) {
-            if (!std::string_view(text).substr(i).starts_with(word)) continue;
-            text.replace(i, word.size(), "null" + std::string(word.size() > 4 ? word.size() - 4 : 0, ' '));
-        }
-    }
-    return text;
-}
-
-const json* member(const json& object, std::string_view name) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(name);
-    return found == object.end() || found->is_null() ? nullptr : &*found;
-}
-
-std::string textIn(const json& object, std::string_view name) {
-    const json* const value = member(object, name);
-    return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
 // Returns the sizes of dimensions in the member `name`: a list of integers, each of them at least `least`.
@@ -83,34 +45,6 @@ Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view na
         sizes.push_back(each.get<std::size_t>());
     }
     return sizes;
-}
-
-std::optional<double> numberIn(const json& value) {
-    if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-    if (value.is_number()) return value.get<double>();
-    if (!value.is_string()) return {};
-    const auto text = value.get<std::string>();
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    if (text == "NaN") return kNone;
-    if (text == "Infinity") return kInfinite;
-    if (text == "-Infinity") return -kInfinite;
-    return {};
-}
-
-// Returns the number that a text encodes: a little-endian double in Base64 (RFC 4648), as xarray writes the attribute
-// _FillValue of floats in version 3.
-std::optional<double> base64DoubleIn(const std::string& text) {
-    std::array<std::uint8_t, sizeof(double)> bytes{};
-    std::size_t size = 0;
-    const char* end = nullptr;
-    if (sodium_base642bin(bytes.data(), bytes.size(), text.data(), text.size(), nullptr, &size, &end,
-                          sodium_base64_VARIANT_ORIGINAL) != 0 ||
-        size != bytes.size() || end != text.data() + text.size()) {
-        return {};
-    }
-    std::uint64_t bits = 0;
-    for (std::size_t i = bytes.size(); i-- > 0;) bits = bits << 8U | bytes.at(i);
-    return std::bit_cast<double>(bits);
 }
 
 // Returns the value of missing chunks; NaN if there is none. Version 3 may give the bits of a float, as a hexadecimal

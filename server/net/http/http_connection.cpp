@@ -1,3 +1,5 @@
+// This file is long, because a connection is one class: its functions share the stream, its buffer and its deadlines.
+
 #include "net/http/http_connection.hpp"
 
 #include <netinet/tcp.h>

@@ -1,3 +1,6 @@
+// This file is long, because the functions of a session run on one strand and share its state. What they only call is
+// in the files beside it.
+
 #include "net/live/live_session.hpp"
 
 #include <spdlog/spdlog.h>

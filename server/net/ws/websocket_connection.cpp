@@ -1,3 +1,6 @@
+// This file is long, because a connection is one class: what it reads, executes and writes depends on each other's
+// state, such as when it closes.
+
 #include "net/ws/websocket_connection.hpp"
 
 #include <spdlog/spdlog.h>

@@ -29,25 +29,6 @@ constexpr std::size_t kAhead = 2 * 3 * kLanes;
 static_assert(sizeof(LitVertex) == 8 * sizeof(float));
 static_assert(sizeof(SurfaceVertex) == 7 * sizeof(float));
 
-// Transposes a matrix of 8 × 8 numbers.
-OVAL4D_AVX2 inline void transpose(__m256 (&rows)[kLanes]) {
-    __m256 a[kLanes], b[kLanes];
-    for (std::size_t i = 0; i < kLanes; i += 2) {
-        a[i] = _mm256_unpacklo_ps(rows[i], rows[i + 1]);
-        a[i + 1] = _mm256_unpackhi_ps(rows[i], rows[i + 1]);
-    }
-    for (std::size_t i = 0; i < kLanes; i += 4) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            b[i + 2 * k] = _mm256_shuffle_ps(a[i + k], a[i + k + 2], 0x44);
-            b[i + 2 * k + 1] = _mm256_shuffle_ps(a[i + k], a[i + k + 2], 0xee);
-        }
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-        rows[i] = _mm256_permute2f128_ps(b[i], b[i + 4], 0x20);
-        rows[i + 4] = _mm256_permute2f128_ps(b[i], b[i + 4], 0x31);
-    }
-}
-
 // The properties of the picture and the light that all vertices share.
 struct Lighting {
     float halfWidth, halfHeight;  // half the size of the picture, in pixels
