@@ -11,7 +11,7 @@ using Seconds = FairQueue::Seconds;
 constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
 constexpr double kDecay = 0.75;  // the factor by which each new measurement reduces the weight of earlier ones
-// In Correction::factor(), the prior has the same weight as measured jobs whose estimates sum to this time.
+// In EstimateCorrection::factor(), the prior has the same weight as measured jobs whose estimates sum to this time.
 constexpr Seconds kPriorWeight{0.02};
 // Corrections are learned from measured times that are clipped to this multiple of the cost, because other programs
 // sometimes delay a job.
@@ -20,12 +20,12 @@ constexpr double kMaxCorrection = 8;  // estimates are multiplied or divided by 
 
 }  // namespace
 
-double FairQueue::Correction::factor(double general) const {
+double FairQueue::EstimateCorrection::factor(double general) const {
     return std::clamp((measured_ + general * kPriorWeight) / (estimated_ + kPriorWeight), 1 / kMaxCorrection,
                       kMaxCorrection);
 }
 
-void FairQueue::Correction::learn(Seconds estimate, Seconds took) {
+void FairQueue::EstimateCorrection::learn(Seconds estimate, Seconds took) {
     estimated_ = kDecay * estimated_ + estimate;
     measured_ = kDecay * measured_ + took;
 }
@@ -62,7 +62,7 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
 std::optional<FairQueue::DueJob> FairQueue::pop(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
-    Class& jobClass = classes_[length];
+    JobClass& jobClass = classes_[length];
     if (jobClass.clients.empty()) return std::nullopt;
     const ClientFlowPtr client = jobClass.clients.next();
     const LanePtr lane = client->lanes_[length].next();
@@ -85,7 +85,7 @@ void FairQueue::finished(const DueJob& started, Seconds took) {
     ClientFlow& client = *lane.client_;
     const JobLength length = started.length;
     if (length == long_job) --longRunning_;
-    for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
+    for (EstimateCorrection* each : {&lane.correction_, &client.correction_, &correction_})
         each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
     const Seconds more = took - started.cost;
     scheduler_.recordEnd(classes_[length].state, classCost(length, more));
@@ -112,7 +112,7 @@ void FairQueue::scheduleLane(const LanePtr& lane) {
 /// Updates the queue entries of a client and of the class of this length, after a change of the client's next job of
 /// this length.
 void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
-    Class& jobClass = classes_[length];
+    JobClass& jobClass = classes_[length];
     if (client->lanes_[length].empty()) {
         jobClass.clients.remove(client->states_[length]);
     } else {

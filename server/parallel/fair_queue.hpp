@@ -37,7 +37,8 @@ class FairScheduler {
 
     /// The scheduler's data about one flow, which the caller stores with the flow.
     struct FlowState {
-        /// S of the next job if the flow is waiting; else F of the job that started last.
+        /// The virtual start time S of the next job if the flow is waiting; else the virtual finish time F of the job
+        /// that started last.
         Seconds finish{0};
         std::optional<typename Queue::iterator> entry;  ///< position in the queue; empty unless the flow is waiting
         std::size_t running = 0;                        ///< number of running jobs
@@ -71,13 +72,15 @@ class FairScheduler {
     /// another waiting job, else remove().
     void recordStart(FlowState& state, Seconds cost) {
         virtualTime_ = std::max(virtualTime_, state.finish) + cost / activeFlows_;
-        // Keep F from falling behind V by more than the cost of one job, even if estimates were wrong.
+        // Keep the finish time of the flow from falling behind the virtual time by more than the cost of the job, even
+        // if estimates were wrong.
         state.finish = std::max(state.finish + cost, virtualTime_ - cost);
         maxFinish_ = std::max(maxFinish_, state.finish);
         ++state.running;
     }
     /// Records that a job of the flow ended. `excess`: the measured running time minus the cost of the job. If the flow
-    /// is queued, the caller must then call `enqueueFlow` again, because F has changed.
+    /// is queued, the caller must then call `enqueueFlow` again, because the virtual finish time of its next job has
+    /// changed.
     void recordEnd(FlowState& state, Seconds excess) {
         state.finish += excess;
         maxFinish_ = std::max(maxFinish_, state.finish);
@@ -87,7 +90,7 @@ class FairScheduler {
   private:
     Queue queue_;
     std::size_t activeFlows_ = 0;
-    Seconds virtualTime_{0}, maxFinish_{0};  // V; the largest F of all flows
+    Seconds virtualTime_{0}, maxFinish_{0};  // V, and the largest F of all flows (see FairScheduler)
 };
 
 /// A queue of jobs with hierarchical weighted fair queueing. Each job is in a lane, for example the lane of a session,
@@ -170,7 +173,7 @@ class FairQueue {
 
   private:
     // Learns the ratio of measured to estimated times, weighted toward recent jobs.
-    class Correction {
+    class EstimateCorrection {
       public:
         // Returns the factor by which to multiply estimates. `general`: the prior, which is the factor learned from a
         // larger group of jobs; it dominates while few jobs have been measured.
@@ -189,7 +192,7 @@ class FairQueue {
 
     // The class of all short jobs, or of all long jobs: the scheduler of its clients, and the state of the class as a
     // flow of `scheduler_`.
-    struct Class {
+    struct JobClass {
         FairScheduler<ClientFlowPtr> clients;
         FairScheduler<JobLength>::FlowState state;
     };
@@ -208,9 +211,9 @@ class FairQueue {
     const std::size_t maxLongRunning_;  // number of threads that are not reserved
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
-    PerClass<Class> classes_;
+    PerClass<JobClass> classes_;
     FairScheduler<JobLength> scheduler_;  // decides which class is served next
-    Correction correction_;               // from the jobs of all clients
+    EstimateCorrection correction_;       // learned from the jobs of all clients
     RecentLanes recentShortLanes_;        // active lanes, each with the time of its last short job; earliest first
 };
 
@@ -218,10 +221,10 @@ class FairQueue {
 /// must be in the same queue.
 class FairQueue::ClientFlow {
     friend FairQueue;
-    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;  // the client as a flow of Class::clients
+    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;  // the client's state as a flow in JobClass::clients
     PerClass<FairScheduler<LanePtr>> lanes_;                    // the schedulers of the client's lanes
     std::size_t waiting_ = 0;
-    Correction correction_;
+    EstimateCorrection correction_;
 };
 
 /// A first-in, first-out queue of a client's jobs, such as those for one session.
@@ -234,7 +237,7 @@ class FairQueue::Lane {
     const ClientFlowPtr client_;
     PerClass<FairScheduler<LanePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
-    Correction correction_;
+    EstimateCorrection correction_;
     std::optional<RecentLanes::iterator>
         activity_;  // position in FairQueue::recentShortLanes_; empty if the lane is not active
     std::optional<Clock::time_point> lastLong_;  // when the last long job was queued; empty if there was none

@@ -17,12 +17,12 @@ class ForkJoin {
     using Job = std::function<void()>;
 
     /// Marks one processor as busy as long as this object exists.
-    class BusyProcessor {
+    class BusyProcessorGuard {
       public:
-        explicit BusyProcessor(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
-        ~BusyProcessor() { --busy_; }
-        BusyProcessor(const BusyProcessor&) = delete;
-        BusyProcessor& operator=(const BusyProcessor&) = delete;
+        explicit BusyProcessorGuard(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
+        ~BusyProcessorGuard() { --busy_; }
+        BusyProcessorGuard(const BusyProcessorGuard&) = delete;
+        BusyProcessorGuard& operator=(const BusyProcessorGuard&) = delete;
 
       private:
         std::atomic<unsigned>& busy_;

@@ -28,21 +28,21 @@ class ThreadOwnerAssertion {
 /// object. A copy of the object starts as not in use.
 class ExclusiveUseAssertion {
   public:
-    /// Marks the object as in use as long as this Use exists. The constructor asserts that no other Use of the same
-    /// object exists.
-    class Use {
+    /// Marks the object as in use as long as this ScopedUse exists. The constructor asserts that the object has no
+    /// other ScopedUse.
+    class ScopedUse {
       public:
 #ifdef NDEBUG
-        explicit Use(ExclusiveUseAssertion& /*used*/) {}
+        explicit ScopedUse(ExclusiveUseAssertion& /*used*/) {}
 #else
-        explicit Use(ExclusiveUseAssertion& used) : used_(used) {
+        explicit ScopedUse(ExclusiveUseAssertion& used) : used_(used) {
             const bool alone = !used_.inUse_.exchange(true);
             assert(alone && "used by two threads at once");
             (void)alone;
         }
-        ~Use() { used_.inUse_ = false; }
-        Use(const Use&) = delete;
-        Use& operator=(const Use&) = delete;
+        ~ScopedUse() { used_.inUse_ = false; }
+        ScopedUse(const ScopedUse&) = delete;
+        ScopedUse& operator=(const ScopedUse&) = delete;
 
       private:
         ExclusiveUseAssertion& used_;

@@ -90,7 +90,7 @@ void WorkerPool::run(std::size_t worker) {
         lock.unlock();
         const auto start = options_.now();
         {
-            std::optional<ForkJoin::BusyProcessor> work;
+            std::optional<ForkJoin::BusyProcessorGuard> work;
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             runJob(next->job, worker);
         }

@@ -87,7 +87,7 @@ class WorkerPool {
     // The next four members are guarded by mutex_, and so are the contents of lanes and clients.
     FairQueue queue_;
     Seconds busyTime_{0};
-    bool cleanUp_ = false;  // see cleanUpWhenIdle()
+    bool cleanUp_ = false;  // whether cleanUpWhenIdle() has been called, and no worker has called `whenIdle` since
     bool stopping_ = false;
     std::vector<std::thread> threads_;  // changed only by the constructor and stop()
 };

@@ -15,12 +15,12 @@ Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::For
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), limits_(limits), workspace_(forkJoin) {}
 
 slicing::SectionNamePair Pipeline::nameFocusSection(const session::State& state) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     return workspace_.sectionNamer.names(state);
 }
 
 void Pipeline::slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     times_ = {};
     times_.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
@@ -36,7 +36,7 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
 void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                            std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
                            std::string& out, slicing::Quality quality) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_.composer.limitFill(limits_.fillSteps);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
@@ -49,7 +49,7 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
 std::string Pipeline::describePoint(const session::State& state, const slicing::SliceSet& slices,
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_.composer.limitFill(0);  // pickElement() does not use the triangles that fill faces
     workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                 workspace_.scene);
@@ -59,7 +59,7 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
                        slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     times_ = {};
     slicing::checkSliceEdges(state.object, state.orientation, state.hyperplanes(), limits_.sliceEdges);
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
@@ -69,7 +69,7 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
 }
 
 void Pipeline::freeMemory() {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_ = Workspace(forkJoin_);
     rasterizer_->freeMemory();
 }

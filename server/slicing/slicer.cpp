@@ -6,7 +6,7 @@ namespace oval4d::slicing {
 
 void Slicer::slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                    const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out) {
-    const parallel::ExclusiveUseAssertion::Use use(inUse_);
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     out.ballScale.clear();
     out.ballOpacity.clear();
     if (fieldIn(object) == nullptr) {

@@ -37,7 +37,7 @@ TEST(ForkJoin, restsWhereEveryProcessorHasWork) {
     ForkJoin forkJoin;
     const auto own = std::this_thread::get_id();
     {
-        std::list<ForkJoin::BusyProcessor> all;
+        std::list<ForkJoin::BusyProcessorGuard> all;
         for (unsigned i = 0; i < std::thread::hardware_concurrency(); ++i) all.emplace_back(forkJoin);
         EXPECT_EQ(threadsOf(forkJoin), (std::array{own, own}));
     }
