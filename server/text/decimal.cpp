@@ -76,8 +76,9 @@ using Int32x4 = std::int32_t __attribute__((vector_size(16)));
 // groups do not depend on each other.
 constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of the vector sizes 3 and 4
 
-// The numbers of a block as text. The first character of a text is in the lowest byte.
-struct Block {
+// The texts of the numbers of a block, each in two integers: `head`, whose lowest byte is the first character, and
+// `digits`.
+struct FormattedNumbers {
     alignas(32) std::uint64_t head[kBlock];        // per number: its text through the second decimal
     alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
     // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
@@ -92,15 +93,15 @@ struct Block {
 // The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
 // power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple is therefore read back as the same
 // float. At most one multiple of 10^(1 − p) is read back as the same float, too; if there is one, it is shorter and is
-// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound: Block
-// has room for ten decimals only; and a power of two must be written exactly, because the spacing of the floats below
-// it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the upper bound: Block
-// has room for only two digits before the point.
+// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound:
+// FormattedNumbers has room for ten decimals only; and a power of two must be written exactly, because the spacing of
+// the floats below it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the
+// upper bound: FormattedNumbers has room for only two digits before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
 // kExponentMask selects the exponent bits of a float. These bits minus kHalfSpacing are the float 2^(e − 24), half of
 // the spacing.
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
-constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p
+constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p (for p, see above)
 
 // Tables for the unit 10^−p, with the index 10 − p: kUnitsPerOne contains 10^p, and kUnitSize contains the unit itself
 // as a multiple of 10^−10. Floats represent all of these numbers exactly.
@@ -143,7 +144,7 @@ constexpr double kRounder = 0x1.8p52;
     return tens | plus(pairs, lowTimes(tens, -10)) << 8;
 }
 
-[[gnu::target("avx2")]] void convert(const double* numbers, Block& out) {
+[[gnu::target("avx2")]] void convert(const double* numbers, FormattedNumbers& out) {
     Int32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
     Double4 unitsPerOne[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
     Uint64x4 digits[kGroups], first[kGroups];
@@ -198,7 +199,7 @@ constexpr double kRounder = 0x1.8p52;
 template <std::size_t Size>
 [[gnu::target("avx2")]] char* putBlock(char* at, const double* numbers, std::size_t count) {
     static constexpr auto kSeparators = separators<Size>();
-    Block block;
+    FormattedNumbers block;
     convert(numbers, block);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < count; ++i) {

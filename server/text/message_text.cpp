@@ -61,7 +61,8 @@ std::string_view closestMatch(std::string_view text, std::span<const std::string
     std::string_view best;
     std::size_t least = 2 * kMaxQuotedBytes;
     for (const std::string_view candidate : candidates) {
-        // The distance is at least the difference of the lengths. A file may have thousands of long names.
+        // Skip candidates that are much longer than the text: the distance is at least the difference of the lengths,
+        // and a file may have thousands of long names.
         if (candidate.size() > text.size() + least / 2) continue;
         // Among candidates at the same distance, prefer one of the same length: "25-cell" more likely means 24-cell
         // than 5-cell.

@@ -19,11 +19,11 @@ constexpr std::string_view kCoordinates = "xyzw";
 constexpr std::size_t kRadiusIndex = 4;  // the index of the radius, after those of the coordinates
 
 // The position of each coordinate and of the radius among the columns of a row.
-struct Layout {
+struct ColumnLayout {
     std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
     std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
-    bool radiusMayMiss = false;   // whether the radius is the last column, which rows may lack
-    std::string otherColumns;     // names of the columns that are left out, in quotes
+    bool radiusMayMiss = false;   // whether rows may lack the radius, which is then the last column
+    std::string otherColumns;     // names of the columns that are not read, in quotes
     std::string_view radiusName;  // the name of the radius as the header writes it
 
     bool hasAllCoordinates() const {
@@ -56,8 +56,8 @@ void removeUnits(std::vector<std::string_view>& names) {
 }
 
 // Reads the names of columns. Returns an empty optional if they name fewer than two coordinates.
-std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
-    Layout layout;
+std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
+    ColumnLayout layout;
     layout.count = names.size();
     std::vector<std::string> normalized;
     for (const std::string_view name : names) normalized.push_back(text::normalizedName(withoutUnit(name)));
@@ -83,10 +83,11 @@ std::optional<Layout> layoutOf(std::span<const std::string_view> names) {
     return coordinates >= 2 ? std::optional(std::move(layout)) : std::nullopt;
 }
 
-// Reads the names of columns in a line. Tries several separators, because the names may have another one than the rows.
-// Returns the first layout for which `accepts` returns true; an empty optional if there is none. Changes `row`.
-std::optional<Layout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
-                                 const std::function<bool(const Layout&)>& accepts) {
+// Reads the names of columns in a line. Tries several separators, because the separator of the names may differ from
+// that of the rows. Returns the first layout for which `accepts` returns true; an empty optional if there is none.
+// Changes `row`.
+std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
+                                       const std::function<bool(const ColumnLayout&)>& accepts) {
     for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
         split(line, separator, row);
         if (separator == ' ') removeUnits(row.columns);
@@ -144,9 +145,9 @@ class PointReader {
             return false;
         }
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
-        auto layout = findLayout(line.content, format_, row_, &Layout::hasAllCoordinates);
-        if (!layout) layout = findLayout(line.content, format_, row_, [](const Layout&) { return true; });
-        if (!layout && likeNumbers) return false;  // readRow() then reports the word that is no number
+        auto layout = findLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
+        if (!layout) layout = findLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
+        if (!layout && likeNumbers) return false;  // readRow() then reports a word that is not a number
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
@@ -161,11 +162,12 @@ class PointReader {
         return true;
     }
 
-    // Uses as header the last comment that has a name for each column of the first row. If there is none, warns of a
-    // comment that names the coordinates in another order than x, y, z, w. `row_` must be the first row.
+    // Uses the last comment that has a name for each column of the first row as the header. If there is no such
+    // comment, warns of a comment that names the coordinates in another order than x, y, z, w. `row_` must be the first
+    // row.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
-        const auto fits = [&](const Layout& layout) {
+        const auto fits = [&](const ColumnLayout& layout) {
             const std::size_t size = first.columns.size();
             const bool sameSize = size == layout.count || (first.endsWithSeparator && size < layout.count);
             const bool radiusMisses = format_.separator == ' ' && layout.radiusMayMiss && size + 1 == layout.count;
@@ -176,7 +178,8 @@ class PointReader {
                 return setLayout(std::move(*layout));
         }
         for (const TableLine& line : comments) {
-            const auto layout = findLayout(namesOfComment(line.comment), format_, row_, &Layout::hasAllCoordinates);
+            const auto layout =
+                findLayout(namesOfComment(line.comment), format_, row_, &ColumnLayout::hasAllCoordinates);
             if (!layout || layout->isInOrder()) continue;
             warnings_.push_back("the comment in line " + std::to_string(line.number) +
                                 " does not name each column of the rows, and was not read as a header");
@@ -184,8 +187,8 @@ class PointReader {
         }
     }
 
-    // Uses this layout for the rows, and warns of the columns that are left out.
-    void setLayout(Layout layout) {
+    // Uses this layout for the rows, and warns of the columns that are not read.
+    void setLayout(ColumnLayout layout) {
         layout_ = std::move(layout);
         if (!options_.radii && std::exchange(layout_.columns[kRadiusIndex], std::nullopt)) {
             if (!layout_.otherColumns.empty()) layout_.otherColumns += ", ";
@@ -271,7 +274,7 @@ class PointReader {
     const TableFormat format_;
     const PointTableOptions& options_;
     const std::function<void(const PointRow&)>& add_;
-    Layout layout_;
+    ColumnLayout layout_;
     TableRow row_;
     std::array<CoordinateReader, kRadiusIndex + 1> readers_;
     std::size_t rows_ = 0;

@@ -39,12 +39,12 @@ struct PointTableOptions {
 ///   further columns need a header. The further columns are left out, and may contain text.
 /// - A first row without numbers is the header if it names at least two of the coordinates; otherwise, it is a title,
 ///   and left out. If the first row contains a number, a comment above it is the header, provided that it names every
-///   column; of several such comments, the last one.
+///   column. If several comments do so, the last one is the header.
 /// - The coordinates are called x, y, z and w, or t or time instead of w; the radius is called r or radius. A unit
 ///   may follow a name in brackets or after a slash.
-/// - With a header, each row must have as many columns as the header, otherwise as many as the first row. However, if
-///   blanks separate the columns and the radius is the last column, each row may have a radius or none. A column that
-///   is read must not be empty in any row. There must be at least one row.
+/// - With a header, each row must have as many columns as the header; without one, as many as the first row. However,
+///   if blanks separate the columns and the radius is the last column, each row may have a radius or none. A column
+///   that is read must not be empty in any row. There must be at least one row.
 std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
                                     const std::function<void(const PointRow&)>& add);
 

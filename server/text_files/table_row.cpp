@@ -114,8 +114,8 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         if (!isRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
-        tabs = tabs || between.filled >= kMinColumns;  // if fewer columns are filled, tabs may be mere blanks
-        if (between.numbers >= kMinColumns) {          // tabs separate the columns: other separators are in texts
+        tabs = tabs || between.filled >= kMinColumns;  // with fewer columns, tabs may be used like blanks
+        if (between.numbers >= kMinColumns) {          // then tabs are the separator; others are part of texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }
