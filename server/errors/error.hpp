@@ -49,7 +49,7 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
   public:
-    Result(T value) : held_(std::move(value)) {}      // NOLINT(google-explicit-constructor): for return statements
+    Result(T value) : held_(std::move(value)) {}      // NOLINT(google-explicit-constructor): allows `return value;`
     Result(Error error) : held_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
     explicit operator bool() const { return held_.index() == 0; }

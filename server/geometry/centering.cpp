@@ -35,7 +35,7 @@ glm::dvec4 newOriginFor(const Centering& centering, std::span<const glm::dvec4> 
     if (!(extent > 0)) return center;
     // Rounding removes the errors of the mean: a center such as (10, 10, 0, 0) becomes exact.
     const double unit = std::ldexp(1.0, std::ilogb(extent) - kBitsOfCenter);
-    return glm::round(center / unit) * unit + 0.0;  // no −0
+    return glm::round(center / unit) * unit + 0.0;  // + 0.0 turns −0 into 0
 }
 
 }  // namespace oval4d::geometry

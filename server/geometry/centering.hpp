@@ -16,7 +16,7 @@ struct Centering {
                     ///< `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
-        point,      ///< `place`
+        point,      ///< the point `place`
     };
     OriginChoice choice = OriginChoice::automatic;
     glm::dvec4 place{0};  ///< used only by the choice `point`, in the coordinates of the file

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "zw"};
 
-// v = x i + y j + z k + w; GLM's quaternion constructor takes (w, x, y, z).
+// The quaternion of the vector (x, y, z, w) is x i + y j + z k + w. GLM's quaternion constructor takes (w, x, y, z).
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// A pair of perpendicular planes, one without the w axis and one with it. The elements of kPairs belong to the
-// imaginary units i, j and k in this order (see Rotation(Turn)). The sign of the pair xz, yw is −1 because R_xz turns x
-// toward z, but in the cycle of the units, i → j → k → i, z turns toward x.
+// A pair of perpendicular planes, one without the w axis and one with it. kPairs has a pair for each of the imaginary
+// units i, j and k, in this order (see Rotation(Turn)). `sign` is −1 for the pair xz, yw: the rotation in xz turns x
+// toward z, against the cycle i → j → k → i of the units, in which z (k) turns toward x (i).
 struct PlanePair {
     Plane spatial, withW;
     double sign;
@@ -31,7 +31,7 @@ glm::dquat exponential(const glm::dvec3& v) {
     return {std::cos(angle), v * (std::sin(angle) / angle)};
 }
 
-// Returns the shortest v with exp(v) = q, for a unit quaternion q; (π, 0, 0) for −1.
+// Returns the shortest v with exp(v) = q, for a unit quaternion q. For q = −1, returns (π, 0, 0).
 glm::dvec3 logarithm(const glm::dquat& q) {
     const glm::dvec3 imaginary(q.x, q.y, q.z);
     const double sine = glm::length(imaginary);
@@ -111,7 +111,7 @@ Rotation::Rotation(const Turn& turn) {
 }
 
 Turn Rotation::turn() const {
-    const double sign = left_.w + right_.w < 0 ? -1 : 1;  // the pair (l, r) or (−l, −r) with the smaller angles
+    const double sign = left_.w + right_.w < 0 ? -1 : 1;  // −1 if (−l, −r) has smaller angles than (l, r)
     const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);
     constexpr double kRounding = 1e-12;
     Turn result;

@@ -20,14 +20,15 @@
 // - addedMember(…): like member(…), for a member that records of earlier versions lack; such records leave its value
 //   unchanged
 // - rotation(number, value): a rotation, as two quaternions with the numbers `number` and `number` + 1
-// - array(number, visitThem): an array of its own, whose members visitThem(visit) visits
+// - array(number, visitThem): members that are stored together, as an array of their own with the index `number`;
+//   visitThem(visit) visits them
 // - object(number, value): a 4-D object; only State has one
 
 #include <type_traits>
 
 namespace oval4d::serialization {
 
-/// `Struct` if it is read, `const Struct` if it is written.
+/// Satisfied by `Struct`, for reading its members, and by `const Struct`, for writing them.
 template <typename T, typename Struct>
 concept ReadOrWritten = std::is_same_v<std::remove_const_t<T>, Struct>;
 
