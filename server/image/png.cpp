@@ -22,7 +22,7 @@ constexpr char kStateHeader[] = "oval4d\0\0\0\0";
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
 constexpr int kLevel = 1;
 constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-constexpr std::size_t kLarge = 1'000'000;  // in bytes, before compression; below it, two cores are not faster
+constexpr std::size_t kLarge = 1'000'000;  // in bytes before compression; for less data, one core is as fast as two
 
 void store32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -129,7 +129,7 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     endChunk(out, chunk);
 
     chunk = beginChunk(out, "iTXt");
-    append(out, kStateHeader, sizeof kStateHeader);  // the literal's terminating zero is the last separator
+    append(out, kStateHeader, sizeof kStateHeader);  // with the final zero, which ends the translated keyword
     append(out, state.data(), state.size());
     endChunk(out, chunk);
 

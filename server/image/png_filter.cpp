@@ -35,7 +35,7 @@ void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std
 
 #if defined(__x86_64__)
 
-using Block = std::uint8_t __attribute__((vector_size(32)));
+using EightPixels = std::uint8_t __attribute__((vector_size(32)));
 
 // Like subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
 // are its left, upper and upper-left neighbors. If a and b are both greater or both less than c, then c is the farthest
@@ -46,21 +46,21 @@ __attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, 
                                                        std::uint8_t* out, std::size_t count) {
     std::size_t i = 0;
     for (; i + 11 <= count; i += 8) {
-        Block x, a, b, c;
+        EightPixels x, a, b, c;
         std::memcpy(&x, row + 4 * i, sizeof x);
         std::memcpy(&a, row + 4 * i - 4, sizeof a);
         std::memcpy(&b, above + 4 * i, sizeof b);
         std::memcpy(&c, above + 4 * i - 4, sizeof c);
-        const Block mostA = a > c ? a : c, leastA = a < c ? a : c;
-        const Block mostB = b > c ? b : c, leastB = b < c ? b : c;
-        const Block toA = mostB - leastB, toB = mostA - leastA;
-        const Block nearer = toA < toB ? toA : toB, farther = toA > toB ? toA : toB;
-        const Block sameSide = (mostA == a) == (mostB == b);
-        const Block toC = (farther - nearer) | sameSide;
-        const Block best = nearer < toC ? nearer : toC;
-        const Block d = x - (best == toA ? a : best == toB ? b : c);
-        const Block rgb = __builtin_shufflevector(d, d, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 16, 17, 18, 20, 21, 22,
-                                                  24, 25, 26, 28, 29, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+        const EightPixels mostA = a > c ? a : c, leastA = a < c ? a : c;
+        const EightPixels mostB = b > c ? b : c, leastB = b < c ? b : c;
+        const EightPixels toA = mostB - leastB, toB = mostA - leastA;
+        const EightPixels nearer = toA < toB ? toA : toB, farther = toA > toB ? toA : toB;
+        const EightPixels sameSide = (mostA == a) == (mostB == b);
+        const EightPixels toC = (farther - nearer) | sameSide;
+        const EightPixels best = nearer < toC ? nearer : toC;
+        const EightPixels d = x - (best == toA ? a : best == toB ? b : c);
+        const EightPixels rgb = __builtin_shufflevector(d, d, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 16, 17, 18, 20,
+                                                        21, 22, 24, 25, 26, 28, 29, 30, 3, 7, 11, 15, 19, 23, 27, 31);
         std::memcpy(out + 3 * i, &rgb, sizeof rgb);
     }
     subtractPaethScalar(row + 4 * i, above + 4 * i, out + 3 * i, count - i);

@@ -152,7 +152,7 @@ void ChildProcess::converse(const Conversation& conversation, const std::stop_to
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
-            end(true);  // otherwise, the next conversation could receive a late reply of this conversation
+            end(true);  // kills the process, which could send a late reply into the next conversation
             throw;
         }
         if (transfer == TransferResult::complete) return;

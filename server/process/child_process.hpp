@@ -16,7 +16,7 @@
 
 namespace oval4d::process {
 
-/// The file descriptor of the channel in a child process.
+/// The file descriptor by which a child process uses its channel to the server.
 inline constexpr int kChildSocket = 3;
 
 using parallel::Canceled;

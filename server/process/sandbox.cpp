@@ -120,9 +120,9 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
 /// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. `allThreads`: whether the
 /// filter applies to all threads of the process, or only to the calling one. Rules for calls that do not exist on this
 /// architecture are skipped.
-class Filter {
+class SeccompFilter {
   public:
-    Filter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
+    SeccompFilter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
         if (!context_) check(-ENOMEM);
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
         // Kill the process for calls of another architecture, such as 32-bit ones: no part of this program makes them.
@@ -169,7 +169,7 @@ void limitResource(decltype(RLIMIT_AS) resource, rlim_t most) {
 
 /// Returns the private writable memory in use, in bytes: the memory that RLIMIT_DATA limits, and the stack.
 std::size_t dataInUse() {
-    std::array<std::size_t, 6> pages{};  // size, resident, shared, text, lib, data
+    std::array<std::size_t, 6> pages{};  // the columns of statm: size, resident, shared, text, lib, data
     std::ifstream statm("/proc/self/statm");
     for (std::size_t& each : pages) statm >> each;
     return pages.back() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -185,7 +185,7 @@ bool canFilter(std::string& why) {
     // The trial filter applies to one temporary thread, and ends with this thread.
     std::thread([&why] {
         try {
-            Filter filter(SCMP_ACT_ALLOW, false);
+            SeccompFilter filter(SCMP_ACT_ALLOW, false);
             filter.load();
         } catch (const std::exception& fault) {
             why = fault.what();
@@ -196,7 +196,7 @@ bool canFilter(std::string& why) {
 
 /// Restricts all threads of this process, from now on, to the system calls that `role` needs.
 void filterSystemCalls(Role role) {
-    Filter filter(SCMP_ACT_ERRNO(EPERM), true);
+    SeccompFilter filter(SCMP_ACT_ERRNO(EPERM), true);
     filter.add(SCMP_ACT_ALLOW, kCommonCalls);
     for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
     for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, STDERR_FILENO)});
