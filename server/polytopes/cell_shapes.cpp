@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kShapeTolerance = 0.01;  // relative, for the comparison of two lengths
+constexpr double kShapeTolerance = 0.01;  // the relative tolerance in comparisons of two lengths
 
 bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * std::max(a, b); }
 
@@ -142,7 +142,7 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     // The vertices of a right antiprism lie on a sphere. Therefore the vertices of a base lie on a circle, and a base
     // with equally long edges is regular.
     if (!areAllEqual(radiiOf(p, tally))) return {};
-    std::vector<std::uint32_t> bases;  // two; or, if n = 3, all eight triangles
+    std::vector<std::uint32_t> bases;  // the two n-gons or, if n = 3, all eight triangles
     for (const std::uint32_t f : p.cells[cell]) {
         if (p.faces[f].size() == n) bases.push_back(f);
     }

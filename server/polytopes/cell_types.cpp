@@ -16,8 +16,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kCongruenceTolerance = 1.0 / 500;  // relative to the polytope's extent
-constexpr double kRegularityTolerance = 0.01;       // relative, for the lengths in one cell
+constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to the polytope's extent
+constexpr double kRegularityTolerance = 0.01;       // for lengths in one cell, relative to the greatest
 
 // The least, the root-mean-square and the greatest of some lengths.
 struct LengthStatistics {
@@ -34,7 +34,7 @@ struct LengthStatistics {
     bool areEqual() const { return most - least <= kRegularityTolerance * most; }
 };
 
-// Metric invariants of a cell.
+// Measurements of a cell that do not depend on its position. They are equal for congruent cells.
 struct CellInvariants {
     std::uint32_t vertices = 0;
     LengthStatistics edges, radii;  // radii: distances of the vertices from their mean

@@ -11,7 +11,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;  // relative to extentOf() the polytope
+constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to extentOf()
 // The angles around an edge or vertex add up to 2π or to at least 4π. This number distinguishes the two cases.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
 

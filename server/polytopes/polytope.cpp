@@ -19,13 +19,13 @@ namespace {
 
 using geometry::kNone;
 
-using Part = InvalidPolytope::Part;
+using FaultLocation = InvalidPolytope::FaultLocation;
 
-[[noreturn]] void refuse(const std::string& what) { throw InvalidPolytope(Part::whole, 0, what); }
+[[noreturn]] void refuse(const std::string& what) { throw InvalidPolytope(FaultLocation::whole, 0, what); }
 
-std::string nameOf(Part part, std::size_t index) {
-    if (part == Part::whole) return {};
-    return (part == Part::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
+std::string nameOf(FaultLocation part, std::size_t index) {
+    if (part == FaultLocation::whole) return {};
+    return (part == FaultLocation::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
 }
 
 // Throws InvalidPolytope if a vertex follows itself in the loop of a 2-face.
@@ -34,7 +34,7 @@ void checkLoops(const geometry::JaggedArray& faces) {
         const auto loop = faces[f];
         for (std::size_t i = 0; i < loop.size(); ++i) {
             if (loop[i] == loop[(i + 1) % loop.size()])
-                throw InvalidPolytope(Part::face, f, "repeats vertex " + std::to_string(loop[i]));
+                throw InvalidPolytope(FaultLocation::face, f, "repeats vertex " + std::to_string(loop[i]));
         }
     }
 }
@@ -58,7 +58,8 @@ class Orienter {
                 recordIncidence(c, incidence);
         }
         for (std::size_t f = 0; f < incidencesOfFace_.size(); ++f) {
-            if (incidencesOfFace_[f][1] == kNone) throw InvalidPolytope(Part::face, f, "does not lie in two cells");
+            if (incidencesOfFace_[f][1] == kNone)
+                throw InvalidPolytope(FaultLocation::face, f, "does not lie in two cells");
         }
         for (std::uint32_t incidence = 0; incidence < p_.cellSigns.size(); ++incidence) {
             if (p_.cellSigns[incidence] == 0) orientComponent(incidence);
@@ -80,7 +81,7 @@ class Orienter {
         cellOfIncidence_[incidence] = cell;
         const std::uint32_t face = p_.cells.items[incidence];
         auto& incidences = incidencesOfFace_[face];
-        if (incidences[1] != kNone) throw InvalidPolytope(Part::face, face, "lies in more than two cells");
+        if (incidences[1] != kNone) throw InvalidPolytope(FaultLocation::face, face, "lies in more than two cells");
         incidences[incidences[0] == kNone ? 0 : 1] = incidence;
     }
 
@@ -106,7 +107,7 @@ class Orienter {
                     p_.cellSigns[other] = static_cast<std::int8_t>(-p_.cellSigns[s]);
                     waiting.push_back(other);
                 } else if (p_.cellSigns[other] == p_.cellSigns[s]) {
-                    throw InvalidPolytope(Part::face, p_.cells.items[s],
+                    throw InvalidPolytope(FaultLocation::face, p_.cells.items[s],
                                           "lies where the boundary cannot be oriented consistently");
                 }
             }
@@ -140,19 +141,19 @@ class Orienter {
         for (std::size_t i = 0; i < directedEdges.size(); i += 2) {
             if (i + 1 == directedEdges.size() || directedEdges[i].edge != directedEdges[i + 1].edge ||
                 (i + 2 < directedEdges.size() && directedEdges[i + 2].edge == directedEdges[i].edge)) {
-                throw InvalidPolytope(Part::cell, cell,
+                throw InvalidPolytope(FaultLocation::cell, cell,
                                       "is not closed: one of its edges does not lie in exactly two of its 2-faces");
             }
         }
         propagateSigns(directedEdges, begin, end);
         if (std::count(signs.begin(), signs.end(), 0) != 0) {
-            throw InvalidPolytope(Part::cell, cell, "consists of several disconnected pieces");
+            throw InvalidPolytope(FaultLocation::cell, cell, "consists of several disconnected pieces");
         }
         for (std::size_t i = 0; i < directedEdges.size(); i += 2) {
             if (p_.cellSigns[directedEdges[i].incidence] * directedEdges[i].direction +
                     p_.cellSigns[directedEdges[i + 1].incidence] * directedEdges[i + 1].direction !=
                 0) {
-                throw InvalidPolytope(Part::cell, cell, "is not orientable");
+                throw InvalidPolytope(FaultLocation::cell, cell, "is not orientable");
             }
         }
         return true;
@@ -207,7 +208,7 @@ class Orienter {
     std::vector<bool> done_;
 };
 
-void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part owner, const char* member,
+void checkIndices(const geometry::JaggedArray& lists, std::size_t below, FaultLocation owner, const char* member,
                   std::size_t least) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
         if (lists[i].size() < least)
@@ -255,7 +256,7 @@ void findFacesAtEdges(Polytope& p) {
 
 }  // namespace
 
-InvalidPolytope::InvalidPolytope(Part element, std::size_t number, const std::string& fault)
+InvalidPolytope::InvalidPolytope(FaultLocation element, std::size_t number, const std::string& fault)
     : std::invalid_argument(nameOf(element, number) + fault), part(element), index(number), detail(fault) {}
 
 double extentOf(const Polytope& polytope) {
@@ -282,8 +283,8 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
         p.circumradius = std::max(p.circumradius, r);
     }
     if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
-    checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
-    checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
+    checkIndices(p.faces, p.vertices.size(), FaultLocation::face, "vertices", 3);
+    checkIndices(p.cells, p.faces.size(), FaultLocation::cell, "2-faces", 4);
     checkLoops(p.faces);
     findEdges(p);
     p.convexFaces = hasConvexFaces(p);

@@ -23,8 +23,9 @@ using geometry::CellType;
 struct Polytope : geometry::CellComplex {
     /// The 2-faces around each edge, in cyclic order: 2-face f is stored as 2 f + 1 if its vertex loop traverses the
     /// edge from the edge's first vertex to its second, else as 2 f. The cell between an entry s and the next entry of
-    /// its cycle is faceCells[s / 2][1 − s mod 2]. If several bodies meet in an edge, it has several cycles, one after
-    /// another; a cycle ends with the entry that is followed by the cell before its first entry.
+    /// its cycle is faceCells[s / 2][1 − s mod 2]. If several bodies meet in an edge, the edge has several cycles,
+    /// which are stored one after another. In each cycle, the cell after the last entry is the cell before the first
+    /// entry.
     geometry::JaggedArray edgeFaces;
 
     std::size_t cellCount() const { return cells.size(); }
@@ -34,17 +35,17 @@ struct Polytope : geometry::CellComplex {
 /// of the position of the polytope.
 double extentOf(const Polytope& polytope);
 
-/// Thrown by makePolytope() for elements that do not form a valid polytope; identifies the invalid element.
+/// Thrown by makePolytope() for elements that do not form a valid polytope. Says which element is invalid.
 class InvalidPolytope : public std::invalid_argument {
   public:
-    enum class Part : std::uint8_t { whole, face, cell };
+    enum class FaultLocation : std::uint8_t { whole, face, cell };  ///< what is invalid: the polytope, or one element
 
-    /// `number` is the index of the 2-face or cell; 0 for the whole polytope. `fault` says what is wrong without naming
-    /// the element, such as "does not lie in two cells". what() returns the name and the fault: "2-face 7 does not lie
-    /// in two cells".
-    InvalidPolytope(Part element, std::size_t number, const std::string& fault);
+    /// `number` is the index of the invalid 2-face or cell; 0 for the whole polytope. `fault` says what is wrong
+    /// without naming the element, such as "does not lie in two cells". what() returns the name and the fault: "2-face
+    /// 7 does not lie in two cells".
+    InvalidPolytope(FaultLocation element, std::size_t number, const std::string& fault);
 
-    Part part;
+    FaultLocation part;  ///< whether the whole polytope, a 2-face or a cell is invalid
     std::size_t index;   ///< the index of the 2-face or cell; 0 for the whole polytope
     std::string detail;  ///< what is wrong, without the name of the element
 };

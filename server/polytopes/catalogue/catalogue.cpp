@@ -52,7 +52,8 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
                    std::move(aliases));
 }
 
-// The duoprisms and antiprism prisms in the catalogue, with Bowers' short names (empty if there is none).
+// A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name (empty if there is
+// none).
 struct DuoprismRow {
     int p, q;
     std::string_view bowersName;
@@ -70,6 +71,7 @@ constexpr auto kDuoprisms = std::to_array<DuoprismRow>({{3, 3, "triddip"},
                                                         {8, 8, "odip"},
                                                         {12, 12, ""},
                                                         {3, 24, ""}});
+// The antiprism prisms in the catalogue: the number of sides of the antiprism's base, and Bowers' short name.
 constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>>(
     {{4, "squappip"}, {5, "pappip"}, {6, "happip"}, {8, "oappip"}, {10, "dappip"}});
 

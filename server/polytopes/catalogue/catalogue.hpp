@@ -16,12 +16,12 @@ namespace oval4d::polytopes {
 
 /// An entry of the catalogue. The numbers and symbols come from the design, without building the polytope.
 struct CatalogueEntry {
-    std::string name;                  ///< "24-cell"
+    std::string name;                  ///< such as "24-cell"
     std::string family;                ///< "regular", "star", "uniform A4" (or B4, F4, H4), "other", "prism",
                                        ///< "antiprism prism", "duoprism"
-    std::vector<std::string> aliases;  ///< other names, lower case: "icositetrachoron", "ico", "rectified 16-cell"
-    std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, "x3o4o3o", or empty
-    std::string schlaefli;             ///< Schläfli symbol, "{3,4,3}", or empty
+    std::vector<std::string> aliases;  ///< other names in lower case, such as "ico" and "rectified 16-cell"
+    std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o", or empty
+    std::string schlaefli;             ///< Schläfli symbol, such as "{3,4,3}", or empty
     std::uint32_t vertices, edges, faces, cells;  ///< the numbers of elements
     std::uint32_t symmetryOrder;                  ///< the order of the full symmetry group, which includes reflections
     Design design;

@@ -47,7 +47,8 @@ class PolytopeCache {
         std::weak_ptr<const Polytope> polytope;
     };
 
-    // Like find() for polytopes other than the 5-cell, but does not mark the polytope as used.
+    // Returns the polytope of this design, which must not be the 5-cell, if the cache finds it, else nullptr. Unlike
+    // find(), does not mark the polytope as used.
     Shared peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<Slot> slotOf(const std::string& name);

@@ -21,8 +21,9 @@ namespace {
 
 constexpr double kPhi = std::numbers::phi;
 
-// A linear diagram with the branches p, q, r, and its mirrors in the position that gives the coordinates in common use.
-struct PlacedFamily {
+// A diagram that is a chain with the branches p, q and r, and its mirrors, placed such that its polytopes have the
+// coordinates in common use.
+struct DiagramWithMirrors {
     std::array<Branch, 3> branches;
     Mirrors mirrors;
 };
@@ -32,8 +33,8 @@ Mirrors normalized(Mirrors mirrors) {
     return mirrors;
 }
 
-const std::array<PlacedFamily, 4>& placedFamilies() {
-    static const std::array<PlacedFamily, 4> kPlaced = [] {
+const std::array<DiagramWithMirrors, 4>& placedFamilies() {
+    static const std::array<DiagramWithMirrors, 4> kPlaced = [] {
         // The vertices of the 5-cell of Kageyama's paper. Mirror i swaps the vertices i and i + 1.
         const double y = 1 / std::sqrt(3.0);
         const double z = -1 / std::sqrt(6.0);
@@ -45,7 +46,7 @@ const std::array<PlacedFamily, 4>& placedFamilies() {
         const Branch three{3, 1};
         const Branch four{4, 1};
         const Branch five{5, 1};
-        return std::array<PlacedFamily, 4>{{
+        return std::array<DiagramWithMirrors, 4>{{
             {{three, three, three}, normalized(a4)},
             {{four, three, three}, normalized({{{0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}, {1, -1, 0, 0}}})},
             {{three, four, three}, normalized({{{1, -1, -1, -1}, {0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}}})},
@@ -78,13 +79,13 @@ Mirrors placedByAngles(const Diagram& diagram) {
     return mirrors;
 }
 
-// The action of the mirrors on an orbit. The members of the orbit are numbered from 0. Entry 4 · m + k is the number of
-// the image of member m under the reflection in mirror k.
-using Images = std::vector<std::uint32_t>;
+// How the reflections permute an orbit, whose members are numbered from 0. Entry 4 · m + k is the number of the image
+// of member m under the reflection in mirror k.
+using ReflectionImages = std::vector<std::uint32_t>;
 
 struct Orbit {
     std::vector<glm::dvec4> points;
-    Images images;
+    ReflectionImages images;
 };
 
 Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) {
@@ -108,11 +109,12 @@ Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) 
 class SetOrbits {
   public:
     geometry::JaggedArray lists;
-    Images images;
+    ReflectionImages images;
 
     /// Adds the orbit of `seed` and returns the number of the seed; std::nullopt if an earlier orbit contains the seed.
-    /// `memberImages` is the action of the mirrors on the members of the sets.
-    std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
+    /// `memberImages` has the images of the members of the sets under the reflections.
+    std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed,
+                                          const ReflectionImages& memberImages) {
         const auto first = static_cast<std::uint32_t>(lists.size());
         if (add(seed) != first) return std::nullopt;
         std::vector<std::uint32_t> moved;
@@ -150,7 +152,7 @@ class SetOrbits {
 // Returns the vertex loop of the polygon that mirrors a and b generate from the generating vertex p (vertex 0). Its
 // vertices are the images of p and of a·p under the powers of the rotation ab. If only one of the two mirrors is
 // ringed, p and a·p have the same images.
-std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::uint32_t b) {
+std::vector<std::uint32_t> polygon(const ReflectionImages& images, std::uint32_t a, std::uint32_t b) {
     const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
     if (image(0, a) == 0) std::swap(a, b);
     const std::uint32_t beside = image(0, a);
@@ -169,7 +171,8 @@ std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::u
 
 // Returns the 2-faces of the cell that the mirrors of `set` generate. They are the images of `seeds`, which are the
 // cell's 2-faces at the generating vertex, under the group of these mirrors.
-std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint32_t>& seeds, const Images& faceImages) {
+std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint32_t>& seeds,
+                                     const ReflectionImages& faceImages) {
     std::vector<std::uint32_t> faces(seeds);
     std::unordered_set<std::uint32_t> known(seeds.begin(), seeds.end());
     for (std::size_t i = 0; i < faces.size(); ++i) {

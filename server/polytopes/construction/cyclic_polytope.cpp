@@ -30,7 +30,7 @@ namespace {
 constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
 
 // The number of cells grows with the square of the number of vertices, so the general limit of vertices would allow
-// billions of cells. This limit allows as many as hulls may have.
+// billions of cells. This limit allows as many cells as a hull may have (kMaxHullCells).
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
@@ -61,9 +61,10 @@ class CyclicPolytope : public Recipe {
     Polytope build(const std::string& name) const override {
         const std::uint32_t n = n_;
         const double step = 2 * std::numbers::pi / n;
-        // Gives the edges between neighbors the length 2. An edge between vertices that are k steps apart has the
-        // length 2r √(s + 4s(1 − s)), where s = sin²(kπ/n). The radicand is a concave function of s, so it is least for
-        // the least s, which neighbors have, or for s = 1, where it is 1; for neighbors, it is at most 1.
+        // With this radius r, the edges between neighbors have the length 2, and no edge is shorter: an edge between
+        // vertices that are k steps apart has the length 2r √(s + 4s(1 − s)), where s = sin²(kπ/n). The radicand is a
+        // concave function of s, so it is least for neighbors, which have the least s, or for s = 1. It is 1 for s = 1,
+        // and at most 1 for neighbors.
         const double radius = 1 / std::hypot(std::sin(step / 2), std::sin(step));
         std::vector<glm::dvec4> vertices;
         for (std::uint32_t k = 0; k < n; ++k) {
@@ -83,7 +84,7 @@ class CyclicPolytope : public Recipe {
         };
 
         geometry::JaggedArray cells;
-        std::vector<std::uint32_t> orbits;  // of the cells under the symmetry group
+        std::vector<std::uint32_t> orbits;  // per cell: its orbit under the symmetry group
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = i + 2; j < n; ++j) {
                 const std::uint32_t steps = j - i;

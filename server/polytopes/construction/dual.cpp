@@ -69,7 +69,7 @@ class DualRecipe : public Recipe {
 }  // namespace
 
 std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
-    constexpr double kLeastDistance = 1e-6;  // of a hyperplane from the origin, relative to the circumradius
+    constexpr double kLeastDistance = 1e-6;  // the least distance of a hyperplane from the origin, in circumradii
     std::vector<glm::dvec4> poles;
     for (std::uint32_t c = 0; c < polytope.cells.size(); ++c) {
         const glm::dvec4 foot = footOf(polytope, c);

@@ -60,7 +60,7 @@ class Duoantiprism : public Recipe {
     }
 
     Polytope build(const std::string& name) const override {
-        const std::uint32_t m = 2 * p_, n = 2 * q_;  // the numbers of points on the circles
+        const std::uint32_t m = 2 * p_, n = 2 * q_;  // the numbers of points on the two circles
         std::vector<glm::dvec4> vertices;
         for (std::uint32_t i = 0; i < m; ++i) {
             for (std::uint32_t j = i % 2; j < n; j += 2)
@@ -92,7 +92,7 @@ class Duoantiprism : public Recipe {
         // All other 2-faces are triangles. Each of these triangles lies between an antiprism and the disphenoid whose
         // corners are the four neighbors of a removed vertex (i, j).
         geometry::JaggedArray cells;
-        std::vector<std::uint32_t> orbits;  // of the cells under the symmetry group
+        std::vector<std::uint32_t> orbits;  // per cell: its orbit under the symmetry group
         for (std::uint32_t i = 0; i < m; ++i) {
             for (std::uint32_t j = 1 - i % 2; j < n; j += 2) {
                 const std::uint32_t beforeI = vertex(i + m - 1, j), afterI = vertex(i + 1, j);

@@ -48,18 +48,18 @@ struct Notation {
     std::optional<DesignOrError> (*parse)(const NameWords& text);
 };
 
-extern const Notation kDualNotation;                       // dual.cpp
-extern const Notation kOverPolyhedronNotation;             // over_polyhedra.cpp
-extern const Notation kTruncationOrRectificationNotation;  // truncation_or_rectification.cpp
-extern const Notation kCombinationNotation;                // combination.cpp
-extern const Notation kSchlaefliNotation;                  // diagram_names.cpp
-extern const Notation kDiagramNotation;                    // diagram_names.cpp
-extern const Notation kSnubPrismDiagramNotation;           // prism_names.cpp
-extern const Notation kDuoprismNotation;                   // prism_names.cpp
-extern const Notation kDuoantiprismNotation;               // duoantiprism.cpp
-extern const Notation kCyclicPolytopeNotation;             // cyclic_polytope.cpp
-extern const Notation kPrismNotation;                      // prism_names.cpp
-extern const Notation kOperationNotation;                  // diagram_names.cpp
+extern const Notation kDualNotation;                       // defined in dual.cpp
+extern const Notation kOverPolyhedronNotation;             // defined in over_polyhedra.cpp
+extern const Notation kTruncationOrRectificationNotation;  // defined in truncation_or_rectification.cpp
+extern const Notation kCombinationNotation;                // defined in combination.cpp
+extern const Notation kSchlaefliNotation;                  // defined in diagram_names.cpp
+extern const Notation kDiagramNotation;                    // defined in diagram_names.cpp
+extern const Notation kSnubPrismDiagramNotation;           // defined in prism_names.cpp
+extern const Notation kDuoprismNotation;                   // defined in prism_names.cpp
+extern const Notation kDuoantiprismNotation;               // defined in duoantiprism.cpp
+extern const Notation kCyclicPolytopeNotation;             // defined in cyclic_polytope.cpp
+extern const Notation kPrismNotation;                      // defined in prism_names.cpp
+extern const Notation kOperationNotation;                  // defined in diagram_names.cpp
 
 /// All notations, in the order in which they are tried. The first one that returns a design, or an error with a
 /// message, gives the result.

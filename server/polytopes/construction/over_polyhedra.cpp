@@ -22,25 +22,25 @@ namespace oval4d::polytopes {
 
 namespace {
 
-enum class OverPolyhedronKind : std::uint8_t { prism, pyramid, bipyramid };
+enum class PrismOrPyramidKind : std::uint8_t { prism, pyramid, bipyramid };
 
 constexpr auto kWords =
-    std::to_array<std::pair<std::string_view, OverPolyhedronKind>>({{"prism", OverPolyhedronKind::prism},
-                                                                    {"pyramid", OverPolyhedronKind::pyramid},
-                                                                    {"bipyramid", OverPolyhedronKind::bipyramid}});
+    std::to_array<std::pair<std::string_view, PrismOrPyramidKind>>({{"prism", PrismOrPyramidKind::prism},
+                                                                    {"pyramid", PrismOrPyramidKind::pyramid},
+                                                                    {"bipyramid", PrismOrPyramidKind::bipyramid}});
 
-class OverPolyhedron : public Recipe {
+class PrismOrPyramid : public Recipe {
   public:
-    OverPolyhedron(OverPolyhedronKind over, const Solid& solid) : over_(over), solid_(solid) {}
+    PrismOrPyramid(PrismOrPyramidKind over, const Solid& solid) : over_(over), solid_(solid) {}
 
     ElementCounts counts() const override {
         const auto [v, e, f] = countsOf(solid_);
         switch (over_) {
-            case OverPolyhedronKind::prism:
+            case PrismOrPyramidKind::prism:
                 return {2 * v, 2 * e + v, 2 * f + e, f + 2};
-            case OverPolyhedronKind::pyramid:
+            case PrismOrPyramidKind::pyramid:
                 return {v + 1, e + v, f + e, f + 1};
-            case OverPolyhedronKind::bipyramid:
+            case PrismOrPyramidKind::bipyramid:
                 break;
         }
         return {v + 2, e + 2 * v, f + 2 * e, 2 * f};
@@ -50,7 +50,7 @@ class OverPolyhedron : public Recipe {
 
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
-        if (over_ == OverPolyhedronKind::prism) {
+        if (over_ == PrismOrPyramidKind::prism) {
             // The base is the dual of a uniform polyhedron, because overPolyhedron() makes prisms over uniform
             // polyhedra by uniformPrismOver(). The symmetry group of such a dual is transitive on faces, so all faces
             // are in one orbit.
@@ -60,17 +60,17 @@ class OverPolyhedron : public Recipe {
         const auto n = static_cast<std::uint32_t>(base.vertices.size());
         const double height = heightOver(base.vertices);
         const double shift =
-            over_ == OverPolyhedronKind::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
+            over_ == PrismOrPyramidKind::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
         std::vector<glm::dvec4> vertices;
         for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, -shift);
         vertices.emplace_back(0, 0, 0, height - shift);
-        if (over_ == OverPolyhedronKind::bipyramid) vertices.emplace_back(0, 0, 0, -height);
+        if (over_ == PrismOrPyramidKind::bipyramid) vertices.emplace_back(0, 0, 0, -height);
 
         geometry::JaggedArray faces = base.faces;
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> all(base.faces.size());
         std::iota(all.begin(), all.end(), 0U);
-        if (over_ == OverPolyhedronKind::pyramid) cells.add(all);
+        if (over_ == PrismOrPyramidKind::pyramid) cells.add(all);
         for (std::uint32_t apex = n; apex < vertices.size(); ++apex) {
             std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> triangles;
             for (std::uint32_t f = 0; f < base.faces.size(); ++f) {
@@ -100,19 +100,19 @@ class OverPolyhedron : public Recipe {
         return solid_.dual || square < kFlat ? circumradius : std::sqrt(square);
     }
 
-    OverPolyhedronKind over_;
+    PrismOrPyramidKind over_;
     Solid solid_;
 };
 
-Design overPolyhedron(OverPolyhedronKind over, const Solid& solid) {
+Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
     const auto is = [&](std::string_view name) { return nameOf(solid) == name; };
-    if (over == OverPolyhedronKind::prism && !solid.dual) return uniformPrismOver(solid);
-    if (over == OverPolyhedronKind::pyramid && is("tetrahedron"))
+    if (over == PrismOrPyramidKind::prism && !solid.dual) return uniformPrismOver(solid);
+    if (over == PrismOrPyramidKind::pyramid && is("tetrahedron"))
         return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
-    if (over == OverPolyhedronKind::bipyramid && is("octahedron"))
+    if (over == PrismOrPyramidKind::bipyramid && is("octahedron"))
         return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
-    const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, OverPolyhedronKind>::second)->first;
-    return {std::string(word) + " of " + nameOf(solid), std::make_shared<OverPolyhedron>(over, solid)};
+    const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, PrismOrPyramidKind>::second)->first;
+    return {std::string(word) + " of " + nameOf(solid), std::make_shared<PrismOrPyramid>(over, solid)};
 }
 
 // Parses the name of a prism, pyramid or bipyramid over a polyhedron: "prism of cube", "pyramid of rhombic
@@ -126,7 +126,7 @@ Design overPolyhedron(OverPolyhedronKind over, const Solid& solid) {
 // returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};
-    const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, OverPolyhedronKind>::first);
+    const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, PrismOrPyramidKind>::first);
     if (word == kWords.end()) return {};
     const auto solid = solidNamed({text.words.begin() + 2, text.words.end()});
     if (!solid) {

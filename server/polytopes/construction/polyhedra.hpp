@@ -18,9 +18,9 @@ namespace oval4d::polytopes {
 
 /// A uniform polyhedron with a name of its own: a Platonic, Archimedean or Kepler–Poinsot solid.
 struct NamedPolyhedron {
-    std::string_view name;            ///< "truncated cube"
+    std::string_view name;            ///< such as "truncated cube"
     std::string_view adjective;       ///< used in the name of its prism: "truncated cubic"
-    std::string_view linearNotation;  ///< its diagram: "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
+    std::string_view linearNotation;  ///< its diagram, such as "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
     std::string_view prism;  ///< Bowers' short name of its prism; empty if the catalogue does not contain the prism
 };
 

@@ -230,7 +230,7 @@ class Merger {
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
         struct HeightAboveNeighbor {
-            glm::dvec3 normal;  // of the triangle `from` (see heightFrom()), outward
+            glm::dvec3 normal;  // the outward normal of the triangle `from` (see heightFrom)
             // For the corner of `to` that is not on the common edge: its height above the plane of `from` (outward is
             // positive), the uncertainty of the height, and the distance of the corner from the line of the edge.
             double height = 0, uncertain = 0, reach = 0;
@@ -333,7 +333,7 @@ class Merger {
     std::vector<std::uint32_t> mark_;
     std::uint32_t latestMark_ = 0;
     std::vector<std::int8_t> signs_;
-    std::vector<Hyperplane> hyperplanes_;  // per cell
+    std::vector<Hyperplane> hyperplanes_;  // the hyperplane of each cell
     std::vector<SharedTriangle> sharedTriangles_;
     std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
 };

@@ -22,7 +22,7 @@ struct SimplexFacet {
 
 /// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
-    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
+    geometry::JaggedArray faces, cells;  ///< vertex loops, and lists of 2-faces, as for makePolytope()
     /// The number of pairs of neighboring cells that were not merged, but would lie in one hyperplane if the error
     /// bounds were three times as large. It is uncertain whether such cells are really separate.
     std::size_t ambiguousCellPairs = 0;

@@ -247,7 +247,7 @@ class Flattener {
         glm::dmat3 gram(0);
         glm::dvec3 right(0);
         for (const glm::dvec4& offset : offsets) {
-            glm::dvec3 along(0);  // in units of the extents
+            glm::dvec3 along(0);  // the coordinates along `axes`, in units of `extents`
             for (int a = 0; a < 3; ++a) {
                 if (extents[a] > 0) along[a] = glm::dot(offset, axes.at(static_cast<std::size_t>(a))) / extents[a];
             }
@@ -336,8 +336,8 @@ class Flattener {
 
 }  // namespace
 
-Flattening flatten(PolygonSoup& soup, double size, double maxDistance, double rounding) {
-    Flattening result;
+FlatteningReport flatten(PolygonSoup& soup, double size, double maxDistance, double rounding) {
+    FlatteningReport result;
     Flattener flattener(soup, size);
     result.deviation = flattener.deviation();
     const std::uint32_t cell = flattener.farthestCell();

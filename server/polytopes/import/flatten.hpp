@@ -9,7 +9,7 @@
 namespace oval4d::polytopes {
 
 /// What flatten() has changed.
-struct Flattening {
+struct FlatteningReport {
     /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face before any change.
     double deviation = 0;
     /// The cell with this deviation or, if a 2-face has this deviation, one of its two cells: the number of the cell in
@@ -31,8 +31,8 @@ struct Flattening {
 /// 2-faces are flat, moves no vertex. Instead, splitIntoSimplices() divides the 2-faces that are not flat into
 /// triangles, and the cells that are not flat into tetrahedra.
 ///
-/// Flattening::moved counts only moves by more than `rounding`, because smaller ones are not worth a warning. Takes
-/// time linear in the number of incidences of vertices and cells, up to a few seconds.
-Flattening flatten(PolygonSoup& soup, double size, double maxDistance, double rounding);
+/// FlatteningReport::moved counts only moves by more than `rounding`, because smaller ones are not worth a warning.
+/// Takes time linear in the number of incidences of vertices and cells, up to a few seconds.
+FlatteningReport flatten(PolygonSoup& soup, double size, double maxDistance, double rounding);
 
 }  // namespace oval4d::polytopes

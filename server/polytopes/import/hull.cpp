@@ -29,8 +29,8 @@ namespace {
 
 constexpr int kDimensions = 4;
 constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
-constexpr double kPerturbation = 1e-11;          // the initial amplitude, relative to the extent of the points
-constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices is this times maxCells
+constexpr double kPerturbation = 1e-11;          // its initial amplitude, relative to the extent of the points
+constexpr std::size_t kMaxSimplicesPerCell = 4;  // a hull may have this many times maxCells simplices
 constexpr int kMaxRounds = 4;                // the maximum number of rounds that remove points that are not vertices
 constexpr std::size_t kMessageBytes = 4096;  // the size of the stream that takes and discards Qhull's messages
 
@@ -121,7 +121,7 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
         QhullRun run(std::span<const glm::dvec4>(points).first(count), perturbation);
         const bool all = count == points.size();
         if (run.status() == qh_ERRmem) throw std::bad_alloc();
-        // A sample may be flat although the set of all points is not.
+        // Skip a sample whose run has failed: it may be flat although the set of all points is not.
         if (run.status() != 0 && all) refuseRun(run.status());
         if (run.status() != 0) continue;
         perturbation = run.perturbation();
@@ -211,9 +211,9 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    // Merge points that are so close together that errors may be the only reason why they differ.
+    // Merge points that may differ only by errors. `places` has the merged points.
     Points places;
-    std::vector<std::uint32_t> numbers;  // per place: the index of its point
+    std::vector<std::uint32_t> numbers;  // per element of `places`: the index of its first point
     geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
         if (index.findOrAdd(frame(points[i]), places).second) numbers.push_back(i);

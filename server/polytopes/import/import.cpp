@@ -37,9 +37,8 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-// Looks for the reason why no valid polytope can be built from a file: throws a FileError if a 2-face in the file has
-// fewer than three different vertices. repair() has left such a 2-face out, and without it the polytope is probably
-// invalid.
+// Throws a FileError if a 2-face in the file has fewer than three different vertices. Called when no valid polytope
+// could be built: the probable reason is that repair() has left this 2-face out.
 void checkCorners(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
@@ -67,7 +66,7 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
     const std::size_t faces = soup.faces.size();
-    const Flattening done = flatten(soup, size, kFlatnessTolerance * size, std::max(rounding, kTiny * size));
+    const FlatteningReport done = flatten(soup, size, kFlatnessTolerance * size, std::max(rounding, kTiny * size));
     if (done.moved > 0) {
         const bool one = done.moved == 1;
         warnings.push_back(

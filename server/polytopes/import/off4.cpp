@@ -95,21 +95,21 @@ Header readHeader(Tokenizer& file) {
 }
 
 // The name of a type of elements, in the singular and the plural.
-struct Noun {
+struct SingularAndPlural {
     std::string one, many;
 };
 
 // How the records of a kind are divided into lines. `lines`: each record begins on a new line and may continue on
 // further lines; words after it are ignored. `continuous`: line breaks do not matter. `own_lines`: each record begins
 // and ends on a line of its own.
-enum class Layout { lines, continuous, own_lines };
+enum class RecordLayout { lines, continuous, own_lines };
 
-// Returns the next word of a record. With Layout::own_lines, the word must be on the current line; if this line has
-// ended, throws a FileError, which says that `record` has only `found` of `needed` `members`. With another layout,
+// Returns the next word of a record. With RecordLayout::own_lines, the word must be on the current line; if this line
+// has ended, throws a FileError, which says that `record` has only `found` of `needed` `members`. With another layout,
 // returns an empty text at the end of the file.
-std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& record, std::uint32_t found,
+std::string_view nextOf(Tokenizer& file, RecordLayout layout, const std::string& record, std::uint32_t found,
                         std::uint32_t needed, const char* members) {
-    if (layout != Layout::own_lines) return file.next();
+    if (layout != RecordLayout::own_lines) return file.next();
     const std::string_view word = file.nextOnLine();
     if (word.empty())
         throwFileError(file.line(),
@@ -117,16 +117,16 @@ std::string_view nextOf(Tokenizer& file, Layout layout, const std::string& recor
     return word;
 }
 
-void readVertices(Tokenizer& file, const Header& header, Layout layout, std::vector<glm::dvec4>& vertices) {
+void readVertices(Tokenizer& file, const Header& header, RecordLayout layout, std::vector<glm::dvec4>& vertices) {
     vertices.resize(header.vertices);
     for (std::size_t n = 0; n < vertices.size(); ++n) {
-        if (layout != Layout::continuous) file.skipLine();
+        if (layout != RecordLayout::continuous) file.skipLine();
         for (int i = 0; i < 4; ++i) {
             const auto word =
                 i == 0 ? file.next() : nextOf(file, layout, "vertex " + std::to_string(n), i, 4, "coordinates");
             vertices[n][i] = parseCoordinate(word, file.line());
         }
-        for (int i = 4; layout == Layout::continuous && i < header.numbersPerVertex; ++i) {
+        for (int i = 4; layout == RecordLayout::continuous && i < header.numbersPerVertex; ++i) {
             const auto word = file.next();
             parseCoordinate(word, file.line());
         }
@@ -140,13 +140,13 @@ struct SizeRange {
 
 // Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number within
 // `sizes`, followed by this number of indices that are less than `below`.
-void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
-               const std::string& what, const Noun& member, geometry::JaggedArray& lists,
+void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
+               const std::string& what, const SingularAndPlural& member, geometry::JaggedArray& lists,
                std::vector<PolygonSoup::SourcePosition>& positions) {
     lists.begin.reserve(std::size_t{records} + 1);
     std::vector<std::uint32_t> list;
     for (std::uint32_t i = 0; i < records; ++i) {
-        if (layout != Layout::continuous) file.skipLine();
+        if (layout != RecordLayout::continuous) file.skipLine();
         const std::string owner = what + " " + std::to_string(i);
         const auto first = file.next();
         if (first.empty())
@@ -174,7 +174,7 @@ void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_
 }
 
 // The layouts of vertices, 2-faces and cells.
-using RecordLayouts = std::array<Layout, 3>;
+using RecordLayouts = std::array<RecordLayout, 3>;
 
 // Reads the records after the header. `file` is a copy, which begins after the header.
 PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayouts& layouts) {
@@ -187,7 +187,7 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayout
               soup.faces, soup.faceSourcePositions);
     readLists(file, layouts[2], header.cells, header.faces, {4, 2 * std::size_t{header.faces}}, "cell",
               {"2-face", "2-faces"}, soup.cells, soup.cellSourcePositions);
-    if (layouts[2] != Layout::continuous) file.skipLine();
+    if (layouts[2] != RecordLayout::continuous) file.skipLine();
     if (const auto rest = file.next(); !rest.empty())
         throwFileError(file.line(), inQuotes(rest) + " follows the last " + (header.cells > 0 ? "cell" : "2-face"));
     return soup;
@@ -204,7 +204,7 @@ std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     for (; lines <= records && !counted.next().empty(); ++lines) counted.skipLine();
     if (lines != records) return {};
     try {
-        readRecords(file, header, {Layout::own_lines, Layout::own_lines, Layout::own_lines});
+        readRecords(file, header, {RecordLayout::own_lines, RecordLayout::own_lines, RecordLayout::own_lines});
     } catch (const FileError& fault) {
         return fault;
     }
@@ -224,12 +224,14 @@ Off4 readOff4(std::string_view text, std::size_t maxVertices) {
     if (header.vertices * kVertexBytes + header.faces * kFaceBytes + header.cells * kCellBytes > text.size() + 1)
         throwFileError(file.line(), "the file is too short for its numbers of vertices, 2-faces and cells");
     try {
-        return {readRecords(file, header, {Layout::lines, Layout::lines, Layout::lines}), header.edges, {}};
+        return {readRecords(file, header, {RecordLayout::lines, RecordLayout::lines, RecordLayout::lines}),
+                header.edges,
+                {}};
     } catch (const FileError&) {
         const auto shortRecord = shortRecordOf(file, header);
-        for (const Layout vertices : {Layout::continuous, Layout::lines}) {
-            for (const Layout faces : {Layout::lines, Layout::continuous}) {
-                for (const Layout cells : {Layout::lines, Layout::continuous}) {
+        for (const RecordLayout vertices : {RecordLayout::continuous, RecordLayout::lines}) {
+            for (const RecordLayout faces : {RecordLayout::lines, RecordLayout::continuous}) {
+                for (const RecordLayout cells : {RecordLayout::lines, RecordLayout::continuous}) {
                     try {
                         return {readRecords(file, header, {vertices, faces, cells}), header.edges, shortRecord};
                     } catch (const FileError&) {

@@ -81,8 +81,8 @@ Polytope build(PolygonSoup soup, std::string name) {
     try {
         return makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
     } catch (const InvalidPolytope& fault) {
-        const bool face = fault.part == InvalidPolytope::Part::face;
-        if (fault.part == InvalidPolytope::Part::whole) throwFileError(0, fault.detail);
+        const bool face = fault.part == InvalidPolytope::FaultLocation::face;
+        if (fault.part == InvalidPolytope::FaultLocation::whole) throwFileError(0, fault.detail);
         const auto& position = (face ? soup.faceSourcePositions : soup.cellSourcePositions)[fault.index];
         throwFileError(position.line, nameOf(face ? "2-face" : "cell", position) + fault.detail);
     }

@@ -30,7 +30,7 @@ class RoundingEstimator {
     /// coordinates such as 0.5 and 10.5 are probably exact.
     glm::dvec4 maxRoundingError(double size) const;
 
-    /// Returns the result that maxRoundingError() has if the coordinates do not count as exact.
+    /// Returns what maxRoundingError() returns for coordinates that do not count as exact.
     glm::dvec4 roundingErrorIfRounded() const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
