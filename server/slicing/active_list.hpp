@@ -56,7 +56,8 @@ class ActiveList {
         std::int32_t from;
     };
 
-    // Removes the active elements that end at the hyperplane with the index `step` or below it.
+    // Removes the active elements whose range [from, to) ends at `step` or below it, so that the hyperplane `step` does
+    // not cut them.
     void removeEnded(int step);
 
     std::vector<UnsortedEntry> unsorted_;

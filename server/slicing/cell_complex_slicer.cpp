@@ -280,8 +280,8 @@ void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, st
     if (a == b) {
         edge = kNone;
     } else if (plane < faceSpan_[face].from) {
-        // The lowest vertices of the 2-face lie in this hyperplane, and both points are such vertices. If an edge of
-        // the 2-face joins them, the segment moves to this edge.
+        // The lowest vertices of the 2-face lie in this hyperplane, and the ends a and b of the segment move to two of
+        // them. If an edge of the 2-face joins these two vertices, the segment moves to this edge.
         const auto [first, last] = std::minmax(a, b);
         const auto after = std::upper_bound(lowestEdges_.begin(), lowestEdges_.end(), std::array{first, last, kNone});
         if (after != lowestEdges_.begin()) {

@@ -47,10 +47,9 @@ class CellComplexSlicer {
     };
     // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
-    // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
-    // down into the hyperplane. Until numberEdges() runs, the slice edge of a segment that does not shrink is not
-    // known: `edge` is the index of the edge of the complex to which the segment moves, or kNewEdge if it moves to no
-    // edge of the complex.
+    // slotBegin_). The segment is then moved down into the hyperplane. `edge` is kNone if the segment shrinks to a
+    // point. Otherwise, numberEdges() sets `edge` to the slice edge of the segment; before that, `edge` is the index of
+    // the edge of the complex to which the segment moves, or kNewEdge if it moves to no edge of the complex.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
@@ -130,9 +129,9 @@ class CellComplexSlicer {
     std::vector<PlaneRange> faceSpan_, cellSpan_;
     std::vector<std::int32_t> lyingIn_;         // per 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of lowestSectionCollapses()
-    CoincidingEdges coinciding_;                // per slice edge
-    // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
-    // this next slot. next_ is kNone for a slot that has no next slot or has already been traced.
+    CoincidingEdges coinciding_;                // the slice edges that coincide
+    // Per slot (see slotBegin_), while a cell is traced: the next slot around the section of the cell, and the slice
+    // edge that leads to this next slot. next_ is kNone for a slot that has no next slot or has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
     // The slots that have a next slot in the current cell, each with the index of its hyperplane. The tracing of loops
     // starts at these slots.

@@ -43,13 +43,13 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
 bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;
-    const auto begin = [&](HalfOfPlanes& half, std::int32_t first, std::int32_t end) {
+    const auto begin = [&](HalfSweep& half, std::int32_t first, std::int32_t end) {
         half.below.resize(planesBelow.below.size());
         std::transform(planesBelow.below.begin(), planesBelow.below.end(), half.below.begin(),
                        [&](std::int32_t below) { return std::clamp(below, first, end) - first; });
         half.sound = half.sweep.begin(polytope, {half.below, half.below, false}, end - first);
     };
-    const auto cut = [&](HalfOfPlanes& half, std::int32_t first) {
+    const auto cut = [&](HalfSweep& half, std::int32_t first) {
         half.sound = half.sweep.cut(polytope, {}, first, half.end, out);
     };
     const auto invoke = [&](const auto& lower, const auto& upper) {

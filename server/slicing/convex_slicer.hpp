@@ -32,7 +32,7 @@ class ConvexSlicer {
 
   private:
     // The sweep through the lower or upper half of the hyperplanes, and its results.
-    struct HalfOfPlanes {
+    struct HalfSweep {
         Sweep sweep;
         std::vector<std::int32_t> below;  // like PlanesBelowVertices::below, but counts only hyperplanes of this half
         SliceCounts end;     // where the slices of this half end in the output; before sweep.cut(), where they begin
@@ -41,7 +41,7 @@ class ConvexSlicer {
     bool cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);
 
     parallel::ForkJoin* forkJoin_;
-    HalfOfPlanes lower_, upper_;
+    HalfSweep lower_, upper_;
 };
 
 }  // namespace oval4d::slicing

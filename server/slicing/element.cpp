@@ -238,7 +238,7 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
                 for (std::size_t i = 1; i + 1 < loop.size(); ++i)
                     volume += p.cellSigns[item] * glm::dot(at(loop[0]), glm::cross(at(loop[i]), at(loop[i + 1]))) / 6;
             }
-            out.volume = std::abs(volume);  // the basis may be left-handed
+            out.volume = std::abs(volume);  // the sign depends only on the handedness of the basis
             break;
         }
     }
@@ -290,7 +290,8 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     };
     visitElements(findNearest, object);
     if (candidates.empty()) return std::nullopt;
-    constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6 radians
+    // An element within 1.4e-6 radians of +w, an angle with this value of 1 − cos, already points to +w.
+    constexpr double kThere = 1e-12;
     if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
     return Element{kind, candidates[nearest]};
 }

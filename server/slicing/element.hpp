@@ -89,7 +89,7 @@ void findPartsShowing(const Object& object, const Element& element, PartsShowing
 
 /// The center and the size of an element.
 struct ElementMeasurements {
-    std::optional<double> length;  ///< of an edge; empty for other elements
+    std::optional<double> length;  ///< the length of an edge; empty for other elements
     /// The area of a 2-face, and the volume of a cell; empty for other elements. A region that a star encloses n times
     /// counts n times.
     std::optional<double> area, volume;

@@ -81,7 +81,7 @@ class FaceFiller {
         std::uint32_t piece;
         auto operator<=>(const Arrival&) const = default;
     };
-    // A plane in space, with orthonormal axes.
+    // A plane in space: one of its points, and two orthonormal axes.
     struct Plane {
         glm::dvec3 origin, x, y;
     };

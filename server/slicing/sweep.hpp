@@ -76,7 +76,7 @@ class Sweep {
     int first_ = 0;     // the number in `out` of the slice in hyperplane 0
     ActiveList edges_, faces_, cells_;
     std::vector<PlaneRange> faceSpan_;      // per 2-face: the hyperplanes that cut it
-    std::vector<VerticesMet> verticesMet_;  // per hyperplane
+    std::vector<VerticesMet> verticesMet_;  // per hyperplane: whether vertices lie in it, or just below it
     // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
     // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> structureChanges_;

@@ -57,13 +57,13 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
     return std::monostate{};
 }
 
-// Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a w just inside the domain. Without this, no
-// lattice point would be below the hyperplane at the lower end of the domain, because points in it count as above it,
-// and, if w is rounded, none might be above it at the upper end.
+// Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a w just inside the domain. A hyperplane
+// through the lower facet would have no lattice points below it, because points in the hyperplane count as above it. A
+// hyperplane through the upper facet might have none above it, because w is rounded.
 double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
     constexpr double kNear = 1e-9, kParallel = 1e-12;  // relative to the extent of the domain along w
     double least = 0, greatest = 0;
-    std::array<double, 4> extents{};  // of the domain's sides along w
+    std::array<double, 4> extents{};  // the extents of the domain's sides along w
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const int last = lattice_.pointCounts()[static_cast<int>(axis)] - 1;
         const auto [low, high] = std::minmax({lattice_.positionTerm(axis, 0).w, lattice_.positionTerm(axis, last).w});
@@ -195,9 +195,9 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
     if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = RunStatus::too_large;
 }
 
-// All simplices with the same edge compute its crossing from the same numbers. The value is clamped to the range
-// between the values of the ends. Therefore, in spite of rounding, no crossing is inside if both ends are outside, and
-// none is outside if both ends are inside.
+// Sets `cut.crossings`. Pentatopes that share an edge compute its crossing from the same numbers. The value at the
+// crossing is clamped to the range between the values at the ends of the edge. Therefore, in spite of rounding, no
+// crossing is inside if both ends are outside, and none is outside if both ends are inside.
 void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = i + 1; j < 5; ++j) {

@@ -77,7 +77,7 @@ class ClosedSurfaceSlicer {
     enum class RunStatus : std::uint8_t { working, too_large, stopped };
     using Triangle = std::array<std::uint32_t, 3>;
 
-    // The cells from `first` up to, but not including, `end`.
+    // A box of lattice cells: along each axis, those from `first` up to, but not including, `end`.
     struct CellRange {
         glm::ivec4 first, end;
     };
@@ -91,7 +91,7 @@ class ClosedSurfaceSlicer {
     struct CutPentatope {
         const Pentatope* shape;
         glm::ivec4 cell;
-        std::array<double, 5> heights, values;                 // per corner: height above the hyperplane, value
+        std::array<double, 5> heights, values;                 // per corner: its height above the hyperplane, its value
         std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: on the edge between corners i and j, i < j
         bool positive;                                         // whether its signed volume is positive: see sectionOf()
     };

@@ -40,7 +40,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
     : field_(field) {
     const glm::dmat4 toSlice = orientation.matrix() * glm::inverse(field.toFunction);
     const glm::dvec4 size = field.box.max - field.box.min;
-    std::array<double, 4> lengths{};  // of the domain's sides
+    std::array<double, 4> lengths{};  // the lengths of the domain's sides
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);
         lengths[axis] = size[a] * glm::length(toSlice[a]);
@@ -63,7 +63,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
 }
 
 fields::Bounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
-    constexpr double kMargin = 1e-3;  // of a cell, because positions of samples are rounded
+    constexpr double kMargin = 1e-3;  // in lattice cells; allows for rounded positions of samples
     fields::Box region;
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);

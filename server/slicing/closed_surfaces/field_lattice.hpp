@@ -61,9 +61,9 @@ class FieldLattice {
   private:
     const fields::Field& field_;
     glm::ivec4 pointCounts_{2};
-    std::array<glm::dvec4, 4> sides_{};               // of the domain, in the coordinates of the rotated object
-    glm::dvec4 shift_{0};                             // the center of the domain in these coordinates
-    std::array<std::vector<double>, 4> coordinates_;  // per axis and index: the function's coordinate
+    std::array<glm::dvec4, 4> sides_{};  // the sides of the domain, in the coordinates of the rotated object
+    glm::dvec4 shift_{0};                // the center of the domain, in the same coordinates as sides_
+    std::array<std::vector<double>, 4> coordinates_;  // per axis and lattice index: the function's argument
     bool positive_ = true;
 };
 

@@ -23,8 +23,8 @@ struct Pentatope {
 
     /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
     int axis(std::size_t i) const;
-    /// Returns the corner that the neighboring pentatope across the facet opposite to corner i does not share with this
-    /// pentatope. The corner is given as an offset from corner 0 of the cell, in lattice steps.
+    /// Considers the neighboring pentatope that shares the facet opposite to corner i. Returns the fifth corner of this
+    /// neighbor, as an offset from corner 0 of the cell, in lattice steps.
     glm::ivec4 acrossFacet(std::size_t i) const;
 };
 

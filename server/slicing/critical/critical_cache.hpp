@@ -31,7 +31,7 @@ class CriticalCache {
 
   private:
     struct Key {
-        std::uint64_t object;  // its serial number
+        std::uint64_t object;  // the serial number of the object
         geometry::Rotation orientation;
         FieldSettings settings;
         bool operator==(const Key&) const = default;

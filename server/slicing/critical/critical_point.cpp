@@ -11,7 +11,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr double kDifference = 2e-3;  // the offset of the points of a difference quotient, in radii
+constexpr double kDifference = 2e-3;  // the offset of the points of a difference quotient, in radii of PlacedFunction
 constexpr double kDamping = 1e-6;     // relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
 constexpr int kIterations = 30;
 // Upper bounds of three values at a point that counts as critical: the length of the next step, the gradient's part in

@@ -81,7 +81,7 @@ class SectionCutter {
     double cube_ = 0;
 };
 
-/// Two sections, and the interval of w between them.
+/// The topologies of two sections, and the interval of w between these sections.
 struct Interval {
     double from = 0, to = 0;
     TopologyByLevel atFrom, atTo;
@@ -101,11 +101,11 @@ SectionChange changeOf(const SectionTopology& before, const SectionTopology& aft
 }
 
 /// Matches the parts of the surfaces in two sections at close values of w.
-class Correspondence {
+class PartMatching {
   public:
     /// A part has a partner if most of its points are close to points of the other section: at a distance of at most
     /// twice the side of a lattice cube.
-    Correspondence(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
+    PartMatching(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
         : cutter_(cutter), reach_(2 * cutter.cubeSide()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
         toB_ = partners(a, partsA_, b, partsB_);
         toA_ = partners(b, partsB_, a, partsA_);
@@ -122,7 +122,7 @@ class Correspondence {
   private:
     using HasPartner = std::vector<bool>;  // per part: whether it has a partner
 
-    // Counts the components that have no partner and are not too small to count.
+    // Counts the components that have no partner, without those that are too small (see SectionCutter::isSmall()).
     std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
@@ -280,7 +280,7 @@ class CriticalSearch {
         const SliceSurface& after = cutter_.cut(change.to);
         CriticalSection result{
             (change.from + change.to) / 2, SectionChange::handle, 0, change.level, change.before, change.after};
-        result.change = Correspondence(before, after, change.level, cutter_).change(change.before, change.after);
+        result.change = PartMatching(before, after, change.level, cutter_).change(change.before, change.after);
         if (!field_.formula.empty() && !mustEnd()) {
             std::optional<double> best;
             searchNearTangentPoints(change, before, change.from, best);

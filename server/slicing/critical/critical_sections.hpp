@@ -72,8 +72,8 @@ using CriticalPtr = std::shared_ptr<const CriticalSections>;
 struct CriticalOptions {
     /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
     /// CriticalSections::tolerance is greater than otherwise. Sections are compared to find the SectionChange of each
-    /// critical w until 1.5 times this limit has passed since the start; the remaining changes are derived from the
-    /// numbers of components and cavities alone.
+    /// critical w until 1.5 times this limit has passed since the start. After that, the SectionChange is derived from
+    /// the numbers of components and cavities alone.
     std::chrono::duration<double> time{10};
     std::stop_token stop = {};
 };
@@ -96,8 +96,8 @@ struct CriticalOptions {
 Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
                                               const FieldSettings& settings, const CriticalOptions& options);
 inline constexpr int kCriticalSections = 128, kCriticalCubes = 160;
-inline constexpr double kCriticalTolerance = 1e-4;   // of the range of w
-inline constexpr double kCriticalResolution = 1e-3;  // of the range of w
+inline constexpr double kCriticalTolerance = 1e-4;   // CriticalSections::tolerance / range of w, if time suffices
+inline constexpr double kCriticalResolution = 1e-3;  // CriticalSections::resolution / range of w
 
 /// Returns the next critical w above `w` or, if `upward` is false, below it. Values that differ by at most `same` count
 /// as equal. Returns std::nullopt if there is no such critical w.

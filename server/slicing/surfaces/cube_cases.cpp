@@ -42,7 +42,7 @@ CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t
         std::ranges::replace(loop, std::uint8_t{high}, std::uint8_t{low});
     };
     CubeCase result;
-    std::uint8_t alternating = 0;  // a bit per face
+    std::uint8_t alternating = 0;  // a bit for each face: whether its corners are alternately inside and outside
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto& [corners, edges] = faces[f];
         std::array<std::uint8_t, 4> crossed{};

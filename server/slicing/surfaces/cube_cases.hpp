@@ -28,7 +28,7 @@ struct CubeCase {
     static constexpr std::uint8_t kNoPatch = 0xff;
     static constexpr std::uint8_t kNoFace = 0xff;
 
-    std::uint8_t patches = 0;                    ///< 0 … 4
+    std::uint8_t patches = 0;                    ///< the number of patches, 0 … 4
     std::array<std::uint8_t, 12> patchOfEdge{};  ///< per edge: its patch; kNoPatch if both ends are on the same side
     /// The face whose corners are alternately inside and outside, and whose four edges belong to the same patch;
     /// kNoFace if there is no such face. If this face is also the mergingFace of the neighboring cube that shares it,

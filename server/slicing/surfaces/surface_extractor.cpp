@@ -385,7 +385,8 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (beyond == 0) return true;
     const glm::dvec3 start = point;
     if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
-    // A point beyond several walls is moved to where these walls meet. This may move it beyond another wall.
+    // A point beyond several walls is moved to where these walls meet. If it is then beyond another wall, the next
+    // round includes that wall.
     for (int round = 0; round < 3; ++round) {
         unsigned now = 0;
         for (unsigned rest = walls; rest != 0; rest &= rest - 1)
@@ -698,7 +699,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 const glm::vec3 d = out.points[corners[a]] - out.points[corners[b]];
                 return glm::dot(d, d);
             };
-            const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;  // along the shorter diagonal
+            const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;  // divides along the shorter diagonal
             for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
                 triangles.push_back({corners[turn], corners[(turn + i) % 4], corners[(turn + i + 1) % 4]});
         }

@@ -86,7 +86,7 @@ class SurfaceExtractor {
     // A place where the surface crosses an edge of the lattice.
     struct Crossing {
         glm::dvec3 position;
-        std::uint16_t constraint;  // a constraint mask
+        std::uint16_t constraint;  // a constraint mask (see kWalls): what lies at this place
     };
 
     using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
@@ -147,7 +147,7 @@ class SurfaceExtractor {
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps
-    glm::ivec3 blockCount_{0};                      // including a layer of unused blocks at the upper end of each axis
+    glm::ivec3 blockCount_{0};                      // along each axis, including one unused block at its upper end
     glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
     std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
     std::size_t capacity_ = 0;                      // the size of each of the next three arrays
@@ -156,7 +156,7 @@ class SurfaceExtractor {
     std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
     std::vector<Block> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of active blocks
-    std::vector<Cube> cubes_;            // of the current level
+    std::vector<Cube> cubes_;            // the cubes through which the surface of the current level passes
     // Per point of the current level: its position, and its position before it was moved.
     std::vector<glm::dvec3> positions_, starts_;
     std::vector<std::uint32_t> moving_;  // the points that are being moved onto the level set

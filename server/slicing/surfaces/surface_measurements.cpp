@@ -27,21 +27,21 @@ class ConnectedParts {
         }
     }
     /// Returns the point that represents the part to which a point belongs.
-    std::uint32_t of(std::uint32_t point) {
+    std::uint32_t representativeOf(std::uint32_t point) {
         while (parents_[point] != point) point = parents_[point] = parents_[parents_[point]];
         return point;
     }
 
   private:
     void join(std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t first = of(a), second = of(b);
+        const std::uint32_t first = representativeOf(a), second = representativeOf(b);
         parents_[std::max(first, second)] = std::min(first, second);
     }
 
     std::vector<std::uint32_t> parents_;
 };
 
-struct Part {
+struct VolumeAndMoment {
     double volume = 0;
     glm::dvec3 moment{0};  // the volume times the centroid, relative to the point that represents the part
 };
@@ -51,11 +51,11 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
                                      std::size_t firstCap) {
     SurfaceMeasurements result;
     ConnectedParts connected(points.size(), triangles);
-    std::vector<Part> parts(points.size());
+    std::vector<VolumeAndMoment> parts(points.size());
     std::vector<bool> used(points.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& corners = triangles[t];
-        const std::uint32_t root = connected.of(corners[0]);
+        const std::uint32_t root = connected.representativeOf(corners[0]);
         // Coordinates are relative to a point of the part, so that rounding errors are small even if the volume of the
         // part is small.
         const glm::dvec3 base(points[root]);
@@ -69,7 +69,7 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
     }
     glm::dvec3 moment(0);
     for (std::size_t point = 0; point < points.size(); ++point) {
-        const Part& part = parts[point];
+        const VolumeAndMoment& part = parts[point];
         if (part.volume > 0) ++result.components;
         result.volume += part.volume;
         moment += part.moment + part.volume * glm::dvec3(points[point]);
@@ -114,7 +114,7 @@ SurfaceParts findParts(const SliceSurface& surface, std::size_t level) {
     result.ofPoint.assign(surface.points.size(), SurfaceParts::kNone);
     std::vector<long> triangleCounts;
     for (const auto& corners : triangles.all) {
-        const std::uint32_t root = connected.of(corners[0]);
+        const std::uint32_t root = connected.representativeOf(corners[0]);
         std::uint32_t& part = result.ofPoint[root];
         if (part == SurfaceParts::kNone) {
             part = static_cast<std::uint32_t>(result.parts.size());

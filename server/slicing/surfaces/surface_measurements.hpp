@@ -17,9 +17,9 @@ namespace oval4d::slicing {
 /// The measurements of the body inside a closed surface that is oriented outward, in the units of the object.
 struct SurfaceMeasurements {
     double volume = 0;
-    double area = 0;                     ///< of the level set, without caps
-    double capArea = 0;                  ///< of the caps
-    std::optional<glm::dvec3> centroid;  ///< of the body; empty unless its volume is positive
+    double area = 0;                     ///< the area of the level set, without caps
+    double capArea = 0;                  ///< the area of the caps
+    std::optional<glm::dvec3> centroid;  ///< the centroid of the body; empty unless the volume is positive
     /// The number of connected components of the body. Each component has one outer surface, which encloses a positive
     /// volume. The surface of a cavity encloses a negative volume, and is not counted.
     std::size_t components = 0;
