@@ -11,7 +11,7 @@ namespace oval4d::geometry {
 /// A type of cells of a polytope, for example its truncated tetrahedra. The user shows, fades or hides all cells of a
 /// type together.
 struct CellType {
-    std::string name;         ///< such as "truncated tetrahedron"
+    std::string name;         ///< the name of the cells' shape, such as "truncated tetrahedron"
     std::uint32_t cells = 0;  ///< the number of cells of this type
     bool operator==(const CellType&) const = default;
 };

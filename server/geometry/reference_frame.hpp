@@ -28,7 +28,7 @@ glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 /// point to itself.
 struct ReferenceFrame {
     static constexpr Range kPaceRange{1e-3, 1e3};
-    static constexpr Range kFollowRange{-1000, 1000};  ///< of each component of `follow`
+    static constexpr Range kFollowRange{-1000, 1000};  ///< the range of each component of `follow`
     static constexpr double kMaxBoost = 0.999;         ///< the greatest length of `boost`
 
     double pace = 1;

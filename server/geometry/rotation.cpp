@@ -44,7 +44,7 @@ glm::dvec3 logarithm(const glm::dquat& q) {
 glm::dquat powerOf(const glm::dquat& q, double fraction) {
     const glm::dvec3 imaginary(q.x, q.y, q.z);
     const double sine = glm::length(imaginary);
-    if (sine == 0) return q;  // ±1; power() avoids −1, except for the rotation v ↦ −v, which has no unique power
+    if (sine == 0) return q;  // q is ±1; power() passes −1 only for v ↦ −v, which has no unique power
     const double angle = std::atan2(sine, q.w) * fraction;
     return {std::cos(angle), imaginary * (std::sin(angle) / sine)};
 }

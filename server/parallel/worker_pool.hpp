@@ -80,7 +80,7 @@ class WorkerPool {
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const Options options_;
-    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // for jobs without a lane
+    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // of all jobs without a lane
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;

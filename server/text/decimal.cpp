@@ -79,7 +79,7 @@ constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple 
 // The texts of the numbers of a block, each in two integers: `head`, whose lowest byte is the first character, and
 // `digits`.
 struct FormattedNumbers {
-    alignas(32) std::uint64_t head[kBlock];        // per number: its text through the second decimal
+    alignas(32) std::uint64_t head[kBlock];        // per number: its text, up to and including the second decimal
     alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
     // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
     // byte.
@@ -176,7 +176,7 @@ constexpr double kRounder = 0x1.8p52;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         digits[g] = fourDigits(digits[g]);
-        first[g] = fourDigits(integerOf(upper[g]));  // tens, ones, tenths, hundredths
+        first[g] = fourDigits(integerOf(upper[g]));  // the digits of the tens, ones, tenths and hundredths
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         const Uint64x4 tens = first[g] & 0xFF;

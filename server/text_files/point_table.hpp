@@ -14,7 +14,7 @@ namespace oval4d::text_files {
 
 /// A row of a table of points.
 struct PointRow {
-    std::size_t line = 0;  ///< counted from 1
+    std::size_t line = 0;  ///< the number of the line in the file, counted from 1
     glm::dvec4 point{0};
     double radius = 0;                        ///< 0 if the row has none
     std::array<std::string_view, 4> numbers;  ///< the texts of the coordinates, as in ParsedCoordinate::text

@@ -9,7 +9,7 @@ namespace oval4d::text_files {
 
 namespace {
 
-constexpr std::size_t kMinColumns = 4;  // the coordinates of a point
+constexpr std::size_t kMinColumns = 4;  // one for each coordinate of a point
 
 // Returns the position of the first separator at or after `start`, or the end of the line.
 std::size_t endOfColumn(std::string_view line, char separator, std::size_t start) {

@@ -12,7 +12,7 @@ namespace oval4d::text_files {
 
 /// A line of a text file, divided at its first #.
 struct TableLine {
-    std::size_t number = 0;    ///< counted from 1
+    std::size_t number = 0;    ///< the number of the line in the file, counted from 1
     std::string_view content;  ///< the text before the #, including blanks at its ends
     std::string_view comment;  ///< the text after the #, without blanks at its ends
 };
