@@ -27,9 +27,9 @@ bool areAllEqual(const std::vector<double>& lengths) {
 
 // The numbers of a cell's elements.
 struct ElementTally {
-    std::map<std::size_t, std::uint32_t> faces;               // by number of sides: the number of faces
-    std::map<std::uint32_t, std::uint32_t> degrees;           // by vertex: the number of its edges
-    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // by degree: the number of vertices
+    std::map<std::size_t, std::uint32_t> faces;               // the number of faces with each number of sides
+    std::map<std::uint32_t, std::uint32_t> degrees;           // the number of edges at each vertex
+    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // the number of vertices with each number of edges
 
     ElementTally(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {

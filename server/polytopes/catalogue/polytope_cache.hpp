@@ -59,7 +59,7 @@ class PolytopeCache {
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;  // guards the members below; not held while a polytope is being built
     std::map<std::string, std::shared_ptr<Slot>> slots_;
-    std::list<Shared> recent_;  // the most recently used first
+    std::list<Shared> recent_;  // the polytopes that the cache owns; the most recently used first
     std::size_t bytes_ = 0;     // the memory of the polytopes in `recent_`
 };
 

@@ -29,7 +29,7 @@ bool isCombinationWord(std::string_view word) { return word == "hull" || word ==
 // One of the two polytopes of a hull or an intersection.
 struct Operand {
     Design design;
-    std::optional<double> circumradius;  // as stated in the name; absent for the default (see combinationNamed())
+    std::optional<double> circumradius;  // as stated in the name; empty for the default (see combinationNamed())
 
     // Returns the name of the operand, from which operandNamed() makes the same operand again.
     std::string name() const {

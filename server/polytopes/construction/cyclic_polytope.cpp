@@ -88,7 +88,7 @@ class CyclicPolytope : public Recipe {
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = i + 2; j < n; ++j) {
                 const std::uint32_t steps = j - i;
-                if (steps == n - 1) continue;  // j + 1 = i
+                if (steps == n - 1) continue;  // the pairs have vertex i in common
                 cells.add(std::array{face(i, j), face(i, j + 1), face(j, i), face(j, i + 1)});
                 orbits.push_back(hasPerpendicularTriangles() ? 0U : std::min(steps, n - steps));
             }

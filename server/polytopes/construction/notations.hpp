@@ -37,8 +37,8 @@ struct NameWords {
 
 /// A notation. The first three texts are Markdown, of which tests/lint --fix makes a row of protocol/README.md.
 struct Notation {
-    std::string_view polytopes;  ///< the polytopes with names in the notation: "a duoprism"
-    std::string_view examples;   ///< names in backquotes: "`5,7-duoprism`, `5/2,5-duoprism`"
+    std::string_view polytopes;  ///< which polytopes have names in the notation, such as "a duoprism"
+    std::string_view examples;   ///< names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
     std::string_view edges;      ///< the lengths of edges; "2" if all edges of all these polytopes have the length 2
     /// The words with which constructions begin, separated by commas. A construction is a name such as "hull of X and
     /// Y".

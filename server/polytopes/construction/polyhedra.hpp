@@ -19,7 +19,7 @@ namespace oval4d::polytopes {
 /// A uniform polyhedron with a name of its own: a Platonic, Archimedean or Kepler–Poinsot solid.
 struct NamedPolyhedron {
     std::string_view name;            ///< such as "truncated cube"
-    std::string_view adjective;       ///< used in the name of its prism: "truncated cubic"
+    std::string_view adjective;       ///< the adjective in the name of its prism, such as "truncated cubic"
     std::string_view linearNotation;  ///< its diagram, such as "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
     std::string_view prism;  ///< Bowers' short name of its prism; empty if the catalogue does not contain the prism
 };
@@ -55,7 +55,7 @@ std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string
 struct PolyhedronSignature {
     std::map<RegularPolygon, std::uint32_t> faces;  ///< for each kind of polygon, the number of faces
     std::uint32_t vertices = 0;                     ///< the number of vertices
-    double circumradius = 0;                        ///< for edge length 2
+    double circumradius = 0;                        ///< the circumradius if the edges have length 2
 };
 
 /// Returns the name of the uniform polyhedron with these properties, such as "truncated cube", "hexagonal prism" or

@@ -24,7 +24,7 @@ struct SolidCounts {
 /// A convex uniform polyhedron of edge length 2 or, if `dual` is set, its dual, scaled to the circumradius of the
 /// uniform polyhedron.
 struct Solid {
-    const NamedPolyhedron* named = nullptr;  ///< null for prisms and antiprisms
+    const NamedPolyhedron* named = nullptr;  ///< a Platonic or Archimedean solid; null for a prism or antiprism
     int sides = 0;                           ///< the number of sides of the base of a prism or antiprism; else 0
     bool antiprism = false;
     bool dual = false;
@@ -45,7 +45,7 @@ SolidCounts countsOf(const Solid& solid);
 
 /// The vertices and faces of a polyhedron.
 struct SolidMesh {
-    std::vector<glm::dvec3> vertices;  ///< the center is the origin
+    std::vector<glm::dvec3> vertices;  ///< their positions relative to the center
     geometry::JaggedArray faces;       ///< the vertex loop of each face; the directions of the loops are arbitrary
 };
 

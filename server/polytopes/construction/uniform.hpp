@@ -8,12 +8,12 @@ namespace oval4d::polytopes {
 
 /// A uniform polychoron (4-D polytope) with its names and diagrams.
 struct UniformPolychoron {
-    std::string_view family;          ///< "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4"
-    std::string_view name;            ///< such as "truncated tesseract"
-    std::string_view bowers;          ///< Bowers' short name, such as "tat"
-    std::string_view linearNotation;  ///< its diagram in linear notation: "x4x3o3o"
-    std::string_view otherDiagrams;   ///< its other diagrams, separated by commas: "o3x3o *b3o,o4o3x3o"
-    std::string_view otherNames;      ///< other names, separated by commas: "tesseract,hypercube"
+    std::string_view family;  ///< one of "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4"
+    std::string_view name;    ///< such as "truncated tesseract"
+    std::string_view bowers;  ///< Bowers' short name, such as "tat"
+    std::string_view linearNotation;  ///< its diagram in linear notation, such as "x4x3o3o"
+    std::string_view otherDiagrams;   ///< its other diagrams, separated by commas, such as "o3x3o *b3o,o4o3x3o"
+    std::string_view otherNames;      ///< other names, separated by commas, such as "tesseract,hypercube"
 };
 
 /// Returns the six convex regular polychora, the ten regular star polychora, and 39 other convex uniform polychora,

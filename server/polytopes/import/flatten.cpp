@@ -326,10 +326,10 @@ class Flattener {
     PolygonSoup& soup_;
     double maxDeviation_, goalDeviation_;
     std::vector<FittedFlat> flats_;
-    std::vector<std::uint32_t> flatOfCell_;  // kNone for a cell of at most four vertices
+    std::vector<std::uint32_t> flatOfCell_;  // per cell: its flat; kNone for a cell of at most four vertices
     geometry::JaggedArray corners_;          // the vertices of each flat
-    std::vector<glm::dvec4> offsets_;        // per corner: from the middle of the flat, in units of its radius
-    std::vector<double> distances_;          // per corner: from the hyperplane
+    std::vector<glm::dvec4> offsets_;        // per corner: its offset from the middle of the flat, in radii
+    std::vector<double> distances_;          // per corner: its signed distance from the hyperplane
     std::vector<glm::dvec4> rest_;
     std::uint32_t farthest_ = kNone;  // the flat with the largest deviation
 };

@@ -37,7 +37,7 @@ class HullFrame {
 
   private:
     glm::dvec4 origin_{0}, rounding_;
-    glm::dmat4 axes_{0};        // orthonormal
+    glm::dmat4 axes_{0};        // the axes of the frame: orthonormal vectors
     glm::dvec4 extents_{1};     // the extents of the points along the axes
     glm::dvec4 arithmetic_{0};  // the floating-point errors of coordinates in the frame
     double perturbation_ = 0;

@@ -17,7 +17,7 @@ namespace oval4d::polytopes {
 struct PolygonSoup {
     /// The position of an element in the file.
     struct SourcePosition {
-        std::size_t line = 0;      ///< counted from 1
+        std::size_t line = 0;      ///< the number of the line, counted from 1
         std::uint32_t number = 0;  ///< its index among the 2-faces, or among the cells, of the file; from 0
     };
 
