@@ -29,7 +29,7 @@ namespace oval4d::slicing {
 /// again while only the rotation or the levels change. Reuses its memory between measurements.
 class CoordinateHistograms {
   public:
-    static constexpr int kPanel = 64;  ///< columns for each axis
+    static constexpr int kPanel = 64;  ///< the number of columns for each axis
     static constexpr int kColumns = 4 * kPanel;
     static constexpr int kRows = 65;
     /// The weight that a point adds to each panel. The weight is divided between the two columns between which the

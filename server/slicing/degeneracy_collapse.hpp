@@ -60,7 +60,7 @@ class DegeneracyCollapse {
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;
     // Per vertex or edge of the slice before the collapse: its index afterward; kNone for an edge that was removed.
     std::vector<std::uint32_t> newVertex_, newEdge_;
-    CoincidingEdges coinciding_;  // per edge of the slice after the collapse
+    CoincidingEdges coinciding_;  // which edges of the collapsed slice coincide
 };
 
 }  // namespace oval4d::slicing

@@ -198,7 +198,8 @@ void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsSho
 void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
-    const glm::dvec4 base = points.front();  // coordinates relative to a vertex of the element minimize cancellation
+    // Coordinates relative to a vertex of the element lose the fewest digits by cancellation.
+    const glm::dvec4 base = points.front();
     for (glm::dvec4& point : points) point = toFile * (point - base);
     const OrthonormalBasis basis(points, static_cast<std::size_t>(element.kind), 0);
     const auto at = [&](std::uint32_t v) { return basis.coordinates(toFile * (p.vertices[v] - base)); };

@@ -107,7 +107,7 @@ class FaceFiller {
     std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels
     std::vector<std::uint32_t> active_;   // sides in the current strip (between two levels), from left to right
     std::vector<Piece> open_;             // pieces that may continue in the next strip
-    std::vector<Arrival> arrivals_;       // of the open pieces that begin below the current strip, from left to right
+    std::vector<Arrival> arrivals_;       // one for each open piece from below the current strip, left to right
 };
 
 }  // namespace oval4d::slicing

@@ -195,7 +195,7 @@ void PlanarSlicer::findBoundary(PlanarSection& section) {
     for (const auto& [a, b] : section.edges) {
         for (const auto& [from, to] : {std::array{a, b}, std::array{b, a}}) {
             auto& both = neighbors[from];
-            if (both[1] != kNone) return;  // more than two edges meet
+            if (both[1] != kNone) return;  // more than two edges meet at a point
             both[both[0] == kNone ? 0 : 1] = to;
         }
     }

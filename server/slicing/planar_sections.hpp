@@ -71,7 +71,7 @@ class PlanarSlicer {
 
     Slicer slicer_;
     SliceSet slice_;                    // the slice by a hyperplane z = const or y = const
-    std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is cut
+    std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is being cut
     // Per vertex: its signed distance from the second hyperplane. Except for a point cloud, distances of at most
     // kOnPlaneTolerance circumradii are stored as 0.
     std::vector<double> distance_;

@@ -59,7 +59,7 @@ class Projector {
                   std::vector<std::uint32_t>& faceCells);
 
     std::uint64_t object_ = 0;               // the serial number of the object to which normals_ and offsets_ belong
-    std::vector<glm::dvec4> normals_;        // per cell, unrotated, not normalized
+    std::vector<glm::dvec4> normals_;        // per cell: its normal, not rotated and not normalized
     std::vector<double> offsets_;            // per cell: the dot product of its normal and any of its points
     std::vector<bool> cellIsFacing_;         // per cell: whether its outer side is turned toward the eye
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone

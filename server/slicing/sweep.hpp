@@ -72,7 +72,7 @@ class Sweep {
     bool writeFaces(SliceCounts at, SliceSet& out) const;
 
     PlanesBelowVertices planesBelow_;
-    SliceCounts size_;  // see maxSize()
+    SliceCounts size_;  // the result of maxSize()
     int first_ = 0;     // the number in `out` of the slice in hyperplane 0
     ActiveList edges_, faces_, cells_;
     std::vector<PlaneRange> faceSpan_;      // per 2-face: the hyperplanes that cut it

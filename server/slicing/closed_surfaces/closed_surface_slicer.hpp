@@ -92,7 +92,7 @@ class ClosedSurfaceSlicer {
         const Pentatope* shape;
         glm::ivec4 cell;
         std::array<double, 5> heights, values;                 // per corner: its height above the hyperplane, its value
-        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: on the edge between corners i and j, i < j
+        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j], i < j: on the edge between corners i and j
         bool positive;                                         // whether its signed volume is positive: see sectionOf()
     };
 

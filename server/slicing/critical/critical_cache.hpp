@@ -44,7 +44,7 @@ class CriticalCache {
 
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;  // guards the members below
-    std::list<Entry> recent_;   // the most recently used first
+    std::list<Entry> recent_;   // the most recently used entry first
     std::size_t bytes_ = 0;
 };
 

@@ -17,7 +17,7 @@ struct SliceSurface {
     /// The bit of SliceSurface::levelAndCap that marks the triangles of caps.
     static constexpr std::uint8_t kCap = 0x80;
 
-    std::vector<glm::vec3> points;   ///< in the units of the object
+    std::vector<glm::vec3> points;   ///< their x, y and z, in the units of the object
     std::vector<glm::vec3> normals;  ///< per point: the outward unit normal of its level set; meaningless on caps
     /// Per point: the distance by which the level set moves along its outward normal per unit of w. Positive where the
     /// body grows with w, negative where it shrinks, and infinite where the level set is tangent to the hyperplane.

@@ -204,10 +204,10 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 reach = unit * (walls == 0 ? half : half + kMostMoved * step_);
         const glm::dvec4 middle =
             section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
-        const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // positions are rounded
+        const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // allows for rounded positions
         const fields::Bounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // all of the cube is inside
+            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // the whole cube is in the body
             return bounds.mayCross(level) || (walls != 0 && full);
         });
     };

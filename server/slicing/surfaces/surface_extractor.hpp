@@ -46,7 +46,7 @@ class SurfaceExtractor {
         /// enlarged until both are met, or until no axis has more than 8 cubes.
         double maxTime = 1e9;
         std::size_t maxPoints = 10'000'000;
-        bool topologyOnly = false;  ///< see SurfaceDetail
+        bool topologyOnly = false;  ///< see SurfaceDetail::topologyOnly
         double pointTime = 0;  ///< the estimated time that the caller spends on each extracted point, in nanoseconds
     };
     static constexpr int kMaxCubes = 256;
@@ -67,7 +67,7 @@ class SurfaceExtractor {
     struct Block {
         bool isActive = false;   // whether it may contain a surface
         std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that it may touch or lie beyond
-        glm::u8vec3 needed{0};   // how many points along each axis are sampled, from its lower end on
+        glm::u8vec3 needed{0};   // how many points along each axis are sampled, from the block's lower end on
         bool isSampled() const { return needed.x != 0; }
     };
     // A cube through which the surface passes, and the points of its patches.
@@ -81,7 +81,7 @@ class SurfaceExtractor {
     // A corner of a cube.
     struct Corner {
         glm::dvec3 position;
-        bool inDomain;  // true also for a corner that was moved onto a wall
+        bool inDomain;  // whether it is in the domain; also true if it was moved onto a wall
     };
     // A place where the surface crosses an edge of the lattice.
     struct Crossing {
@@ -146,13 +146,13 @@ class SurfaceExtractor {
     // Per wall: points beyond the wall are moved onto it if their distance from it is at most this.
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
-    glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps
+    glm::ivec3 base_{0};                            // the coordinates of lattice point (0, 0, 0), in lattice steps
     glm::ivec3 blockCount_{0};                      // along each axis, including one unused block at its upper end
     glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
     std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
     std::size_t capacity_ = 0;                      // the size of each of the next three arrays
     std::unique_ptr<float[]> values_;               // per lattice point of a sampled block: its value
-    std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set inside its body
+    std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set if inside its body
     std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
     std::vector<Block> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of active blocks
