@@ -10,6 +10,8 @@ const kMostLuminance = 1.05 / kLeastContrast - 0.05; // the luminance that has t
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;
+/** The greatest opacity of translucent faces; 1 has another meaning: see `opacity` in protocol/README.md. */
+const kMostTranslucent = 0.999;
 
 function fixedColors({ text, focus, ball, bar, zero, highlight, axes }: typeof dark): number[] {
     return [text, focus, ball, bar, zero, highlight, ...axes].map(numberOf);
@@ -48,7 +50,7 @@ export function onWhite(picture: Slices): Slices {
         scene: {
             ...scene,
             colors,
-            opacity: scene.opacity === dark.faces ? light.faces : scene.opacity,
+            opacity: onLightGround(scene.opacity),
             ...(scene.surfaces && { surfaces: scene.surfaces.map((one) => ({ ...one, color: convert(one.color) })) }),
             ...(scene.fog && {
                 fog: { table: Uint32Array.from(scene.fog.table, (entry) => (entry & opaque) | convert(entry & ~opaque)) },
@@ -80,6 +82,11 @@ export function onWhite(picture: Slices): Slices {
             return { ...slice, surface };
         }),
     };
+}
+
+/** The opacity on a light ground of faces that have this one on a dark ground. Translucent faces stay translucent. */
+function onLightGround(opacity: number): number {
+    return opacity < 1 ? Math.min((opacity * light.faces) / dark.faces, kMostTranslucent) : opacity;
 }
 
 /** The color, or a darker one of the same hue whose contrast to white is large enough. */
