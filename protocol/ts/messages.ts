@@ -535,6 +535,10 @@ export interface SetRequest {
      * The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings. Exported bodies and the matrix of planar sections stay as they are.
      */
     thickness?: number;
+    /**
+     * The factor by which the opacity of translucent faces is multiplied in slices, in the projection and in drawings; they become at most opaque. Faces in slices of nonconvex polytopes are opaque in any case. The surfaces of fields and the matrix of planar sections stay as they are.
+     */
+    opacity?: number;
     caps?: Caps;
     /**
      * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
@@ -1187,6 +1191,10 @@ export interface State {
      * The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings. Exported bodies and the matrix of planar sections stay as they are.
      */
     thickness: number;
+    /**
+     * The factor by which the opacity of translucent faces is multiplied in slices, in the projection and in drawings; they become at most opaque. Faces in slices of nonconvex polytopes are opaque in any case. The surfaces of fields and the matrix of planar sections stay as they are.
+     */
+    opacity: number;
     caps?: Caps;
     /**
      * For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.

@@ -26,6 +26,13 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
     for (const auto& element : elements) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(element)));
 }
 
+// Returns the opacity of translucent faces which, with the setting 1, have the opacity `own`. It is always below 1,
+// because 1 tells clients that faces may cross each other; the greatest one looks opaque.
+double translucent(double own, const Look& look) {
+    constexpr double kMost = 0.999;
+    return std::min(own * look.opacity, kMost);
+}
+
 }  // namespace
 
 // Sets the title, the circumradius, the look and the viewport of `out`. Sets objectChanged_ if `object` is not the
@@ -83,7 +90,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     const auto counts = slicing::elementCounts(object);
     const bool isSurface = counts[1] > 0 && counts[3] == 0;  // a surface has edges, but no cells; its slices are curves
     out.needsDepthBuffer = isField || !info.convex || isSurface;
-    out.faceOpacity = out.needsDepthBuffer ? 1 : out.style().faceOpacity;
+    out.faceOpacity = out.needsDepthBuffer ? 1 : translucent(out.style().faceOpacity, look);
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
@@ -198,14 +205,14 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const bool isCloud = !projection.elements.ballScale.empty();
     const double pointRadius = look.parts.balls ? ball : bar;
     projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,
-                                look.parts.balls ? styles.ball : styles.bar, styles.bar, 0.25});
+                                look.parts.balls ? styles.ball : styles.bar, styles.bar, translucent(0.25, look)});
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
         const bool isFocus = i == focusSlice;
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
         const bool filled = isFocus && look.parts.faces && !out.needsDepthBuffer;
         projection.parts.push_back(
-            {isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color, filled ? 0.5 : 0});
+            {isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color, filled ? translucent(0.5, look) : 0});
     }
 }
 

@@ -134,7 +134,7 @@ void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, a
 
 /// All choices of the user about the display of an object.
 struct Look {
-    static constexpr geometry::Range kThicknessRange{0.25, 4};
+    static constexpr geometry::Range kThicknessRange{0.25, 4}, kOpacityRange{0.25, 4};
 
     View view = View::oval;
     Parts parts;
@@ -150,11 +150,12 @@ struct Look {
     CapStyle caps = CapStyle::plain;
     Background background = Background::automatic;
     double thickness = 1;  ///< multiplies the radii of all balls and bars; within kThicknessRange
+    double opacity = 1;    ///< multiplies the opacity of translucent faces; within kOpacityRange
     bool operator==(const Look&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<Look> auto& look, auto& visit) {
     auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background,
-           thickness] = look;
+           thickness, opacity] = look;
     auto& [hidden, faded] = cellTypes;
     auto& [kind, eye] = projection;
     visit.member(0, view);
@@ -171,6 +172,7 @@ void visitStoredMembers(serialization::ReadOrWritten<Look> auto& look, auto& vis
     visit.addedMember(11, caps);
     visit.addedMember(12, background);
     visit.addedMember(13, thickness, Look::kThicknessRange);
+    visit.addedMember(14, opacity, Look::kOpacityRange);
 }
 
 }  // namespace oval4d::scene

@@ -138,6 +138,8 @@ void forEachSetting(const Visitor& visit) {
     plain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
     plain({"thickness"}, at(look, &Look::thickness),
           NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}});
+    plain({"opacity"}, at(look, &Look::opacity),
+          NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}});
     const auto projection = &Look::projection;
     using Projection = scene::ProjectionSettings;
     plain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});

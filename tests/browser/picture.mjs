@@ -105,6 +105,8 @@ const views = [
     },
     { name: "a perspective projection", settings: { polytope: "24-cell", projection: "perspective" } },
     { name: "thick balls and bars", settings: { polytope: "24-cell", projection: "perspective", thickness: 2 } },
+    { name: "clearer faces", settings: { polytope: "24-cell", projection: "perspective", opacity: 0.5 } },
+    { name: "denser faces", settings: { polytope: "24-cell", opacity: 4 } },
     {
         name: "an orthogonal projection with many bars behind one another",
         settings: { polytope: "600-cell", projection: "orthogonal" },
@@ -137,6 +139,7 @@ function matrixOf({ width, height, data }, { left, bottom, step }) {
 
 const matrices = [
     { name: "a 24-cell", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15] } },
+    { name: "denser faces", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15], opacity: 4 } },
     {
         name: "a kind hidden, another one faded, and a cell highlighted",
         settings: { polytope: "cantellated 5-cell", color: "kind", hidden: [1], faded: [2], point: [0.1, 0.3, 0, -0.2] },

@@ -42,13 +42,14 @@ function chosenFiles() {
     return [...kLongest, ...others];
 }
 
-/** Bundles the TypeScript client, its decoder and the reader of keys for the tests. */
+/** Bundles the TypeScript client, its decoder, the reader of keys and the colors for printing for the tests. */
 function bundleClient() {
     buildSync({
         entryPoints: {
             client: join(here, "../../protocol/ts/index.ts"),
             decode: join(here, "../../protocol/ts/decode.ts"),
             keys: join(here, "../../web_client/src/keys.ts"),
+            on_white: join(here, "../../web_client/src/picture/on_white.ts"),
         },
         outdir: join(here, "node_modules/.oval4d"),
         outExtension: { ".js": ".mjs" },

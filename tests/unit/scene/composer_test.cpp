@@ -82,6 +82,44 @@ TEST(ObjectProjection, colorsTheSectionThatIsACellByItsNeighbors) {
     }
 }
 
+TEST(Opacity, isMultipliedInSlicesAndProjectionAndStaysBelowOne) {
+    for (const scene::Background background : {scene::Background::dark, scene::Background::white}) {
+        scene::Look look;
+        look.background = background;
+        look.projection.kind = scene::ProjectionKind::perspective;
+        const Scene plain = composed("24-cell", 5, {}, look);
+        EXPECT_EQ(plain.faceOpacity, scene::style(background).faceOpacity);
+        for (const double opacity : {0.25, 0.5, 2.0, 4.0}) {
+            SCOPED_TRACE(opacity);
+            const auto expectMultiplied = [&](double before, double after) {
+                EXPECT_LT(after, 1) << "1 means that faces may cross each other";
+                EXPECT_NEAR(after, std::min(opacity * before, 1.0), 0.002);
+            };
+            look.opacity = opacity;
+            const Scene changed = composed("24-cell", 5, {}, look);
+            expectMultiplied(plain.faceOpacity, changed.faceOpacity);
+            ASSERT_EQ(changed.projection.parts.size(), 2U);
+            for (std::size_t i = 0; i < 2; ++i) {
+                EXPECT_GT(plain.projection.parts[i].faceOpacity, 0);
+                expectMultiplied(plain.projection.parts[i].faceOpacity, changed.projection.parts[i].faceOpacity);
+            }
+        }
+    }
+}
+
+TEST(Opacity, ofFacesThatMayCrossIsOneInAnyCase) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    for (const double opacity : {0.25, 1.0, 4.0}) {
+        look.opacity = opacity;
+        const Scene star = composed("small stellated 120-cell", 1, {}, look);
+        EXPECT_TRUE(star.needsDepthBuffer);
+        EXPECT_EQ(star.faceOpacity, 1);
+        ASSERT_EQ(star.projection.parts.size(), 2U);
+        EXPECT_EQ(star.projection.parts[1].faceOpacity, 0) << "the faces of its section are not drawn";
+    }
+}
+
 TEST(Cloud, isShownWithoutBallsAndBars) {
     const auto cloud = std::make_shared<const geometry::PointCloud>(
         geometry::makePointCloud("dots", {{1, 0, 0, 0}, {0, 1, 0, 0.2}, {0, 0, -1, 0}}, {0, 0, 0.1}));

@@ -101,7 +101,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     Session session;
     session.current.look.parts.bars = session.current.look.parts.labels = false;
     session.current.look.projection = {scene::ProjectionKind::orthogonal, 2};
-    session.current.look.thickness = 2;
+    session.current.look.thickness = session.current.look.opacity = 2;
     session.current.slices.offset = 0.1;
     session.current.ongoingTurnToward = session::OngoingTurnToward{{}, 1};
     ObjectTable table;
@@ -113,7 +113,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
         while (members.size() > size) members.erase(size);
     };
     shorten(flags, 4);               // 0.1.0 knew faces, bars, balls and coordinates,
-    shorten(look, 6);                // no projection and no thickness,
+    shorten(look, 6);                // no projection, no thickness and no opacity,
     shorten(record.at(3).at(4), 3);  // no offset,
     shorten(record.at(3), 8);        // no turn toward an element and no frame of reference
     const Session back = decodeSession(encodeCbor(record), "", table.objectOf, support::cache());
@@ -122,6 +122,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     EXPECT_FALSE(back.current.look.parts.projectionFaces || back.current.look.parts.allSections);
     EXPECT_EQ(back.current.look.projection, scene::ProjectionSettings{});
     EXPECT_EQ(back.current.look.thickness, 1);
+    EXPECT_EQ(back.current.look.opacity, 1);
     EXPECT_EQ(back.current.slices.offset, 0);
     EXPECT_FALSE(back.current.ongoingTurnToward);
     EXPECT_EQ(back.current.referenceFrame, geometry::ReferenceFrame{});
@@ -263,6 +264,7 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State& state) { state.look.orbit.zoom = 0; });
     refused([](State& state) { state.look.orbit.azimuth = 1e9; });
     refused([](State& state) { state.look.thickness = 5; });
+    refused([](State& state) { state.look.opacity = 0.2; });
     refused([](State& state) { state.turning = true; });
     refused([](State& state) { state.lastTurn = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
     refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
