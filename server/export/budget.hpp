@@ -76,7 +76,7 @@ class Budget {
                      std::to_string(limits_.triangles) +
                      " are allowed; export only the focus slice or, if the object has cells, a solid body"}};
         }
-        checkRoom(kBytesOfTriangle * total);
+        requireMemory(kBytesOfTriangle * total);
     }
     /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if
     /// ExportLimits::grantTotalBytes refuses this number of bytes.
@@ -85,7 +85,7 @@ class Budget {
             throw ExportRefused{{ExportRefusal::Cause::too_large,
                                  "the file would exceed the allowed " + std::to_string(limits_.bytes) + " bytes"}};
         }
-        checkRoom(count);
+        requireMemory(count);
     }
     /// Returns ExportLimits::triangles.
     std::size_t triangles() const { return limits_.triangles; }
@@ -93,7 +93,7 @@ class Budget {
   private:
     static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
 
-    void checkRoom(std::size_t bytes) const {
+    void requireMemory(std::size_t bytes) const {
         if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))
             throw ExportRefused{{ExportRefusal::Cause::no_room, "the memory limit leaves no room for the file"}};
     }

@@ -168,8 +168,8 @@ std::vector<Action> allActions() {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kHasRange) addSteps(setting, actions);
         if constexpr (Row::kIsInState) {
-            using Value = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
-            if constexpr (text::HasChoices<Value> && !std::is_same_v<Value, scene::View>) {
+            using SettingType = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
+            if constexpr (text::HasChoices<SettingType> && !std::is_same_v<SettingType, scene::View>) {
                 actions.push_back({std::string(setting.name.text), [setting](ActionContext& c) -> Done {
                                        Set set;
                                        setting.ofSet(set) = nextChoice(setting.ofState(c.state));

@@ -11,8 +11,8 @@ namespace oval4d::slicing {
 
 /// Steps through parallel hyperplanes, and lists which edges of a polytope (or which 2-faces, or which cells) the
 /// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w. The indices of the hyperplanes that cut
-/// an element are a range [from, to). Call clear(), then add() for each element, then sort() once, then advance() for
-/// the hyperplanes in ascending order. Reuses its memory.
+/// an element are a range [from, to). Call clear(), then add() for each element, then sort() once, then activateAt()
+/// for the hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
 /// take longer than the work that the branch avoids.
@@ -38,13 +38,13 @@ class ActiveList {
         count_ += one;
     }
     /// Sorts the elements by their first hyperplane. Must be called once, after all calls of add(). `steps` lists the
-    /// indices of the hyperplanes for which advance() will be called, in ascending order. It must include the first
+    /// indices of the hyperplanes for which activateAt() will be called, in ascending order. It must include the first
     /// hyperplane of every element.
     void sort(std::span<const int> steps);
 
     /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
     /// sort(), in ascending order. Returns the elements that become active: those whose first hyperplane is `step`.
-    std::span<const Entry> advance(int step);
+    std::span<const Entry> activateAt(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Entry> active() const { return {active_.data(), activeCount_}; }
     /// Returns the number of active elements.
@@ -89,7 +89,7 @@ inline void ActiveList::removeEnded(int step) {
     activeCount_ = static_cast<std::uint32_t>(kept - active_.data());
 }
 
-inline std::span<const ActiveList::Entry> ActiveList::advance(int step) {
+inline std::span<const ActiveList::Entry> ActiveList::activateAt(int step) {
     removeEnded(step);
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];

@@ -168,9 +168,9 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
 }
 
 void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane) {
-    for (const ActiveList::Entry& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, rotatedVertices);
-    faces_.advance(plane);
-    cells_.advance(plane);
+    for (const ActiveList::Entry& edge : edges_.activateAt(plane)) beginEdge(polytope, edge.number, rotatedVertices);
+    faces_.activateAt(plane);
+    cells_.activateAt(plane);
 }
 
 // Makes an edge active: computes its line, and links the half-edges that meet on this edge (see edgeOfEnd_).

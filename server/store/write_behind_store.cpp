@@ -72,7 +72,7 @@ void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(
     {
         const std::lock_guard lock(mutex_);
         requests_.emplace_back(
-            [this, credentials = std::move(credentials), done = std::move(done)] { fetchNow(credentials, done); });
+            [this, credentials = std::move(credentials), done = std::move(done)] { runFetch(credentials, done); });
     }
     wake_.notify_one();
 }
@@ -484,7 +484,7 @@ void WriteBehindStore::refreshExpiry() {
 
 // --- Reading
 
-void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done) {
+void WriteBehindStore::runFetch(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done) {
     try {
         done(findOrClaim(credentials));
     } catch (const std::exception& fault) {

@@ -148,7 +148,7 @@ class WriteBehindStore {
     void dropClaimed(const std::string& id, Fence fence);
     void poll();
     void refreshExpiry();
-    void fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
+    void runFetch(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
     FetchResult findOrClaim(const SessionCredentials& credentials);
     template <typename Operation>
     auto timed(const char* name, Operation operation);

@@ -66,7 +66,8 @@ struct DensityImage {
         return alphas[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                       static_cast<std::size_t>(column)];
     }
-    scene::Color color(int column) const {
+    /// Returns the color of a column of pixels, interpolated between those of `colors`.
+    scene::Color colorOfColumn(int column) const {
         const std::size_t last = colors.size() - 1;
         const double at = static_cast<double>(column) * static_cast<double>(last) / (columns - 1);
         const auto first = std::min(static_cast<std::size_t>(at), last);

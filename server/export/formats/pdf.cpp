@@ -80,7 +80,7 @@ class PageWriter {
         std::vector<HPDF_BYTE> colors;
         for (int row = 0; row < density.rows(); ++row) {
             for (int column = 0; column < density.columns; ++column) {
-                const scene::Color color = density.color(column);
+                const scene::Color color = density.colorOfColumn(column);
                 for (const int shift : {16, 8, 0}) colors.push_back(static_cast<HPDF_BYTE>(color >> shift & 255U));
             }
         }

@@ -21,7 +21,7 @@ constexpr double kMinDepth = 0.25;  // minimum depth of the letters in millimete
 constexpr double kMaxDepth = 0.8;   // maximum depth of the letters in millimeters
 
 /// The face formed by the triangles of one cell.
-struct Face {
+struct CellFace {
     std::vector<std::uint32_t> loop;  // mesh points, counterclockwise
     glm::dvec3 normal{0};
     glm::dvec3 middle{0};  // centroid
@@ -39,12 +39,12 @@ struct TextPlacement {
 
 /// Returns the faces of the mesh; the key of a face is its cell. Omits faces without area, and faces with several
 /// boundary loops.
-std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
-    std::map<std::uint32_t, Face> faces;
+std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
+    std::map<std::uint32_t, CellFace> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& triangle = mesh.triangles[t];
-        Face& face = faces[mesh.cells[t]];
+        CellFace& face = faces[mesh.cells[t]];
         const glm::dvec3 across = doubleAreaNormalOf(mesh, triangle);
         face.normal += across;
         for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
 /// Returns the placement with the largest letters that leave the margin free on this face. The text runs along `right`
 /// or, if the letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
 /// result.
-TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, const Lettering& text) {
+TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
         placement.right = -placement.right;
@@ -93,7 +93,7 @@ TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, c
 
 /// Returns the depth of the letters: the least of kMaxDepth, a quarter of the letters' height, and half the depth at
 /// which the rectangle around the text, moved into the body, meets another face.
-double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Face>& faces, const Mesh& mesh) {
+double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, CellFace>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
     for (const auto& [cell, face] : faces) {
@@ -108,7 +108,7 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Fac
 }
 
 /// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole.
-bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const RoundingGrid& grid) {
+bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, const RoundingGrid& grid) {
     std::size_t triangles = 0;
     for (const auto& [cell, face] : faces) {
         triangles += face.loop.size() - 2;
@@ -121,7 +121,7 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, cons
 
 /// Engraves the text: replaces the face by a face with holes for the letters, and adds the letters' walls and floors.
 /// Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
-bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, const RoundingGrid& grid) {
+bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),
                           glm::dot(p - placement.middle, placement.up));
@@ -225,7 +225,7 @@ Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
         }
     }
     const auto faces = facesOf(mesh);
-    const Face& top = faces.at(5);
+    const CellFace& top = faces.at(5);
     TextPlacement placement = fit(mesh, top, {1, 0, 0}, text);
     placement.cell = 5;
     placement.height = height;

@@ -20,7 +20,7 @@ inline float packFullyCovered(float nearness) {
 
 /// Returns the part of a pixel, from 0 to 1, that solid shapes leave uncovered. `depth` is the value of the pixel in
 /// the depth buffer.
-inline float uncoveredPart(float depth) {
+inline float unpackUncoveredPart(float depth) {
     return 1 - static_cast<float>(std::bit_cast<std::uint32_t>(depth) & kCoverageBits) / kCoverageBits;
 }
 

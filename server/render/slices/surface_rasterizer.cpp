@@ -269,7 +269,7 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
                     pixels[k] = pixelOf(color);
                 } else {
                     if (!isNearer) {
-                        const float uncovered = uncoveredPart(stored[k]);
+                        const float uncovered = unpackUncoveredPart(stored[k]);
                         if (!(uncovered > 0)) continue;
                         color = _mm_mul_ps(color, _mm_set1_ps(uncovered));
                     }
