@@ -110,6 +110,10 @@ std::string textOf(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
 }
 
+// Returns whether an error says that Redis has no memory for what a script writes, or that a key has a value of another
+// type. Redis answers other requests of the same connection then.
+bool isRefusedWrite(std::string_view error) { return error.starts_with("OOM ") || error.starts_with("WRONGTYPE "); }
+
 template <typename Number>
 Number numberIn(std::string_view text, const std::string& what, Number least, Number most) {
     Number value{};
@@ -209,15 +213,20 @@ void RedisStore::send(const Arguments& command) {
     }
 }
 
-RedisStore::Reply RedisStore::receive() {
+/// Returns the next reply, which may be an error.
+RedisStore::Reply RedisStore::receiveAny() {
     void* reply = nullptr;
     if (redisGetReply(context_.get(), &reply) != REDIS_OK || reply == nullptr) fail();
-    Reply owned(static_cast<redisReply*>(reply));
-    if (owned->type == REDIS_REPLY_ERROR) {
+    return Reply(static_cast<redisReply*>(reply));
+}
+
+RedisStore::Reply RedisStore::receive() {
+    Reply reply = receiveAny();
+    if (reply->type == REDIS_REPLY_ERROR) {
         context_.reset();
-        throw StoreError(name() + ": " + textOf(*owned));
+        throw StoreError(name() + ": " + textOf(*reply));
     }
-    return owned;
+    return reply;
 }
 
 RedisStore::Reply RedisStore::ask(const Arguments& command) {
@@ -257,7 +266,8 @@ std::optional<Record> RedisStore::claim(const std::string& id) {
     return record;
 }
 
-/// Sends all updates before it reads the replies (pipelining), so that the batch takes one round trip.
+/// Sends all updates before it reads the replies (pipelining), so that the batch takes one round trip. Throws
+/// NotWritable if Redis refuses an update but still answers requests. In that case, it has executed the other updates.
 std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
@@ -284,7 +294,17 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
         send(command);
     }
     std::vector<SaveResult> results;
-    for (std::size_t i = 0; i < updates.size(); ++i) results.push_back(static_cast<SaveResult>(receive()->integer));
+    std::string refusal;
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        const Reply reply = receiveAny();
+        if (reply->type != REDIS_REPLY_ERROR) {
+            results.push_back(static_cast<SaveResult>(reply->integer));
+        } else if (refusal = textOf(*reply); !isRefusedWrite(refusal)) {
+            context_.reset();
+            throw StoreError(name() + ": " + refusal);
+        }
+    }
+    if (!refusal.empty()) throw NotWritable(name() + ": " + refusal);
     return results;
 }
 

@@ -46,6 +46,7 @@ class RedisStore final : public Store {
     void connect();
     [[noreturn]] void fail();
     void send(const Arguments& command);
+    Reply receiveAny();
     Reply receive();
     Reply ask(const Arguments& command);
     Reply ask(const std::string& script, const std::string& id, const Arguments& arguments);

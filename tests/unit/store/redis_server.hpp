@@ -99,6 +99,13 @@ class Redis {
         return Milliseconds(reply ? reply->integer : -1);
     }
 
+    /// Makes Redis execute a command.
+    void execute(const char* command) const {
+        const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
+                                                                          redisFree);
+        freeReplyObject(redisCommand(context.get(), command));
+    }
+
   private:
     const Folder folder_;
     const Port port_;

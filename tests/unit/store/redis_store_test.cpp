@@ -80,6 +80,29 @@ TEST(RedisStore, RemovesOnlyItsOwnSessions) {
     EXPECT_FALSE(one->tokenHash("id"));
 }
 
+TEST(RedisStore, SavesTheOtherSessionsOfABatchIfRedisRefusesOne) {
+    const Redis redis;
+    const auto store = redis.connect();
+    ASSERT_TRUE(store);
+    redis.execute("SET oval4d:{first} text");
+    const std::vector<RecordUpdate> updates{{{"first", "secret"}, 1, "", "whole", {}, {}, false},
+                                            {{"second", "secret"}, 1, "", "whole", {}, {}, false}};
+    EXPECT_THROW(store->save(updates), NotWritable);
+    EXPECT_TRUE(store->tokenHash("second"));
+    EXPECT_EQ(store->save({&updates[1], 1}).at(0), SaveResult::saved);
+}
+
+TEST(RedisStore, OpensSessionsWhileRedisIsFull) {
+    const Redis redis;
+    const auto store = redis.connect();
+    ASSERT_TRUE(store);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(store->save({&update, 1}).at(0), SaveResult::saved);
+    redis.execute("CONFIG SET maxmemory 1");
+    EXPECT_THROW(store->save({&update, 1}), NotWritable);
+    EXPECT_EQ(store->claim("id")->whole, "whole");
+}
+
 TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     Redis redis;
     const auto one = redis.connect(), two = redis.connect();
