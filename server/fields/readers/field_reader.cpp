@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -100,6 +101,15 @@ Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOpti
     ReadField series;
     std::optional<SampleBuffer> all;
     std::vector<double> times;
+    // All files after the first one are decompressed into the same new file: the samples of each of them are copied to
+    // `all` before the next one is read.
+    std::shared_ptr<MappedFile> decompressed;
+    const MappedFileMaker reuseFile = [&](std::size_t bytes) -> Result<std::shared_ptr<MappedFile>> {
+        if (decompressed && decompressed->bytes().size() >= bytes) return decompressed;
+        auto made = options.newFile(bytes);
+        if (made) decompressed = *made;
+        return made;
+    };
     for (std::size_t i = 0; i < files.size(); ++i) {
         const std::string where = "file " + std::to_string(i + 1) + " of the series: ";
         auto field = readField(files[i], ofFile);
@@ -113,6 +123,7 @@ Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOpti
             auto buffer = SampleBuffer::of(samples.size() * files.size(), options);
             if (!buffer) return buffer.error();
             all = std::move(*buffer);
+            if (options.newFile) ofFile.newFile = reuseFile;
             series = *field;
             for (std::string& warning : series.warnings) warning.insert(0, where);
         }

@@ -1,5 +1,6 @@
 // The same array in all formats, as the formats' own libraries write them.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <netcdf.h>
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -561,6 +563,30 @@ TEST(FieldSeries, JoinsFilesAlongW) {
     files.push_back(FileContents::copyOf(npy("(2, 2, 1)", std::vector<float>(4))));
     EXPECT_NE(readSeries(files, {}).error().message.find("file 4"), std::string::npos);
     EXPECT_EQ(seriesFiles(folder / "none").error().code, ErrorCode::not_found);
+}
+
+TEST(FieldSeries, DecompressesLargeFilesIntoFewNewFiles) {
+    std::vector<FileContents> files;
+    for (int moment = 0; moment < 6; ++moment) {
+        files.push_back(FileContents::copyOf(nifti("a.nii.gz", numbers(), [&](nifti_image& image) {
+            image.nt = image.dim[4] = 1;
+            image.nvox = kCount / 2;
+            static_cast<float*>(image.data)[0] = static_cast<float>(moment);
+        })));
+    }
+    const TemporaryFolder folder;
+    int made = 0;
+    const auto newFile = [&](std::size_t bytes) {
+        const auto path = folder / std::to_string(made++);
+        writeFile(path, std::string(bytes, '\0'));
+        return MappedFile::mapToWrite(std::make_shared<const FileHandle>(open(path.c_str(), O_RDWR | O_CLOEXEC)));
+    };
+    const auto series = readSeries(files, {.maxInMemory = 1, .newFile = newFile});
+    ASSERT_TRUE(series) << series.error().message;
+    ASSERT_EQ(series->samples.values().size(), 6 * kCount / 2);
+    for (std::size_t moment = 0; moment < 6; ++moment)
+        EXPECT_EQ(series->samples.values()[moment * kCount / 2], static_cast<float>(moment));
+    EXPECT_LE(made, 4) << "the server makes no more for an array";
 }
 
 // A variable f(time, x) of one moment.
