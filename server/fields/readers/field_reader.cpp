@@ -66,6 +66,13 @@ void setSeriesBox(ReadField& series, std::span<const double> times, const ReadOp
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
     if (known) static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
+    // Files that state no time have equal ones.
+    const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
+    if (series.boxIsKnown && !known && differ && !options.box) {
+        series.warnings.emplace_back(
+            "the times that the files state do not increase in the order of the files' names and are ignored; w is the "
+            "number of the file, from 0 on");
+    }
     series.box.min.w = known ? times.front() : 0;
     series.box.max.w = known ? times.back() : last;
     if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);

@@ -608,12 +608,14 @@ std::string netcdfOfMoment(double time) {
     return readFile(path);
 }
 
+// A series of files with these times.
+Result<ReadField> seriesOf(const std::vector<double>& times) {
+    std::vector<FileContents> files;
+    for (const double time : times) files.push_back(FileContents::copyOf(netcdfOfMoment(time)));
+    return readSeries(files, {});
+}
+
 TEST(FieldSeries, WarnsOfUnevenTimes) {
-    const auto seriesOf = [](const std::vector<double>& times) {
-        std::vector<FileContents> files;
-        for (const double time : times) files.push_back(FileContents::copyOf(netcdfOfMoment(time)));
-        return readSeries(files, {});
-    };
     for (const auto& [times, warnings] :
          {std::pair{std::vector{3.0, 5.0, 7.0}, 0U}, {std::vector{3.0, 4.0, 7.0}, 1U}}) {
         const auto series = seriesOf(times);
@@ -623,6 +625,19 @@ TEST(FieldSeries, WarnsOfUnevenTimes) {
         EXPECT_EQ(series->warnings.size(), warnings);
     }
     EXPECT_NE(seriesOf({3, 4, 7})->warnings.front().find("not evenly spaced"), std::string::npos);
+}
+
+TEST(FieldSeries, WarnsOfTimesThatDoNotIncrease) {
+    for (const auto& [times, warnings] : {std::pair{std::vector{7.0, 5.0, 3.0}, 1U},
+                                          {std::vector{3.0, 3.0, 5.0}, 1U},
+                                          {std::vector{3.0, 3.0, 3.0}, 0U}}) {
+        const auto series = seriesOf(times);
+        ASSERT_TRUE(series) << series.error().message;
+        EXPECT_EQ(series->box.min.w, 0);
+        EXPECT_EQ(series->box.max.w, 2);
+        EXPECT_EQ(series->warnings.size(), warnings);
+    }
+    EXPECT_NE(seriesOf({7, 5, 3})->warnings.front().find("do not increase"), std::string::npos);
 }
 
 }  // namespace
