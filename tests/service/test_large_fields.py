@@ -242,6 +242,8 @@ async def test_a_session_whose_field_has_no_room_can_be_opened_later(folder, tmp
         async with Client(server) as other:
             await other.request("load", name="run", path="1.npy")
             assert await hello_refusal(server, **credentials) == ("internal", 1013)
+    with open_server(folder, *options, "--data-cache", "1k") as server:  # a limit that the field exceeds for now
+        assert await hello_refusal(server, **credentials) == ("internal", 1013)
     with open_server(folder, *options) as server:
         async with Client(server, **credentials) as client:
             assert await slices_of(client) == expected

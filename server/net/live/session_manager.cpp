@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <array>
+
 #include "net/jobs/file_reader.hpp"
 #include "store/object_codec.hpp"
 #include "store/secret.hpp"
@@ -178,13 +181,16 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
 
 void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
-    bool fileIsMissing = false, mustWait = false;
+    bool isUnread = false, mustWait = false;  // whether a file was not read; if so, whether it may be later
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
+            isUnread = mustWait = true;  // also if the reader throws, as it does when the server stops
             const auto loaded = fileReader(services_)(load, services_.options.session);
+            isUnread = !loaded;
             if (loaded) return loaded->object;
-            fileIsMissing = true;
-            mustWait = loaded.error().code == ErrorCode::too_many || loaded.error().code == ErrorCode::internal;
+            // A file counts as too large also if reading it takes too long, as it may when many are read.
+            constexpr std::array kForNow{ErrorCode::too_many, ErrorCode::too_large, ErrorCode::internal};
+            mustWait = std::ranges::find(kForNow, loaded.error().code) != kForNow.end();
             return loaded.error();
         });
         auto value = store::decodeSession(record.whole, record.head, std::ref(objects), services_.polytopes);
@@ -192,17 +198,18 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
-        if (fileIsMissing) {
+        if (isUnread) {
             spdlog::warn("session waits for its field session={} reason=\"{}\"", id, fault.what());
         } else {
             spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(),
                           fault.what());
         }
         writeBehind_.discardFetched(id);
-        const std::string what = fileIsMissing ? "this session cannot be opened: "
-                                               : "this session is stored in a form that the server cannot read: ";
+        const std::string what = isUnread ? "this session cannot be opened: "
+                                          : "this session is stored in a form that the server cannot read: ";
         // After `not_found`, clients forget the session; after `internal`, they try again.
-        finishOpening(pending, Error{mustWait ? ErrorCode::internal : ErrorCode::not_found, what + fault.what()});
+        finishOpening(pending,
+                      Error{isUnread && mustWait ? ErrorCode::internal : ErrorCode::not_found, what + fault.what()});
     }
 }
 
