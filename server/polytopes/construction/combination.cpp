@@ -55,9 +55,12 @@ std::optional<std::size_t> findAnd(const Words& words) {
 std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
     Operand operand;
     std::size_t end = words.size();
-    if (end > 3 && words[end - 3] == "of" && words[end - 2] == "circumradius") {
+    // text::wordsOf() divides a number such as 5e-1 at its hyphen.
+    const std::size_t numberWords = end > 1 && words[end - 2].ends_with('e') ? 2 : 1;
+    const std::size_t suffix = 2 + numberWords;
+    if (end > suffix && words[end - suffix] == "of" && words[end - suffix + 1] == "circumradius") {
         double value = 0;
-        const std::string& number = words[end - 1];
+        const std::string number = numberWords == 2 ? words[end - 2] + '-' + words[end - 1] : words[end - 1];
         const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (error != std::errc{} || rest != number.data() + number.size() ||
             !(value >= kLeastRadius && value <= kMostRadius)) {
@@ -66,7 +69,7 @@ std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLo
                                          text::shortestDecimal(kMostRadius));
         }
         operand.circumradius = value;
-        end -= 3;
+        end -= suffix;
     }
     const DesignOrError described = lookup(text::joined(words, 0, end));
     if (const auto* error = std::get_if<NameError>(&described)) return *error;

@@ -217,6 +217,11 @@ TEST(TruncationsAndRectifications, areTheHullsOfPointsOnEdges) {
     EXPECT_EQ(fVector(built("rectification of 5,7-duoprism")), (FVector{70, 210, 187, 47}));
 }
 
+TEST(Combinations, mayStateCircumradiiWithExponents) {
+    EXPECT_EQ(support::designFor("hull of tesseract of circumradius 5e-1 and 16-cell of circumradius .2E1").name,
+              "hull of 8-cell of circumradius 0.5 and 16-cell of circumradius 2");
+}
+
 TEST(Combinations, ofTheTesseractAndThe16CellAreThe24Cell) {
     for (const std::string name : {"hull of tesseract and 16-cell", "hull of tesseract and 16-cell of circumradius 2",
                                    "hull of 16-cell of circumradius 2 and 8-cell of circumradius 2",
@@ -391,6 +396,7 @@ TEST(Compositions, withMistakesAreExplained) {
              {"hull of tesseract and 16-cell of circumradius 0", "from 0.01 to 100"},
              {"hull of tesseract and 16-cell of circumradius nan", "is not a circumradius"},
              {"hull of tesseract and 16-cell of circumradius 1e9", "is not a circumradius"},
+             {"hull of tesseract and 16-cell of circumradius 1e-9", "'1e-9' is not a circumradius"},
              {"product of 5-gon and cube", "'cube' is not a polygon"},
              {"product of 2-gon and 5-gon", "at least three sides"},
              {"piramid of cube", "did you mean 'pyramid'?"},
