@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view kCoordinates = "xyzw";
 constexpr std::size_t kRadiusIndex = 4;  // the index of the radius, after those of the coordinates
+constexpr std::size_t kMaxTitles = 10;   // the maximum number of lines of text above the header or the first row
 
 // The position of each coordinate and of the radius among the columns of a row.
 struct ColumnLayout {
@@ -109,6 +110,13 @@ std::string_view namesOfComment(std::string_view comment) {
     return inBrackets ? comment.substr(1, comment.size() - 2) : comment;
 }
 
+// Returns whether a line states the separator for Excel, as "sep=;" does, or "sep=" and a tab. The rows show the
+// separator, too.
+bool isSeparatorStatement(std::string_view line) {
+    line = text::trimmed(line);
+    return line.size() <= 5 && text::normalizedName(line.substr(0, 4)) == "sep=";
+}
+
 class PointReader {
   public:
     PointReader(std::string_view text, const PointTableOptions& options,
@@ -116,15 +124,18 @@ class PointReader {
         : lines_(text), format_(formatOf(lines_)), options_(options), add_(add) {}
 
     std::vector<std::string> read() {
-        bool first = true;
+        bool first = true;  // whether neither a header nor a row was read yet
+        std::size_t titles = 0;
         std::vector<TableLine> comments;
         while (const auto line = lines_.next()) {
             if (text::trimmed(line->content).empty()) {
                 if (first && !line->comment.empty()) comments.push_back(*line);
                 continue;
             }
-            if (std::exchange(first, false) && readHeader(*line, comments)) continue;
-            readRow(*line);
+            if (line->number == 1 && isSeparatorStatement(line->content)) continue;
+            const bool isText = first && readHeader(*line, comments);
+            first = isText && layout_.count == 0 && ++titles < kMaxTitles;
+            if (!isText) readRow(*line);
         }
         if (rows_ == 0) {
             throwFileError(0, layout_.count > 0 ? "the table has a header, but no rows"
@@ -134,8 +145,8 @@ class PointReader {
     }
 
   private:
-    // Reads the header from the first line with content, or else from the comments above it. Returns true if the line
-    // is a header or a title, and false if it is a row of numbers.
+    // Reads the header from a line that only titles precede, or, if the line is the first row, from the comments above
+    // it. Returns true if the line is a header or a title, and false if it is a row of numbers.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };

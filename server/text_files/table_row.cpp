@@ -137,7 +137,8 @@ std::optional<TableLine> TableLines::next() {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view whole = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    const std::size_t hash = std::min(whole.find('#'), whole.size());
+    const bool isComment = text::trimmed(whole).starts_with('%');  // as in files for MATLAB
+    const std::size_t hash = std::min(isComment ? whole.find('%') : whole.find('#'), whole.size());
     return TableLine{number_++, whole.substr(0, hash), text::trimmed(whole.substr(std::min(hash + 1, whole.size())))};
 }
 

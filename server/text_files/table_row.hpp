@@ -10,11 +10,11 @@
 
 namespace oval4d::text_files {
 
-/// A line of a text file, divided at its first #.
+/// A line of a text file, divided at its first #, or at a % with which it begins.
 struct TableLine {
     std::size_t number = 0;    ///< the number of the line in the file, counted from 1
-    std::string_view content;  ///< the text before the #, including blanks at its ends
-    std::string_view comment;  ///< the text after the #, without blanks at its ends
+    std::string_view content;  ///< the text before the mark, including blanks at its ends
+    std::string_view comment;  ///< the text after the mark, without blanks at its ends
 };
 
 /// The lines of a text file, one after the other.

@@ -34,7 +34,8 @@ TEST(Columns, AreSeparatedByBlanksCommasSemicolonsOrTabs) {
     for (const char* row :
          {"0.5 1 -2 3", "  .5\t1 -2  3 ", "0.5,1,-2,3", "0.5, 1, -2, 3,", "0.5;1;-2;3", "0.5 ; 1 ; -2 ; 3;",
           "0.5\t1\t-2\t3", "\"0.5\",\"1\",\"-2\",\"3\"", "0.5 1 -2 3 # a comment", "0.5 1 -2 3\r\n", "0.5 1 -2 3\r",
-          "+5e-1 1E0 -2.0D+00 3d0", "0.5\v1\f-2 3", "0.5\u00A01\u202F\u22122 3", "\uFEFF0.5 1 -2 3", "0.5 1 -2 3;"})
+          "% a # comment\n0.5 1 -2 3", "+5e-1 1E0 -2.0D+00 3d0", "0.5\v1\f-2 3", "0.5\u00A01\u202F\u22122 3",
+          "\uFEFF0.5 1 -2 3", "0.5 1 -2 3;"})
         EXPECT_EQ(read(row), kRow) << row;
 }
 
@@ -57,6 +58,19 @@ TEST(Columns, FollowTheHeader) {
               std::string(kRow) + "line 1, 'Results of the run', has no numbers and was left out\n");
     EXPECT_EQ(read("x y z\n1 2 3\n"), "line 1: the header names no column w; it must name x, y, z and w");
     EXPECT_EQ(read("x y z w\n1 2 3\n"), "line 2: the row has 3 columns, but the header names 4");
+}
+
+TEST(Columns, FollowAHeaderBelowTitles) {
+    const std::string said = std::string(kRow) + "line 1, 'Results of the run', has no numbers and was left out\n";
+    for (const char* header : {"w,x,y,z\n", "\nw,x,y,z\n", "# w,x,y,z\n", "# a comment\nw,x,y,z\n"})
+        EXPECT_EQ(read("Results of the run\n" + std::string(header) + "3,0.5,1,-2\n"), said) << header;
+    EXPECT_EQ(read("sep=;\nw;x;y;z\n3;0,5;1;-2\n"), kRow);
+    EXPECT_EQ(read("\uFEFFSEP=,\r\nw,x,y,z\r\n3,.5,1,-2\r\n"), kRow);
+    EXPECT_EQ(read("sep=\t\nw\tx\ty\tz\n3\t.5\t1\t-2\n"), kRow);
+    EXPECT_EQ(read("sep=;\n0,5;1;-2;3\n"), kRow);
+    std::string text;
+    for (int line = 0; line < 11; ++line) text += "Some words\n";
+    EXPECT_EQ(read(text + "0.5 1 -2 3\n"), "line 11: a point has 2 coordinates; four are needed");
 }
 
 // A column that a header leaves out may be text, with any separator.
@@ -86,9 +100,10 @@ TEST(Columns, BetweenTabsMayBeTextsWithCommasAndSemicolons) {
 }
 
 TEST(Columns, MayBeNamedByAComment) {
-    for (const char* comment : {"# w x y z", "# w, x, y, z", "# columns: w x y z", "# columns w x y z",
-                                "# (w, x, y, z)", "# columns = (w,x,y,z)", "# w x y z\n# another comment",
-                                "# w x y z\n\n", "# a comment\n# w x y z\n\n# x y z", "# t[s] x[m] y[m] z[m]"})
+    for (const char* comment :
+         {"# w x y z", "# w, x, y, z", "# columns: w x y z", "# columns w x y z", "# (w, x, y, z)",
+          "# columns = (w,x,y,z)", "# w x y z\n# another comment", "# w x y z\n\n", "# a comment\n# w x y z\n\n# x y z",
+          "# t[s] x[m] y[m] z[m]", "% w x y z", " %w, x, y, z"})
         EXPECT_EQ(read(std::string(comment) + "\n3 .5 1 -2\n"), kRow) << comment;
     for (const char* comment : {"# columns x y z w of run", "# x y z w", "# the points x y z w and others", "# x"})
         EXPECT_EQ(read(std::string(comment) + "\n.5 1 -2 3\n"), kRow) << comment;
