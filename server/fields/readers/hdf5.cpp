@@ -71,7 +71,8 @@ hid_t openBytes(std::span<const std::byte> bytes) {
 
 struct Contents {
     std::vector<std::string> datasets;
-    bool refers = false;  // whether a link or a dataset refers to another file
+    bool refers = false;     // whether a link or a dataset refers to another file
+    bool hasScales = false;  // whether a dataset has dimension scales, as all variables of NetCDF-4 files have
 };
 
 // The library calls visitLink() for each link and visitObject() for each object, until a call returns a number other
@@ -89,6 +90,7 @@ herr_t visitObject(hid_t file, const char* name, const H5O_info_t* info, void* t
         contents.datasets.emplace_back(name);
         const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
         if (!dataset) return 0;
+        contents.hasScales = contents.hasScales || H5Aexists(*dataset, "DIMENSION_LIST") > 0;
         const Handle creation(H5Dget_create_plist(*dataset), H5Pclose);
         if (!creation) return 0;
         contents.refers =
@@ -283,6 +285,11 @@ Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options)
     }
     if (contents.datasets.size() == kMaxDatasets) return badField("the file has too many datasets");
     if (H5Aexists(*id, "_NCProperties") > 0) return readNetcdf(file, options);
+    // The file may be of NetCDF before version 4.4.1, or of a program that uses dimension scales in the same way. The
+    // library for NetCDF may not know the types of such a program.
+    if (contents.hasScales) {
+        if (auto field = readNetcdf(file, options)) return field;
+    }
     return readDataset(file, *id, contents.datasets, options);
 }
 

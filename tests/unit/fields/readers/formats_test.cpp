@@ -589,13 +589,13 @@ TEST(FieldSeries, DecompressesLargeFilesIntoFewNewFiles) {
     EXPECT_LE(made, 4) << "the server makes no more for an array";
 }
 
-// A variable f(time, x) of one moment.
-std::string netcdfOfMoment(double time) {
+// A variable f(time, x) of one moment. `mode`: see netcdf().
+std::string netcdfOfMoment(double time, int mode = 0) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
     int file = 0, coordinate = 0, variable = 0;
     std::array<int, 2> dimensions{};
-    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_create(path.c_str(), mode | NC_CLOBBER, &file));
     check(nc_def_dim(file, "time", 1, &dimensions[0]));
     check(nc_def_dim(file, "x", 2, &dimensions[1]));
     check(nc_def_var(file, "time", NC_DOUBLE, 1, dimensions.data(), &coordinate));
@@ -606,6 +606,20 @@ std::string netcdfOfMoment(double time) {
     check(nc_put_var_float(file, variable, samples.data()));
     check(nc_close(file));
     return readFile(path);
+}
+
+// NetCDF before version 4.4.1 did not write the attribute _NCProperties.
+TEST(Hdf5, ReadsDimensionScalesAsNetcdfDoes) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.nc";
+    writeFile(path, netcdfOfMoment(3, NC_NETCDF4));
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Adelete(file, "_NCProperties"), 0);
+    H5Fclose(file);
+    const ReadField field = readOrFail(readFile(path));
+    EXPECT_TRUE(field.boxIsKnown);
+    EXPECT_EQ(field.shape, (Shape{2, 1, 1, 1}));
+    EXPECT_EQ(field.box, (Box{{0, 0, 0, 3}, {1, 0, 0, 3}}));
 }
 
 // A series of files with these times.
