@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,12 +28,17 @@ int openName(int folder, const std::string& name, int flags) {
     return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
+/// Returns a string that changes when the file with this status changes.
+std::string versionOf(const struct stat& status) {
+    return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
+           std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
+}
+
 /// Returns a string that changes when the file changes; an empty string if `file` is not a regular file.
 std::string versionOf(int file) {
     struct stat status{};
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return {};
-    return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
-           std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
+    return versionOf(status);
 }
 
 /// Returns a string that changes when the metadata of a Zarr folder changes, or when files directly in it are added or
@@ -52,6 +58,23 @@ std::string versionOfZarr(int folder) {
     if (fstat(folder, &status) == 0)
         version += std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec);
     return version;
+}
+
+/// Returns a string that changes when a file in the folder, or in a folder within it, changes, such as a chunk of a
+/// Zarr array. Does not follow symbolic links. Considers at most kMaxFiles, because even their status takes time to
+/// read.
+std::string versionOfFilesIn(const fs::path& folder) {
+    constexpr std::size_t kMaxFiles = 10'000;
+    std::size_t count = 0, sum = 0;  // a sum does not depend on the order in which the files are found
+    std::error_code fault;
+    for (fs::recursive_directory_iterator entry(folder, fault), end; !fault && entry != end && count < kMaxFiles;
+         entry.increment(fault)) {
+        struct stat status{};
+        if (lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        ++count;
+        sum += std::hash<std::string>()(entry->path().string() + ':' + versionOf(status));
+    }
+    return std::to_string(count) + ':' + std::to_string(sum) + ';';
 }
 
 bool isZarr(const fs::path& folder) {
@@ -167,6 +190,7 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
     if (folder->descriptor() < 0) return missing;
     if (opened.version = versionOfZarr(folder->descriptor()); !opened.version.empty()) {
         opened.folder = std::move(folder);
+        opened.chunks = versionOfFilesIn(folder_ / name);
         return opened;
     }
     const fields::FileHandle& series = *folder;
@@ -258,7 +282,7 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
                                                      const Reader& reader) {
     auto opened = open(load.dataName);
     if (!opened) return opened.error();
-    const std::string key = cacheKeyOf(load, opened->version);
+    const std::string key = cacheKeyOf(load, opened->version + opened->chunks);
     {
         std::unique_lock lock(mutex_);
         readEnded_.wait(lock, [&] { return !reading_.contains(key); });

@@ -69,7 +69,10 @@ class DataFolder {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
         std::shared_ptr<const fields::FileHandle> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
-        std::string version;  // a text that changes when a file changes
+        std::string version;  // a text that changes when a file changes; of a Zarr folder, only its metadata
+        // Of a Zarr folder, a text that changes when a chunk changes. A field is not refused if that happens while it
+        // is read: a simulation may write other arrays of the folder.
+        std::string chunks;
     };
     // A field in memory.
     struct CachedField {

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import os
 import time
 import zlib
 
@@ -85,6 +86,22 @@ async def test_missing_chunks_have_the_fill_value(shared, version):
         name = f"fill {version} {fill}"
         zarr_files.write(shared.folder / name, values, CHUNK, version, "gzip", fill=fill, skipped={(0, 1, 0, 1), (2, 2, 0, 2)})
         await compare(shared, shared.folder, name, filled)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_chunks_that_have_changed_are_read_again(shared, version):
+    values = quadratic(SHAPE)
+    name = f"changed {version}"
+    zarr_files.write(shared.folder / name, values, SHAPE, version, separator="/")
+    chunk = shared.folder / name / ("c" if version == 3 else "") / "0/0/0/0"
+    async with Client(shared) as client:
+        ranges = []
+        for factor in (1, 2):
+            chunk.write_bytes((values * factor).astype(values.dtype).tobytes())
+            os.utime(chunk, ns=(factor, factor))  # two writes may have the same time
+            await client.request("load", name="run", path=name, box=BOX)
+            ranges.append((await client.request("get", what="state"))["field"]["range"])
+    assert ranges[1] == pytest.approx([2 * end for end in ranges[0]])
 
 
 @pytest.mark.parametrize("version", [2, 3])
