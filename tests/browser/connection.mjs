@@ -277,6 +277,29 @@ test("connection: the view is restored, too, if the new session ends before", as
     await server.stop();
 });
 
+test("connection: the view of an address is complete, too, if the connection breaks before", async () => {
+    const { url } = await common();
+    const proxy = await startProxy(url, "/view");
+    const holds = "window.isHeld = ({ line }) => /alpha/.test(line) && (window.isHolding = true);";
+    const query = "?polytope=24-cell&rotate=xw:0.3&alpha=0.25";
+    const before = `(${holdSent})(); ${holds}`;
+    const { page, close } = await openPage({ url: proxy.url + query, before, picture: false });
+    await page.waitForFunction(() => window.isHolding);
+    proxy.cut();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    await page.evaluate(() => void (window.isHeld = undefined));
+    proxy.restore();
+    await ready(page);
+    const script = await scriptFor(page, url);
+    const { polytope, alpha, orientation } = await script.state();
+    assert.deepEqual([polytope.name, alpha], ["24-cell", 0.25]);
+    assert.ok(Math.abs(orientation[3][3] - Math.cos(0.3)) < 1e-9, "it is turned once");
+    assert.equal(await page.locator("#notice").textContent(), "");
+    script.leave();
+    await close();
+    await proxy.stop();
+});
+
 test("connection: an unreachable server is reported", async () => {
     const server = await startReplaceableServer();
     const { page, close } = await openPage({ url: server.url });

@@ -20,6 +20,7 @@ interface PageSessionActions {
 
 export class PageSession {
     private lostState: State | undefined; // the last state of a lost session, which the new session restores
+    private isViewBegun = false; // whether a part of the initial view has been requested
 
     /** `view` is what the page shows at the start. */
     constructor(
@@ -67,21 +68,36 @@ export class PageSession {
         ]);
     }
 
-    /** In a new session, restores the view of a lost session, or applies the initial view. Else does nothing. */
+    /**
+     * In a new session, restores the view of a lost session, or applies the initial view. Else does nothing. Rejects if
+     * the connection breaks; the next connection then needs another call.
+     */
     async restoreView(): Promise<void> {
-        const { lines, field, faults } = this.view;
-        this.clearView();
         try {
             if (this.lostState) await this.restore(this.lostState);
         } catch (error) {
-            if ((error as RequestError).code === "not_connected") throw error; // tried again on the next connection
+            throwIfNotConnected(error);
             this.actions.tell([(error as Error).message]);
         }
         this.lostState = undefined;
+        const faults = await this.applyInitialView();
+        this.clearView();
+        this.actions.tell(faults);
+    }
+
+    /** Applies the initial view, if it has not been applied yet; resolves to what is wrong with it. */
+    private async applyInitialView(): Promise<string[]> {
+        const { lines, field, faults: known } = this.view;
+        const faults = [...known];
+        // The commands that were sent before the connection broke may have been executed. Without a reset, a rotation
+        // that is sent again would turn the object twice.
+        if (this.isViewBegun) await this.client.request({ type: "reset" });
+        this.isViewBegun = lines.length > 0 || field !== undefined;
         if (field) {
             try {
                 await this.actions.loadField(field);
             } catch (error) {
+                throwIfNotConnected(error);
                 faults.push(`The address contains “formula=${field.formula}”: ${(error as Error).message}`);
             }
         }
@@ -90,10 +106,11 @@ export class PageSession {
                 const { revision } = await this.client.request({ type: "command", line });
                 this.actions.viewShown(revision);
             } catch (error) {
+                throwIfNotConnected(error);
                 faults.push(`The address contains “${line}”: ${(error as Error).message}`);
             }
         }
-        this.actions.tell(faults);
+        return faults;
     }
 
     private join(credentials: Credentials): void {
@@ -107,6 +124,7 @@ export class PageSession {
     private clearView(): void {
         Object.assign(this.view, { lines: [], faults: [] });
         delete this.view.field;
+        this.isViewBegun = false;
     }
 
     /** Restores a view, without its polytope if that is not available: for example, if another page loaded its file. */
@@ -115,10 +133,15 @@ export class PageSession {
             await this.actions.reloadFile(lost.polytope.name);
             await this.client.request({ ...lost, type: "set", turning: false });
         } catch (error) {
-            if ((error as RequestError).code === "not_connected") throw error;
+            throwIfNotConnected(error);
             this.actions.tell([(error as Error).message]);
             const { polytope, slices, point, hidden, faded, highlight, levels, inside, fog, ...rest } = lost;
             await this.client.request({ ...rest, type: "set", turning: false });
         }
     }
+}
+
+/** Throws the error again if the connection broke before the answer to a request arrived. */
+function throwIfNotConnected(error: unknown): void {
+    if ((error as RequestError).code === "not_connected") throw error;
 }
