@@ -116,7 +116,6 @@ export class Client {
     private lastId = 0;
     private failures = 0;
     private blocked: { isBlocked?: true } = {};
-    private noAnswer = kNoAnswer; // why no WebSocket opens, as far as it is known
     private timer: ReturnType<typeof setTimeout> | undefined;
     private readonly arena = new Arena();
     private heldFrame: Uint8Array | undefined;
@@ -306,7 +305,6 @@ export class Client {
         }
         this.failures = 0;
         this.blocked = {};
-        this.noAnswer = kNoAnswer;
         this.welcome = welcome;
         this.credentials = { session: welcome.session, token: welcome.token };
         if (this.status.kind !== "open") this.report({ kind: "open" });
@@ -354,7 +352,7 @@ export class Client {
             return;
         }
         const opened = this.status.kind === "open";
-        const otherwise = opened ? "the connection was lost" : this.noAnswer;
+        const otherwise = opened ? "the connection was lost" : kNoAnswer;
         const reason = closeReason || (code === 1012 ? "the server is stopping" : otherwise);
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
         const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
@@ -365,7 +363,8 @@ export class Client {
 
     /**
      * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests, or another token of the server than before.
+     * pass on the headers of WebSocket requests. If the server has another token than before, stops connecting: each
+     * attempt would count as a wrong token, and soon the server would refuse everybody at this address.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
@@ -373,16 +372,18 @@ export class Client {
         const answer = await fetch(this.options.url, { method: "HEAD", signal }).catch(() => undefined);
         const { status } = this;
         if (status.kind !== "waiting" && status.kind !== "connecting") return;
-        this.blocked = answer?.ok ? { isBlocked: true } : {};
-        this.noAnswer = answer?.status === kUnauthorized ? kTokenRequired : kNoAnswer;
-        if (status.kind === "connecting") {
-            if (status.isBlocked !== this.blocked.isBlocked) this.report({ kind: "connecting", ...this.blocked });
+        if (answer?.status === kUnauthorized) {
+            this.close(kTokenRequired);
             return;
         }
-        const reason = [kNoAnswer, kTokenRequired].includes(status.reason) ? this.noAnswer : status.reason;
-        if (reason === status.reason && status.isBlocked === this.blocked.isBlocked) return;
+        this.blocked = answer?.ok ? { isBlocked: true } : {};
+        if (status.isBlocked === this.blocked.isBlocked) return;
+        if (status.kind === "connecting") {
+            this.report({ kind: "connecting", ...this.blocked });
+            return;
+        }
         const seconds = Math.max(0, status.seconds - (Date.now() - begin) / 1000);
-        this.report({ kind: "waiting", reason, seconds, ...this.blocked });
+        this.report({ kind: "waiting", reason: status.reason, seconds, ...this.blocked });
     }
 
     private drop(): void {

@@ -177,12 +177,13 @@ test("connection: the page says that a proxy passes no WebSockets on", async () 
     }
 });
 
-test("connection: the page says that the server requires a token, as after a restart with another one", async () => {
+test("connection: the page stops and says that the server requires a token, as after a restart with another", async () => {
     const proxy = await startProxy((await common()).url, "/token");
     const { page, close } = await openPage({ url: proxy.url });
     await page.route("**", (route) => route.fulfill({ status: 401 }));
     proxy.cut();
-    await page.waitForFunction(() => /requires its token/.test(document.getElementById("connection").textContent));
+    await page.waitForSelector("#connection[data-kind=closed]");
+    assert.match(await connection(page), /requires its token/);
     await close();
     await proxy.stop();
 });
