@@ -283,9 +283,15 @@ class Client:
             text = answer.read().decode(errors="replace")
         finally:
             connection.close()
-        message = json.loads(text) if answer.getheader("Content-Type") == "application/json" else None
-        if answer.status != 200:
-            raise Refused(message["code"] if message else str(answer.status), message["message"] if message else text)
+        media = (answer.getheader("Content-Type") or "").partition(";")[0]
+        message = json.loads(text) if media == "application/json" else None
+        if isinstance(message, dict) and message.get("type") == "error":
+            raise Refused(message["code"], message["message"])
+        if answer.status != 200 or message is None:
+            reason = text.strip() if media == "text/plain" else answer.reason  # not the page of a proxy, which is HTML
+            if answer.status == 413:
+                reason += f": the server accepts files of at most {self.welcome['limits']['upload']} bytes"
+            raise Refused(str(answer.status), reason)
         return message
 
     def _set_levels(self, done, levels, inside):

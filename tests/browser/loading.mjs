@@ -166,6 +166,26 @@ test("loading: an array is uploaded, and shown as a field", async () => {
     assert.deepEqual(errors.filter((error) => !/status of 400/.test(error)), []);
 });
 
+test("loading: an upload that a proxy refuses is reported in a sentence, not as its page", async () => {
+    const { page, close } = await openWithScript();
+    const said = async (answer) => {
+        await page.route("**/fields/**", (route) => route.fulfill(answer));
+        await page.setInputFiles("#file", ballFile("ball.npy"));
+        await page.waitForSelector("#loading[data-outcome=failed]");
+        const text = await report(page);
+        await page.unroute("**/fields/**");
+        await page.click("#loading [data-close]");
+        return text;
+    };
+    const html = { contentType: "text/html", body: "<html><h1>nginx</h1></html>" };
+    assert.match(await said({ status: 413, ...html }), /^The file was not loaded: [^<]* 413\. .* up to [\d.]+ MiB\.$/);
+    assert.match(await said({ status: 502, ...html }), /^The file was not loaded: [^<]* 502\. A proxy [^<]*\.$/);
+    const plain = { status: 429, contentType: "text/plain", body: "too many wrong tokens; try again in a minute\n" };
+    assert.match(await said(plain), / 429, too many wrong tokens; try again in a minute\.$/);
+    assert.match(await said({ status: 403, contentType: "application/json", body: '{"error":"x"}' }), / 403\. A proxy /);
+    await close();
+});
+
 test("loading: a picture and a state are shown again, and files without a state are refused", async () => {
     const { page, script, errors, close } = await openWithScript();
     const { url } = await common();

@@ -236,3 +236,20 @@ def test_refused_uploads_are_raised(server, tmp_path):
         with pytest.raises(Refused) as refused:
             oval.upload("mine", bytes(oval.welcome["limits"]["upload"] + 1))
         assert refused.value.code == "too_large"
+
+
+def test_the_page_of_a_proxy_is_not_shown(server, monkeypatch):
+    class ProxyAnswer:
+        status, reason = 413, "Request Entity Too Large"
+
+        def getheader(self, _name):
+            return "text/html"
+
+        def read(self):
+            return b"<html><h1>nginx</h1></html>"
+
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        monkeypatch.setattr(oval4d_client.http.client.HTTPConnection, "getresponse", lambda _self: ProxyAnswer())
+        with pytest.raises(Refused, match=r"^413: Request Entity Too Large: .* at most \d+ bytes$"):
+            oval.upload("mine", b"\x93NUMPY")

@@ -2,8 +2,10 @@
 
 import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 
-import { FileError, utf16Of } from "./files";
+import { FileError, sizeText, utf16Of } from "./files";
 
+const kTooLarge = 413; // the HTTP status if a proxy or the server refuses a file because of its size
+const kMaxReason = 200; // characters of a text that is shown as the reason
 const kHeader = 512; // bytes at the start of a file; in an array, they contain a character that texts do not contain
 
 /** Whether a file is binary, not a text. Only the server finds whether it is an array, and in which format. */
@@ -15,12 +17,14 @@ export async function isBinary(file: File): Promise<boolean> {
 
 /**
  * Loads an array into the session under a name. `sent` is called with the fraction that has been sent, from 0 to 1.
- * Rejects with a FileError if the connection is lost, or, with the server's reason, if the server refuses the array.
+ * Rejects with a FileError if the connection is lost, or, with the reason, if the server or a proxy refuses the array.
+ * `limit` is the size of files, in bytes, that the server accepts.
  */
 export function uploadArray(
     file: File,
     name: string,
     { session, token }: Credentials,
+    limit: number,
     sent: (part: number) => void,
 ): Promise<Done> {
     // fetch() does not report progress.
@@ -28,17 +32,36 @@ export function uploadArray(
     const path = `api/v1/sessions/${encodeURIComponent(session)}/fields/${encodeURIComponent(name)}`;
     request.open("PUT", new URL(path, new URL(".", location.href)));
     request.setRequestHeader("Session-Token", token);
-    request.responseType = "json";
     return new Promise((resolve, reject) => {
         const lost = (): void => reject(new FileError("The connection was lost before the file was loaded. Try again."));
         request.upload.onprogress = ({ loaded, total }) => sent(loaded / total);
         request.onerror = request.onabort = lost;
         request.onload = () => {
-            const answer = request.response as Done | ErrorMessage | null;
+            const answer = messageIn(request.responseText);
             if (answer?.type === "done") resolve(answer);
-            else if (answer) reject(new FileError(answer.message));
-            else lost();
+            else reject(new FileError(answer?.message ?? refusalOf(request, limit)));
         };
         request.send(file);
     });
+}
+
+/** The server's message in an answer; undefined if the answer is another text, such as the page of a proxy. */
+function messageIn(text: string): Done | ErrorMessage | undefined {
+    try {
+        const message = JSON.parse(text) as Partial<Done | ErrorMessage> | null;
+        if (message?.type === "done" || message?.type === "error") return message as Done | ErrorMessage;
+    } catch {
+        // not JSON
+    }
+    return undefined;
+}
+
+/** Says why a file was not loaded, if the answer is no message of the server: only a plain text is shown as it is. */
+function refusalOf(request: XMLHttpRequest, limit: number): string {
+    const isPlain = /^text\/plain\b/i.test(request.getResponseHeader("Content-Type") ?? "");
+    const reason = isPlain ? request.responseText.trim().slice(0, kMaxReason) : "";
+    const said = `The file was not loaded: the answer was HTTP status ${request.status}${reason && `, ${reason}`}`;
+    if (request.status !== kTooLarge) return reason ? said : `${said}. A proxy before the server may have sent it.`;
+    const most = Number.isFinite(limit) ? `files up to ${sizeText(limit)}` : "larger files";
+    return `${said.replace(/\.$/, "")}. A proxy before the server allows less than this; the server accepts ${most}.`;
 }

@@ -130,7 +130,7 @@ export class FileLoading {
         const limit = welcome?.limits["upload"] ?? Infinity;
         if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
         if (!credentials) throw new FileError("There is no connection to a session. Try again.");
-        return uploadArray(file, nameOf(file), credentials, (part) => this.showSent(part));
+        return uploadArray(file, nameOf(file), credentials, limit, (part) => this.showSent(part));
     }
 
     /** Shows which part of a file has been sent, from 0 to 1. */

@@ -83,9 +83,12 @@ export function nameOf({ name }: { name: string }): string {
 
 /** The message that a file of this size exceeds the limit; both are in bytes. */
 export function tooLarge(bytes: number, limit: number): string {
-    const size = (count: number): string =>
-        count < 2 ** 20 ? `${Math.ceil(count / 2 ** 10)} KiB` : `${(count / 2 ** 20).toFixed(1)} MiB`;
-    return `The file is too large: ${size(bytes)} when sent; this server accepts up to ${size(limit)}.`;
+    return `The file is too large: ${sizeText(bytes)} when sent; this server accepts up to ${sizeText(limit)}.`;
+}
+
+/** A number of bytes, for display. */
+export function sizeText(bytes: number): string {
+    return bytes < 2 ** 20 ? `${Math.ceil(bytes / 2 ** 10)} KiB` : `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 }
 
 /** Line `number` of the text, counted from 1, and up to `around` lines on either side. */
