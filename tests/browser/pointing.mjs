@@ -257,6 +257,52 @@ test("pointing: the label stays within a narrow drawing, and stars and point clo
     await close();
 });
 
+/** A 4OFF file of the product of a hexagon like the letter L in xy and a square in zw. */
+function productOfLAndSquare() {
+    const l = [[-1, -1], [1, -1], [1, 0], [0, 0], [0, 1], [-1, 1]];
+    const square = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+    const vertices = square.flatMap((zw) => l.map((xy) => [...xy, ...zw]));
+    const around = l.map((_, i) => i);
+    const next = (i) => (i + 1) % 6;
+    const over = (j) => (j + 1) % 4;
+    const faces = [
+        ...square.map((_, j) => around.map((i) => 6 * j + i)), // 0 to 3: L at a vertex of the square
+        ...around.map((i) => square.map((_, j) => 6 * j + i)), // 4 to 9: squares at a vertex of L
+        ...square.flatMap((_, j) => around.map((i) => [6 * j + i, 6 * j + next(i), 6 * over(j) + next(i), 6 * over(j) + i])),
+    ];
+    const cells = [
+        ...square.map((_, j) => [j, over(j), ...around.map((i) => 10 + 6 * j + i)]),
+        ...around.map((i) => [4 + i, 4 + next(i), ...square.map((_, j) => 10 + 6 * j + i)]),
+    ];
+    const lines = [...faces, ...cells].map((list) => [list.length, ...list]);
+    return ["4OFF", "24 34 48 10", ...[...vertices, ...lines].map((line) => line.join(" ")), ""].join("\n");
+}
+
+test("pointing: faces in the hyperplane of a slice that is not convex are named as the server names them", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned();
+    await script.request({ type: "load", name: "L", format: "off", data: productOfLAndSquare(), center: "origin" });
+    await script.request({ type: "reset" });
+    const shown = { balls: false, bars: false, coordinates: false };
+    await script.request({ type: "set", view: "single", projection: "off", shown });
+    const { revision } = await script.request({ type: "command", line: "set w=1" });
+    await presented(page, revision);
+    const { scene, slices } = await picture();
+    const slice = slices.find(({ focus }) => focus);
+    assert.ok(slice.fill, "the slice need not be convex");
+    const [x, y] = project(scene, slice.position, size);
+    let faces = 0;
+    for (let i = -4; i < 4; ++i) {
+        const at = [Math.round(x + 0.05 * (i + 0.4) * size.height), Math.round(y - 0.03 * (i + 0.7) * size.height)];
+        const { highlight } = await script.request({ type: "get", what: "at", x: at[0], y: at[1], ...size });
+        await moveTo(...at);
+        await labeled(page, highlight ? new RegExp(`^${highlight.element} ${highlight.number}\\b`, "i") : /^$/);
+        if (highlight?.element === "face") ++faces;
+    }
+    assert.ok(faces > 0, "a face is named");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointing: elements are found far from the middle of the projection and of a slice", async () => {
     const settings = { polytope: "600-cell", view: "single", eye: 1.05 };
     const { page, script, errors, size, picture, moveTo, close } = await openTurned(settings);

@@ -114,20 +114,16 @@ class MeshTest {
         return this.hit;
     }
 
+    /** Writes the camera and screen coordinates of the vertices into `projected`. */
     private projectVertices(): void {
         const { elements, position, scale } = this.mesh;
         const { vertices } = elements;
         projected = ensureCapacity(projected, (kStride * vertices.length) / 3);
-        this.project(vertices, position, scale);
-    }
-
-    /** Writes the camera and screen coordinates of points into `projected`. */
-    private project(points: Float32Array, position: Vector, scale: number): void {
         const view = this.viewCamera.view.elements;
-        for (let i = 0, at = 0; i < points.length; i += 3, at += kStride) {
-            const x = position[0] + scale * points[i]!;
-            const y = position[1] + scale * points[i + 1]!;
-            const z = position[2] + scale * points[i + 2]!;
+        for (let i = 0, at = 0; i < vertices.length; i += 3, at += kStride) {
+            const x = position[0] + scale * vertices[i]!;
+            const y = position[1] + scale * vertices[i + 1]!;
+            const z = position[2] + scale * vertices[i + 2]!;
             projected[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
             projected[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
             projected[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
@@ -174,42 +170,45 @@ class MeshTest {
         }
     }
 
+    /** Tests the faces. The loops with one source follow each other and are a single face, as in Picker in pick.cpp. */
     private testFaces(): void {
-        const { slice, elements, position, scale } = this.mesh;
-        const { faces, of, seen: visibility } = elements;
-        if (!slice?.fill) {
-            for (let f = 0; f + 1 < faces.begin.length; ++f) {
-                if (visibility?.faces[f] === 0) continue;
-                const depth = this.depthOfPolygon(faces.corners, faces.begin[f]!, faces.begin[f + 1]!);
-                this.keepIfNearest("faces", of.faces[f]!, depth);
-            }
-            return;
-        }
-        const { points, triangles, tints } = slice.fill;
-        projected = ensureCapacity(projected, (kStride * points.length) / 3);
-        this.project(points, position, scale);
-        for (let t = 0; t < tints.length; ++t) {
-            this.keepIfNearest("faces", tints[t]!, this.depthOfPolygon(triangles, 3 * t, 3 * t + 3));
+        const { of, seen: visibility } = this.mesh.elements;
+        for (let f = 0, end = 0; f < of.faces.length; f = end) {
+            const source = of.faces[f]!;
+            while (end < of.faces.length && of.faces[end] === source) ++end;
+            if (visibility?.faces[f] !== 0) this.keepIfNearest("faces", source, this.depthOfFace(f, end));
         }
     }
 
-    /** The depth of a polygon at the point; Infinity if the polygon does not contain the point. */
-    private depthOfPolygon(corners: Uint32Array, begin: number, end: number): number {
-        let isInside = false;
-        let p = kStride * corners[end - 1]!;
-        for (let c = begin; c < end; ++c) {
-            const q = kStride * corners[c]!;
-            if (projected[q + 2]! >= 0) return Infinity;
-            const [py, qy] = [projected[p + 4]!, projected[q + 4]!];
-            if (py > this.y !== qy > this.y) {
-                const crossing = projected[p + 3]! + ((this.y - py) / (qy - py)) * (projected[q + 3]! - projected[p + 3]!);
-                if (this.x < crossing) isInside = !isInside;
+    /**
+     * The depth at the point of the face with the loops firstLoop … endLoop − 1; Infinity if the face does not contain
+     * the point. The face is filled where the winding number of its loops is not 0.
+     */
+    private depthOfFace(firstLoop: number, endLoop: number): number {
+        const { begin, corners } = this.mesh.elements.faces;
+        let winding = 0;
+        let [nx, ny, nz] = [0, 0, 0];
+        for (let loop = firstLoop; loop < endLoop; ++loop) {
+            const [first, end] = [begin[loop]!, begin[loop + 1]!];
+            let p = kStride * corners[end - 1]!;
+            for (let c = first; c < end; ++c) {
+                const q = kStride * corners[c]!;
+                if (projected[q + 2]! >= 0) return Infinity;
+                const [py, qy] = [projected[p + 4]!, projected[q + 4]!];
+                if (py > this.y !== qy > this.y) {
+                    const part = (this.y - py) / (qy - py);
+                    const crossing = projected[p + 3]! + part * (projected[q + 3]! - projected[p + 3]!);
+                    if (this.x < crossing) winding += qy > py ? 1 : -1;
+                }
+                p = q;
             }
-            p = q;
+            const [x, y, z] = areaVector(projected, corners, [first, end], kStride);
+            [nx, ny, nz] = [nx + x, ny + y, nz + z];
         }
-        if (!isInside) return Infinity;
-        const [nx, ny, nz] = areaVector(projected, corners, [begin, end], kStride);
         const [rayX, rayY] = this.viewCamera.rayAt(this.x, this.y);
-        return (nx * projected[p]! + ny * projected[p + 1]! + nz * projected[p + 2]!) / (nx * rayX + ny * rayY - nz);
+        const across = nx * rayX + ny * rayY - nz;
+        if (winding === 0 || across === 0) return Infinity;
+        const p = kStride * corners[begin[firstLoop]!]!;
+        return (nx * projected[p]! + ny * projected[p + 1]! + nz * projected[p + 2]!) / across;
     }
 }
