@@ -28,6 +28,9 @@ export class CriticalValues {
     private originW = 0; // the w, in the object's file, of the center of the object, where w is 0 in pictures
     // Identifies the object, orientation and spacing of the known or requested values; "" if a request has failed.
     private knownFor = "";
+    private kept = ""; // what the last state says, as JSON, without what loading an object sets back
+    private revision = -1; // of the last state
+    private loadedAt = -1; // the last revision at which the object may have been loaded again
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;
@@ -37,15 +40,20 @@ export class CriticalValues {
         private readonly onChange: () => void,
     ) {}
 
-    update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
-        const object = [polytope, pace, follow, boost, field, levels, inside];
+    update(state: State): void {
+        const { polytope, pace, follow, boost, orientation, slices, field, levels, inside } = state;
+        const isLikelySame = this.mayBeLoadedAgain(state);
+        if (isLikelySame) this.loadedAt = state.revision;
+        const object = [polytope, pace, follow, boost, field, levels, inside, this.loadedAt];
         // The spacing is included because it differs if a new object has the same name.
         const key = JSON.stringify([object, orientation, slices.spacing]);
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;
-        this.isCurrent = this.isExact = false;
         this.restTime = field ? kFieldRestTime : kRestTime;
+        this.scheduleRequest();
+        if (isLikelySame) return; // the known values stay until the answer
+        this.isCurrent = this.isExact = false;
         if (field) {
             // Until the critical values are known, the range is that of the slices.
             const reach = (slices.spacing * (slices.count - 1)) / 2;
@@ -53,8 +61,22 @@ export class CriticalValues {
             this.range = [slices.offset - reach, slices.offset + reach];
             this.isCurrent = true;
         }
-        this.scheduleRequest();
         this.onChange();
+    }
+
+    /**
+     * Whether the change since the last state may be that another object of the same name, and with as many elements,
+     * has been loaded: then the state differs only in what loading sets back.
+     */
+    private mayBeLoadedAgain(state: State): boolean {
+        const { id, revision, draft, moving, section, turning, slices, point, hidden, faded, fog, ...others } = state;
+        const { highlight, ...kept } = others;
+        const { focus, offset, ...hyperplanes } = slices;
+        const before = this.kept;
+        this.kept = JSON.stringify([kept, hyperplanes]);
+        const isChanged = revision !== this.revision;
+        this.revision = revision;
+        return isChanged && this.kept === before && focus === 0 && offset === 0 && highlight === null;
     }
 
     /** Takes rounded values from the picture of the newest state, if the picture has the parallel coordinates. */
