@@ -53,6 +53,45 @@ async function exported(page, choices = {}, numbers = {}) {
     return { name: download.suggestedFilename(), bytes: await bytesOf(download) };
 }
 
+/** Runs in the page before its scripts: holds the answer to the first request for a file until `window.release()`. */
+function holdFile() {
+    let id;
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+        const message = JSON.parse(text);
+        if (message.what === "file") id ??= message.id;
+        return send.call(this, text);
+    };
+    const { set } = Object.getOwnPropertyDescriptor(WebSocket.prototype, "onmessage");
+    Object.defineProperty(WebSocket.prototype, "onmessage", {
+        set(handler) {
+            set.call(this, (event) => {
+                const pass = () => handler?.call(this, event);
+                const isHeld = id !== undefined && typeof event.data === "string" && JSON.parse(event.data).id === id;
+                if (isHeld) window.release = pass;
+                else pass();
+            });
+        },
+    });
+}
+
+test("export: the name of a file has the w of the request, also if the focus moves before the answer", async () => {
+    const { page, script, errors, close } = await openWithScript({ before: holdFile });
+    await openExport(page);
+    await choose(page, "format", "stl");
+    await choose(page, "of", "focus");
+    const before = await page.locator("#export-focus").textContent();
+    const saving = page.waitForEvent("download");
+    await page.click("#export-submit");
+    await page.waitForFunction(() => window.release);
+    await script.request({ type: "set", slices: { focus: 3 } });
+    await page.waitForFunction((text) => document.getElementById("export-focus").textContent !== text, before);
+    await page.evaluate(() => window.release());
+    assert.match((await saving).suggestedFilename(), /-w-0\.stl$/);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("export: every format makes its file, with a descriptive name", async () => {
     const begins = {
         "3mf": /^PK/,

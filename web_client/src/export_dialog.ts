@@ -23,6 +23,8 @@ const kOptions: Record<string, (value: string) => string | number> = {
     fit: Number,
 };
 
+type RequestedFile = [file: ExportedFile, state: State];
+
 export class ExportDialog {
     private readonly dialog = new Dialog("export");
     private readonly form = byId<HTMLFormElement>("export-form");
@@ -87,7 +89,7 @@ export class ExportDialog {
             const changed = withChanges(this.options, given);
             return { options: changed, file: this.requestFile(format, changed) };
         });
-        this.saveFile(await file, format, options, state);
+        this.saveFile(await file, format, options);
     }
 
     /** Calls `use`, which may change the choices in the form, and then restores the choices. */
@@ -277,7 +279,7 @@ export class ExportDialog {
         try {
             const file = await this.requestFile(format, options);
             if (number !== this.requestNumber) return;
-            this.saveFile(file, format, options, this.state!);
+            this.saveFile(file, format, options);
             this.dialog.close();
         } catch (error) {
             if (number !== this.requestNumber) return;
@@ -294,10 +296,13 @@ export class ExportDialog {
         return Object.fromEntries(chosen.map(([name, value]) => [name, kOptions[name]!(value)]));
     }
 
-    private async requestFile({ name: format }: Format, options: Options): Promise<ExportedFile> {
+    /** Requests a file, and the state that it shows: the server executes the two requests one after the other. */
+    private async requestFile({ name: format }: Format, options: Options): Promise<RequestedFile> {
+        const state = this.client.request({ type: "get", what: "state" });
         if (format !== "png") {
             const chosen = options as unknown as Partial<FileOptions>;
-            return this.client.request({ type: "get", what: "file", ...chosen, format });
+            const file = this.client.request({ type: "get", what: "file", ...chosen, format });
+            return Promise.all([file, state]);
         }
         const { width, height, background } = this.formValues();
         const request = {
@@ -305,10 +310,11 @@ export class ExportDialog {
             height: Number(height),
             ...(background && { background: background as Background }),
         };
-        return { bytes: await this.client.request({ type: "get", what: "frame", ...request }), warnings: [] };
+        const [bytes, shown] = await Promise.all([this.client.request({ type: "get", what: "frame", ...request }), state]);
+        return [{ bytes, warnings: [] }, shown];
     }
 
-    private saveFile({ bytes, warnings }: ExportedFile, format: Format, options: Options, state: State): void {
+    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: Format, options: Options): void {
         download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }
