@@ -25,7 +25,8 @@ void Slicer::slice(const Object& object, const geometry::Rotation& orientation, 
 
 void Slicer::sliceWithoutSurfaces(const Object& object, const geometry::Rotation& orientation,
                                   const geometry::Hyperplanes& planes, SliceSet& out) {
-    slice(object, orientation, planes, {}, {}, out);
+    static const FieldSettings anySettings;  // not made anew for each call, which would allocate memory
+    slice(object, orientation, planes, anySettings, {}, out);
 }
 
 }  // namespace oval4d::slicing
