@@ -9,8 +9,10 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "fields/readers/field_reader.hpp"
+#include "fields/readers/zarr.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
 #include "session/settings.hpp"
@@ -55,8 +57,13 @@ bool isArray(const fields::FileContents& file) {
     return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
 }
 
-/// Reads the object in a file or a Zarr folder. An array may be larger than the main memory. Removes from the query the
-/// options that say how to read an object of this kind.
+bool isZarr(const std::filesystem::path& folder) {
+    return std::ranges::any_of(fields::kZarrFiles,
+                               [&](std::string_view file) { return std::filesystem::exists(folder / file); });
+}
+
+/// Reads the object in a file, a Zarr folder, or a folder with a series of files. An array may be larger than the main
+/// memory. Removes from the query the options that say how to read an object of this kind.
 Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
@@ -73,6 +80,20 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
         if (!second.formula.empty() && !second.variable.empty())
             throw std::runtime_error("give either --values or --values_variable, not both");
         if (!isFolder) return session::readArray(*mapped, name, options, second);
+        if (!isZarr(path)) {
+            const auto series = fields::seriesFiles(path);
+            if (!series) return series.error();
+            std::vector<fields::FileContents> files;
+            for (const std::filesystem::path& each : *series) {
+                auto file = fields::FileContents::map(each);
+                if (!file) return file.error();
+                files.push_back(std::move(*file));
+            }
+            session::LoadObject load{name, {}, {}};
+            load.secondFormula = second.formula;
+            load.secondVariable = second.variable;
+            if (!files.empty()) return session::readSeries(files, load, options);
+        }
         const auto open = [&](const std::string& inside) -> Result<std::optional<fields::FileContents>> {
             if (!std::filesystem::exists(path + '/' + inside)) return std::optional<fields::FileContents>();
             auto file = fields::FileContents::map(std::filesystem::path(path) / inside);

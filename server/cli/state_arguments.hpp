@@ -18,12 +18,12 @@ namespace oval4d {
 session::QueryParameters queryOf(const std::vector<std::string>& words);
 
 /// Returns the state that the query describes. The query parameter "load" is the path of what to show: a file with an
-/// object, a Zarr folder, a `state` message, or a picture made by oval4d. The rest of the query changes the state in
-/// the message or picture or, if there is none, the initial state. If the file is an array, "axes", "box", "variable",
-/// "values" and "values_variable" say how to read it; if it is a polytope, a surface or a list of points, "center" is
-/// the point about which it turns. Prints warnings about the file to standard error. `others` are the names of the
-/// caller's own options, for the list of allowed options in the error message about an unknown option. Throws
-/// std::runtime_error with a message for the user.
+/// object, a Zarr folder, a folder with a series of files (see fields::readSeries()), a `state` message, or a picture
+/// made by oval4d. The rest of the query changes the state in the message or picture or, if there is none, the initial
+/// state. If the file is an array, "axes", "box", "variable", "values" and "values_variable" say how to read it; if it
+/// is a polytope, a surface or a list of points, "center" is the point about which it turns. Prints warnings about the
+/// file to standard error. `others` are the names of the caller's own options, for the list of allowed options in the
+/// error message about an unknown option. Throws std::runtime_error with a message for the user.
 session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
@@ -41,8 +41,9 @@ inline constexpr const char* kStateHelp =
     "All other options describe the state, as for :set and the query of frame.png:\n"
     "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single --background white\n"
     "--load FILE shows a polytope or a surface from a 4OFF file, the points of a file whose first word is CLOUD,\n"
-    "a field from an array (npy, netcdf, hdf5, nifti; with --axes tzyx --box X0,X1,Y0,Y1,Z0,Z1,W0,W1\n"
-    "--variable NAME), or the convex hull of any other list of points. --values FORMULA, or for arrays\n"
+    "a field from an array (npy, netcdf, hdf5, nifti, a Zarr folder, or a folder with one such file for each\n"
+    "moment; with --axes tzyx --box X0,X1,Y0,Y1,Z0,Z1,W0,W1 --variable NAME), or the convex hull of any\n"
+    "other list of points. --values FORMULA, or for arrays\n"
     "--values_variable NAME, is a second function whose values color the surfaces. --center object|origin|\n"
     "X,Y,Z,W is the point about which a polytope, a surface or points turn.\n"
     "A picture that oval4d has made, or a state as JSON, is shown again; other options change it.\n"

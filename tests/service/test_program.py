@@ -10,6 +10,7 @@ import subprocess
 
 import png
 import pytest
+from array_files import npy, quadratic
 from harness import DEADLINE, LONG_TIME, PROGRAM, Server, run_oval4d
 from test_pacing import open_nonreading_socket
 from wire import Client
@@ -123,3 +124,19 @@ def test_compressed_files_and_folders_are_named(tmp_path):
     (tmp_path / "folder").mkdir()
     done = run_oval4d("render", "--load", tmp_path / "folder", "-o", "-")
     assert done.returncode != 0 and b"the folder contains no Zarr array or group" in done.stderr
+
+
+def test_a_folder_of_arrays_is_a_series(tmp_path):
+    values = quadratic((11, 4, 5, 6))
+    (tmp_path / "run.npy").write_bytes(npy(values))
+    (tmp_path / "run").mkdir()
+    for moment, each in enumerate(values):
+        (tmp_path / "run" / f"t{moment}.npy").write_bytes(npy(each))  # t2 comes before t10
+    (tmp_path / "run" / "notes.txt").write_text("no array")
+    whole, series = (run_oval4d("export", "--format", "csv", "-o", "-", "--load", tmp_path / name, "--of", "oval",
+                                "--slices", 5, "--spacing", 0.3, "--box=-1,1,-1,1,-1,1,-1,1") for name in ("run.npy", "run"))
+    assert whole.returncode == series.returncode == 0, series.stderr
+    assert len(whole.stdout.splitlines()) == 6 and series.stdout == whole.stdout
+    (tmp_path / "run" / "t11.npy").write_bytes(npy(values[0][1:]))
+    done = run_oval4d("render", "--load", tmp_path / "run", "-o", "-")
+    assert done.returncode != 0 and b"file 12 of the series" in done.stderr
