@@ -157,7 +157,7 @@ export interface GetRequest {
      */
     format?: string;
     /**
-     * For a file: the focus slice, all slices, the highlighted element alone, the critical w of a polytope, the whole object in four dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the matrix of planar sections. export_formats.json lists those that each format can contain; the first is the default.
+     * For a file: the focus slice, all slices, the highlighted element alone, the critical w, the whole object in four dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the matrix of planar sections. export_formats.json lists those that each format can contain; the first is the default.
      */
     of?: "focus" | "oval" | "highlight" | "critical" | "object" | "coordinates" | "projection" | "matrix";
     /**

@@ -89,6 +89,10 @@ class Budget {
     }
     /// Returns ExportLimits::triangles.
     std::size_t triangles() const { return limits_.triangles; }
+    /// Returns ExportLimits::time.
+    std::chrono::duration<double> time() const { return limits_.time; }
+    /// Returns the token by which a stop is requested.
+    std::stop_token stopToken() const { return stop_; }
 
   private:
     static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory

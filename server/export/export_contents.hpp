@@ -12,7 +12,7 @@ enum class ExportContents : std::uint8_t {
     focus,        ///< only the focus slice
     oval,         ///< all slices
     highlight,    ///< the highlighted element alone
-    critical,     ///< the critical values of w of a polytope: those at which there are vertices
+    critical,     ///< the critical values of w: see slicing::findCriticalSections()
     object,       ///< the whole rotated object, in four dimensions
     coordinates,  ///< the parallel coordinates or, for a field, the histogram
     projection,   ///< the projection of the whole object

@@ -113,6 +113,18 @@ def test_the_csv_measures_arrays_with_holes(tmp_path):
         assert (row["components"], row["euler"]) == (1, 4), "a cube with a cavity"
 
 
+@pytest.mark.release_only
+def test_the_csv_of_critical_w_says_what_changes_there(server):
+    rows = list(csv.DictReader(io.StringIO(fetch(server, "csv", BALL, BALL_BOX, of="critical", rotate=TURN).decode())))
+    assert [row.pop("change") for row in rows] == ["appears", "vanishes"]
+    first, last = ({name: float(value) for name, value in row.items()} for row in rows)
+    ball = {"components": 1, "cavities": 0, "euler": 2}
+    for row, w, inside, outside in ((first, -1, "after", "before"), (last, 1, "before", "after")):
+        assert row["w"] == pytest.approx(w, abs=1e-3) and row["level"] == 0 and 0 < row["tolerance"] < 1e-2
+        for name, value in ball.items():
+            assert (row[f"{name}_{inside}"], row[f"{name}_{outside}"]) == (value, 0)
+
+
 # --- Bodies
 
 
@@ -238,7 +250,6 @@ def test_vti_samples_the_slice(server):
     ("stl", {"levels": "-5"}, "change the levels"),
     ("stl", {"label": "engraved"}, "separate label"),
     ("csv", {"of": "matrix"}, "svg, pdf or tikz"),
-    ("csv", {"of": "critical"}, "get critical"),
 ])
 def test_what_a_field_has_not_is_refused(server, format_, query, reason):
     error = json.loads(fetch(server, format_, BALL, BALL_BOX, status=400, **query))

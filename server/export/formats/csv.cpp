@@ -1,5 +1,6 @@
 #include "export/formats/writers.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "slicing/closed_surfaces/closed_surface_slicer.hpp"
+#include "slicing/critical/critical_sections.hpp"
 #include "slicing/element.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/surfaces/section_values.hpp"
@@ -111,15 +113,39 @@ std::string criticalCsv(const SceneInput& source) {
     return out;
 }
 
+// Returns a table of the values of w at which the body of a level changes its topology.
+std::string fieldCriticalCsv(const SceneInput& source) {
+    const slicing::FieldSettings& settings = source.scene.look.field;
+    slicing::CriticalOptions options{.stop = source.budget.stopToken()};
+    // A search ends after at most 1.5 times this time, when sections are no longer compared.
+    options.time = std::min(options.time, source.budget.time() / 2);
+    const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, options);
+    source.budget.checkTime();
+    if (!found) throw ExportRefused{{ExportRefusal::Cause::too_long, found.error().message}};
+    std::string out =
+        "w,change,level,components_before,components_after,cavities_before,cavities_after,euler_before,euler_after,"
+        "tolerance\n";
+    for (const slicing::CriticalSection& section : found->all) {
+        append(out, slicing::infoOf(source.object).originInFile.w + section.w);
+        out += ',';
+        out += text::nameOf(slicing::kSectionChanges, section.change);
+        append(out += ',', settings.levels.at(section.levelIndex));
+        const slicing::SectionTopology &before = section.before, &after = section.after;
+        for (const std::size_t count : {before.components, after.components, before.cavities, after.cavities})
+            out += ',' + std::to_string(count);
+        for (const long euler : {before.euler, after.euler}) out += ',' + std::to_string(euler);
+        append(out += ',', found->tolerance);
+        out += '\n';
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string measurementsCsv(const SceneInput& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
-    if (source.contents == ExportContents::critical) {
-        if (field == nullptr) return criticalCsv(source);
-        throw ExportRefused{{ExportRefusal::Cause::no_body,
-                             "the critical w of a field are searched for; get them with the message get critical"}};
-    }
+    if (source.contents == ExportContents::critical)
+        return field != nullptr ? fieldCriticalCsv(source) : criticalCsv(source);
     if (field != nullptr) return fieldCsv(source, *field);
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";

@@ -48,8 +48,10 @@ std::string x3d(const MeshesToWrite& meshes);
 /// w, the level if there are several, volume, area of the level set without caps, centroid (empty if there is no
 /// volume), number of connected components, Euler characteristic of the surface (see slicing::SurfaceMeasurements), and
 /// the mean of the second function on the surface if there is such a function. Computes the surfaces anew by
-/// slicing::ClosedSurfaceSlicer, and ignores those of the scene. Throws ExportRefused if a limit is exceeded or a stop
-/// is requested, and for ExportContents::critical.
+/// slicing::ClosedSurfaceSlicer, and ignores those of the scene. For ExportContents::critical, the file has instead one
+/// row per critical value of w (see slicing::findCriticalSections()): w, the name of the change, the level, the numbers
+/// of components and of cavities and the Euler characteristic below and above w, and
+/// slicing::CriticalSections::tolerance. Throws ExportRefused if a limit is exceeded or a stop is requested.
 ///
 /// For other objects, the file has one row per slice: n, w, the numbers of vertices, edges and faces, volume, area, and
 /// centroid (empty if the slice is empty). w and the centroid are in the coordinates of the object's file (see
