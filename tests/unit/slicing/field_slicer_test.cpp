@@ -1,5 +1,7 @@
 #include "slicing/field_slicer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -61,6 +63,15 @@ TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
             }
             const glm::dvec4 middle = rotatedCenter + m * (row / reach * height);
             EXPECT_LT(glm::distance(result.moment / result.volume, glm::dvec3(middle)), 0.01);
+            if (std::abs(height) > 0.8) continue;
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec4 along(m[0][k], m[1][k], m[2][k], m[3][k]);
+                const double extent = radius * glm::length(along - row * (glm::dot(along, row) / (reach * reach)));
+                double most = -INFINITY;
+                for (const glm::vec3& point : slices.surfaces[static_cast<std::size_t>(i)].points)
+                    most = std::max(most, static_cast<double>(point[k]));
+                EXPECT_NEAR(most, middle[k] + extent, 0.01) << "trial " << trial << " slice " << i;
+            }
         }
     }
 }
@@ -217,6 +228,72 @@ TEST(FieldSlicer, GrowthIsTheSpeedOfTheSurface) {
     for (const SliceSurface& surface : slices.surfaces) {
         ASSERT_FALSE(surface.points.empty());
         for (const float growth : surface.growth) EXPECT_NEAR(growth, 0.25, 1e-4);
+    }
+}
+
+// Where the field has the level, the array differs from the formula by at most 0.005, the error of interpolation
+// between its samples.
+TEST(FieldSlicer, AnArrayOfAFormulasValuesHasItsSurfaces) {
+    SKIP_IF_SANITIZED();
+    struct Flow {
+        double level;
+        std::string_view speed;
+    };
+    // Exact solutions of the Navier-Stokes equations: Ethier and Steinman's flow, and a decaying flow of Arnold,
+    // Beltrami and Childress.
+    for (const Flow& flow :
+         {Flow{0.8,
+               "exp(-d^2*t)*a*sqrt((exp(a*x)*sin(a*y+d*z)+exp(a*z)*cos(a*x+d*y))^2"
+               " + (exp(a*y)*sin(a*z+d*x)+exp(a*x)*cos(a*y+d*z))^2"
+               " + (exp(a*z)*sin(a*x+d*y)+exp(a*y)*cos(a*z+d*x))^2); a=pi/4, d=pi/2"},
+          Flow{0.9, "exp(-t)*hypot(sin(3*z)+0.5*cos(3*y), 0.7*sin(3*x)+cos(3*z), 0.5*sin(3*y)+0.7*cos(3*x))"}}) {
+        const auto formula = fields::fieldFromFormula("flow", flow.speed, {{-1, -1, -1, 0}, {1, 1, 1, 0.6}});
+        ASSERT_TRUE(formula) << formula.error().message;
+        const fields::Field array = sampledField(*formula, 33);
+        const FieldSettings settings{{flow.level}, fields::Inside::above};
+        // The errors are of second order in the distances h of the samples and of the points in the slice's lattice:
+        // those of linear interpolation are at most h²/8 times the sum of the second derivatives, and a surface's point
+        // is the mean of the places where it crosses the edges of a cube. The sum reaches 160 where the speed is low.
+        constexpr double kMaxError = 160.0 / (16 * 16 * 8);
+        std::mt19937 random(24);
+        const geometry::Rotation orientation = support::randomRotation(random);
+        const geometry::Hyperplanes planes{-2, 5, 0.3, 0.01};
+        const SliceSet ofFormula = slicesOf(*formula, orientation, settings, 64, planes);
+        const SliceSet ofArray = slicesOf(array, orientation, settings, 64, planes);
+        std::size_t compared = 0;
+        for (int i = 0; i < planes.count; ++i) {
+            const SliceSurface &one = ofFormula.surfaces[static_cast<std::size_t>(i)],
+                               &other = ofArray.surfaces[static_cast<std::size_t>(i)];
+            const double volume = measure(one, 0).volume;
+            EXPECT_NEAR(measure(other, 0).volume, volume, 0.02 + 0.03 * volume);
+            for (std::size_t t = 0; t < other.triangles.size(); ++t) {
+                if (other.isCap(t)) continue;
+                const glm::dvec4 shown(glm::dvec3(other.points[other.triangles[t][0]]), planes.w(i));
+                const glm::vec4 p(formula->center + orientation.inverse()(shown));
+                float value = 0;
+                formula->function->evaluate({{&p.x, 1}, {&p.y, 1}, {&p.z, 1}, {&p.w, 1}}, {&value, 1});
+                ASSERT_NEAR(value, flow.level, kMaxError);
+                ++compared;
+            }
+        }
+        EXPECT_GT(compared, 1000U);
+    }
+}
+
+// Where the temperature w^(-3/2) exp(-r²/4w) is L, r² = -4w log(L w^(3/2)).
+TEST(FieldSlicer, HeatIsWarmerThanALevelInABallOfKnownRadius) {
+    constexpr double kLevel = 3, kBegin = 0.05, kEnd = 0.45;
+    const auto heat = fields::fieldFromFormula("heat", "w^(-3/2)*exp(-(x^2+y^2+z^2)/(4*w))",
+                                               {{-1.5, -1.5, -1.5, kBegin}, {1.5, 1.5, 1.5, kEnd}});
+    ASSERT_TRUE(heat) << heat.error().message;
+    const geometry::Hyperplanes planes{-1, 3, 0.1, 0};
+    const SliceSet slices = slicesOf(*heat, {}, {{kLevel}, fields::Inside::above}, 64, planes);
+    for (int i = 0; i < planes.count; ++i) {
+        const double w = (kBegin + kEnd) / 2 + planes.w(i);
+        const double radius = std::sqrt(-4 * w * std::log(kLevel * std::pow(w, 1.5)));
+        const SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(i)];
+        EXPECT_EQ(measure(surface, 0).euler, 2);
+        for (const glm::vec3& point : surface.points) EXPECT_NEAR(glm::length(point), radius, 1e-3) << "w = " << w;
     }
 }
 

@@ -8,11 +8,13 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "geometry/hyperplanes.hpp"
 #include "geometry/rotation.hpp"
@@ -74,6 +76,28 @@ class TestFunction : public fields::ScalarFunction {
 
 inline fields::Field testField(TestFunction::Callable f, double lipschitz, const fields::Box& box) {
     return fields::makeField("test", std::make_shared<TestFunction>(std::move(f), lipschitz), box);
+}
+
+/// Returns an array with the values of the field at `side` points along each axis of its box.
+inline fields::Field sampledField(const fields::Field& field, std::size_t side) {
+    const fields::Box& box = field.box;
+    const auto at = [&](int axis, std::size_t i) {
+        return static_cast<float>(box.min[axis] + (box.max[axis] - box.min[axis]) * static_cast<double>(i) /
+                                                      static_cast<double>(side - 1));
+    };
+    std::vector<float> samples(side * side * side * side), x(side), y(side), z(side), w(side);
+    for (std::size_t i = 0; i < side; ++i) x[i] = at(0, i);
+    for (std::size_t row = 0; row < samples.size() / side; ++row) {
+        std::ranges::fill(y, at(1, row % side));
+        std::ranges::fill(z, at(2, row / side % side));
+        std::ranges::fill(w, at(3, row / side / side));
+        field.function->evaluate({x, y, z, w}, std::span(samples).subspan(row * side, side));
+    }
+    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{side, side, side, side}, box,
+                                                                  fields::SampleStorage(std::move(samples)));
+    fields::Field array = fields::makeField("array", function, box);
+    array.array = function;
+    return array;
 }
 
 /// The measurements of the body that the triangles of one level enclose.

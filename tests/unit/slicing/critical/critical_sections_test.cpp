@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <memory>
 #include <random>
-#include <span>
 #include <stop_token>
 #include <string_view>
 #include <utility>
@@ -14,11 +13,11 @@
 
 #include <gtest/gtest.h>
 
-#include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "fields/formula_field.hpp"
 #include "sanitizers/sanitized.hpp"
 #include "unit/polytopes/support.hpp"
+#include "unit/slicing/field_support.hpp"
 #include "unit/slicing/support.hpp"
 
 namespace oval4d::slicing {
@@ -35,26 +34,8 @@ FieldPtr formulaObject(std::string_view text, const fields::Box& box = fields::k
     return std::make_shared<const fields::Field>(std::move(*field));
 }
 
-/// Returns the field with its function sampled at `side` points along each axis.
 FieldPtr arrayOf(const FieldPtr& field, std::size_t side) {
-    const fields::Box& box = field->box;
-    const auto at = [&](int axis, std::size_t i) {
-        return static_cast<float>(box.min[axis] + (box.max[axis] - box.min[axis]) * static_cast<double>(i) /
-                                                      static_cast<double>(side - 1));
-    };
-    std::vector<float> samples(side * side * side * side), x(side), y(side), z(side), w(side);
-    for (std::size_t i = 0; i < side; ++i) x[i] = at(0, i);
-    for (std::size_t row = 0; row < samples.size() / side; ++row) {
-        std::ranges::fill(y, at(1, row % side));
-        std::ranges::fill(z, at(2, row / side % side));
-        std::ranges::fill(w, at(3, row / side / side));
-        field->function->evaluate({x, y, z, w}, std::span(samples).subspan(row * side, side));
-    }
-    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{side, side, side, side}, box,
-                                                                  fields::SampleStorage(std::move(samples)));
-    fields::Field array = fields::makeField("array", function, box);
-    array.array = function;
-    return std::make_shared<const fields::Field>(std::move(array));
+    return std::make_shared<const fields::Field>(sampledField(*field, side));
 }
 
 CriticalSections criticalOf(const Object& object, const FieldSettings& settings = {},
