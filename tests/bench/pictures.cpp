@@ -3,6 +3,8 @@
 // The scene is the same as in the programs of comparison: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
 // double rotations. If FRAMES is 0, nothing is drawn. "formula" needs the setting of this name.
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -95,6 +97,9 @@ class Bench {
         messages(Encoding::json, "json");
         messages(Encoding::cbor, "cbor");
         if (job_.frames > 0) frames();
+        rusage used{};
+        getrusage(RUSAGE_SELF, &used);
+        result_["memory"] = 1024 * used.ru_maxrss;  // the most resident memory, in bytes
         return result_;
     }
 

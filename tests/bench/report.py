@@ -274,18 +274,20 @@ FIELDS = {
 }
 
 
-def sampled(field, file):
-    """Writes a field of vtk_field.py as an array of 64⁴ samples with the axes t, z, y, x."""
+def sampled(field, file, side=64):
+    """Writes a field of vtk_field.py as an array with `side` samples along each of the axes t, z, y, x."""
     program = """
 import sys, numpy
 source = open(sys.argv[1]).read().split("def main")[0]
 exec(source)
-g = numpy.linspace(-1.6, 1.6, 64, dtype=numpy.float32)
-axes = numpy.meshgrid(g, g, g, g, indexing="ij", sparse=True)
-values = FIELDS[sys.argv[2]](*reversed(axes))
-numpy.save(sys.argv[3], values.astype(numpy.float32))
+side = int(sys.argv[4])
+g = numpy.linspace(-1.6, 1.6, side, dtype=numpy.float32)
+z, y, x = numpy.meshgrid(g, g, g, indexing="ij", sparse=True)
+values = numpy.lib.format.open_memmap(sys.argv[3], "w+", numpy.float32, (side,) * 4)
+for moment, t in enumerate(g):
+    values[moment] = FIELDS[sys.argv[2]](x, y, z, t)
 """
-    subprocess.run(["/usr/bin/python3", "-c", program, peers.FOLDER / "vtk_field.py", field, file], check=True)
+    subprocess.run(["/usr/bin/python3", "-c", program, peers.FOLDER / "vtk_field.py", field, file, str(side)], check=True)
 
 
 def fields():
@@ -309,9 +311,33 @@ def fields():
         times = [(*(ours["ms"]["frame"] for ours in turn[:3]), turn[3]) for turn in turns]
         rows.append([field, *(statistics.median(column) for column in zip(*times)),
                      *(statistics.median(turn[3] / turn[i] for turn in times) for i in (0, 1)),
+                     *(1e3 / statistics.median(turn[i]["ms"]["draft"] for turn in turns) for i in (0, 1)),
                      max(count for turn in turns for ours in turn[:3] for count in ours["allocations"].values())])
     table(["", "array, ms", "formula, ms", "array with fog, ms", "scipy and VTK, ms", "ratio, array", "ratio, formula",
-           "most allocations a picture or message"], rows)
+           "drafts a second, array", "drafts a second, formula", "most allocations a picture or message"], rows)
+    print("\nTargets: ratios ≥ 20, at least 30 drafts a second (the pictures while the object turns), no allocations.")
+    field_growth(shown)
+
+
+def field_growth(settings):
+    """Prints how the time of a picture grows if an array has twice as many samples along each axis, and if a picture is
+    twice as wide and high, so that its surfaces need four times as many points; and the memory."""
+    small, large = 48, 96
+    rows = []
+    for field in FIELDS:
+        with tempfile.TemporaryDirectory(prefix="oval4d-") as folder:
+            files = {side: Path(folder, f"{side}.npy") for side in (small, large)}
+            for side, file in files.items():
+                sampled(field, file, side)
+            turns = [(pictures(files[small], frames=12, **settings), pictures(files[large], frames=12, **settings),
+                      pictures(files[small], width=2560, height=1440, frames=12, **settings)) for _ in range(3)]
+            of_array = files[large].stat().st_size
+        rows.append([field, *(statistics.median(turn[i]["ms"]["frame"] for turn in turns) for i in range(3)),
+                     *(statistics.median(turn[i]["ms"]["frame"] / turn[0]["ms"]["frame"] for turn in turns) for i in (1, 2)),
+                     max(turn[1]["memory"] for turn in turns) / of_array])
+    table([f"milliseconds from a state to its PNG, {small}⁴ samples", "1280 × 720", f"{large}⁴ samples", "2560 × 1440",
+           "ratio, samples", "ratio, pixels", f"memory of the program ÷ array of {large}⁴"], rows)
+    print("\nTargets: ratios ≤ 5, memory ≤ 1.25.")
 
 
 def two_cores():
