@@ -129,6 +129,9 @@ test("state fields: the last rotation is replaced by another one", async () => {
         "xw 10°": { planes: ["xw"], angles: [10 * kRadian] },
         "xw 10, yz pi/8": { planes: ["xw", "yz"], angles: [10 * kRadian, Math.PI / 8] },
         "xy,zw 20 30": { planes: ["xy", "zw"], angles: [20 * kRadian, 30 * kRadian] },
+        "xw 0.2 rad": { planes: ["xw"], angles: [0.2] },
+        "xw 30 °, yz 20 deg": { planes: ["xw", "yz"], angles: [30 * kRadian, 20 * kRadian] },
+        "xw,yz pi / 8 -5": { planes: ["xw", "yz"], angles: [Math.PI / 8, -5 * kRadian] },
         xz: { planes: ["xz"], angles: [5 * kRadian] },
     };
     for (const [text, { planes, angles }] of Object.entries(cases)) {

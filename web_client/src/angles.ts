@@ -29,7 +29,12 @@ export function angleExpression(text: string): string {
     if (typed === "") throw new Error("an angle is expected, such as 10° or pi/8");
     const withoutExponents = typed.replace(/(\d)e(?=[-+]?\d)/g, "$1");
     if (!/[\p{L}°]/u.test(withoutExponents)) return `deg(${typed})`;
-    return typed.replace(/\s+(?=(?:deg|rad)(?![a-z(]))/g, "");
+    return withoutBlanksBeforeUnits(typed);
+}
+
+/** Removes the blanks before "°", "deg" and "rad", but not before the function deg(). */
+export function withoutBlanksBeforeUnits(text: string): string {
+    return text.replace(/\s+(?=°|(?:deg|rad)(?![a-z(]))/gi, "");
 }
 
 /** Removes the blanks around operators: the command line takes a value without blanks. */

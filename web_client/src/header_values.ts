@@ -2,7 +2,7 @@
 
 import type { State } from "@oval4d/protocol";
 
-import { angleExpression, editableAngle, withoutBlanksAroundOperators } from "./angles";
+import { angleExpression, editableAngle, withoutBlanksAroundOperators, withoutBlanksBeforeUnits } from "./angles";
 import { spokenColoring, spokenKinds } from "./color_controls";
 import { byId } from "./element";
 import { spokenLevels } from "./fields";
@@ -140,9 +140,11 @@ function description(name: string, symbol: string, meaning: string, value: (stat
     return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
 }
 
-/** The command for a rotation such as "xw 10°, yz 5°" or "xw,yz 10 5". */
+/** The command for a rotation such as "xw 10°, yz 0.2 rad" or "xw,yz 10 5". */
 function rotateCommand(text: string): string {
-    const words = text.split(/[\s,;]+/).filter((word) => word !== "");
+    // A blank before a minus sign separates two angles.
+    const joined = withoutBlanksBeforeUnits(text).replace(/\s*([*/^])\s*/g, "$1");
+    const words = joined.split(/[\s,;]+/).filter((word) => word !== "");
     const isPlane = (word: string, i: number): boolean => i === 0 || /^[xyzw]{2}$/.test(word);
     const angles = words.filter((word, i) => !isPlane(word, i)).map(angleExpression);
     return `rotate ${words.filter(isPlane).join(",")} ${angles.join(" ")}`;
