@@ -112,6 +112,29 @@ test("keys: brackets typed with AltGr, and letters typed on keyboards of another
     await end();
 });
 
+test("keys: a sequence of two keys ends at Escape, at a click, and when the command line opens", async () => {
+    const { page, script, close: end } = await openWithScript();
+    const { x, y, height } = await page.locator("#drawing").boundingBox();
+    const interruptions = {
+        Escape: () => page.keyboard.press("Escape"),
+        click: () => page.mouse.click(x + 8, y + height / 2 + 60),
+        "command line": async () => {
+            await page.keyboard.press(":");
+            await page.keyboard.press("Escape");
+        },
+    };
+    for (const [name, interrupt] of Object.entries(interruptions)) {
+        await script.request({ type: "set", slices: { focus: 2 } });
+        await page.keyboard.press("g");
+        await interrupt();
+        await page.keyboard.press("g");
+        assert.equal((await stateAfter(page, script)).slices.focus, 2, name);
+        await page.keyboard.press("g");
+        await script.until(({ slices }) => slices.focus < 0, `the first slice after ${name}`);
+    }
+    await end();
+});
+
 test("keys: other keys are left to the browser", async () => {
     const { page, script, close: end } = await openWithScript();
     const { revision } = await script.state();

@@ -225,6 +225,7 @@ export class App {
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keyboard.keydown(event));
+        document.addEventListener("pointerdown", () => this.keyboard.cancelSequence());
         this.polytopeButton.addEventListener("click", () => this.openPicker());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
             // The drawing keeps the focus, as when a button of Tools is clicked.

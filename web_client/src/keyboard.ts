@@ -23,6 +23,7 @@ interface KeyActions {
 export class Keyboard {
     /** The key table; empty before the server has sent it. */
     keys: readonly KeyBinding[] = [];
+    private first: KeyStroke | undefined; // the first key of a sequence of two, which has not been sent yet
     private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
 
     constructor(
@@ -41,7 +42,10 @@ export class Keyboard {
 
     keydown(event: KeyboardEvent): void {
         if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
-        if (event.key === "Escape" && !event.isComposing) this.actions.escape(event);
+        if (event.key === "Escape" && !event.isComposing) {
+            this.cancelSequence();
+            this.actions.escape(event);
+        }
         if (isForControl(event)) return;
         const action = editingAction(event);
         const stroke = strokeFromEvent(event, this.keys);
@@ -53,11 +57,17 @@ export class Keyboard {
         if (isSingle && !this.usesSingleKeys) return;
         event.preventDefault();
         if (binding) this.press(binding, false, event.repeat);
-        else if (stroke) this.send(stroke, event.repeat);
+        else if (stroke) this.type(stroke, event.repeat);
+    }
+
+    /** Forgets the first key of a sequence of two. To be called when the user does something else. */
+    cancelSequence(): void {
+        this.first = undefined;
     }
 
     /** Executes the action of a key or a button: one of the page, of the camera, or of the server. */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void {
+        this.cancelSequence();
         const act = this.actions.page[binding.action];
         if (act) act();
         else if (this.actions.camera(binding.action)) return;
@@ -70,5 +80,16 @@ export class Keyboard {
         if (held && !this.repeatLimiter.mayRepeat) return;
         if (this.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key))) this.actions.focusMoves();
         this.actions.send({ type: "key", ...stroke });
+    }
+
+    /** Sends a key that has been typed; the first key of a sequence is sent together with the second one. */
+    private type(stroke: KeyStroke, held: boolean): void {
+        const { first } = this;
+        const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
+        if (begins && held) return; // it is not pressed a second time
+        const ends = first && !stroke.ctrl && this.keys.some(({ key }) => key === first.key + stroke.key);
+        this.first = begins && !ends ? stroke : undefined;
+        if (first && ends) this.send(first, false);
+        if (ends || !begins) this.send(stroke, held);
     }
 }
