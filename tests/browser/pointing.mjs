@@ -181,6 +181,28 @@ test("pointing: edges and vertices have their lengths and coordinates", async ()
     await close();
 });
 
+test("pointing: a vertex is named in the band of its column, as by the server, and not beside it", async () => {
+    const { page, script, size, picture, moveTo, errors, close } = await openTurned();
+    const { coordinates: layout } = (await picture()).scene;
+    const start = layout.left + 7 * layout.column_step - layout.line_step / 2;
+    const band = 4 * layout.line_step + layout.line_width;
+    const places = [
+        [0.1 * band, 0, true],
+        [(band + layout.column_step) / 2, 0, false],
+        [0.9 * band, 0.8 * layout.amplitude, true],
+        [0.5 * band, 1.2 * layout.amplitude, false],
+    ];
+    for (const [right, down, isInside] of places) {
+        const [x, y] = [start + right, 1 - layout.zero + down].map((length) => Math.round(length * size.height));
+        const { highlight } = await script.request({ type: "get", what: "at", x, y, ...size });
+        assert.deepEqual(highlight ?? null, isInside ? { element: "vertex", number: 7 } : null);
+        await moveTo(x, y);
+        await labeled(page, isInside ? /^Vertex 7 / : /^$/);
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointing: a click keeps the element and moves the focus in one step; the background and Escape end it", async () => {
     const { page, script, press, errors, size, picture, click, close } = await openTurned();
     await spoken(page, "24-cell"); // from now on, changes are announced

@@ -28,17 +28,23 @@ export function drawCoordinates(
     else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
-/** The vertex whose lines are drawn at the pixel (x, y); undefined if there is none, or if no lines are drawn. */
+/**
+ * The vertex whose lines are drawn at the pixel (x, y), in the band that drawLines() highlights; undefined if there is
+ * none, or if no lines are drawn. Picker::pickCoordinates() in pick.cpp finds the same vertex.
+ */
 export function vertexInColumnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
-    const { columns, per_row: perRow, rows, ...layout } = scene.coordinates;
+    const { columns, per_row: perRow, rows, amplitude, ...layout } = scene.coordinates;
     if (!scene.shown.coordinates || columns > 0) return undefined;
-    const gap = layout.column_step - 3 * layout.line_step - layout.line_width;
-    const column = Math.floor((x / height - layout.left + gap / 2) / layout.column_step);
-    const row = Math.round((layout.zero - (1 - y / height)) / layout.row_step);
+    const fromFirst = x / height - (layout.left - layout.line_step / 2);
+    const column = Math.floor(fromFirst / layout.column_step);
+    const belowTop = layout.zero - (1 - y / height); // from the zero line of the first row
+    const row = Math.round(belowTop / layout.row_step);
     const vertex = row * perRow + column;
-    const isInside = column >= 0 && column < perRow && row >= 0 && row < rows;
-    return isInside && vertex < values.length / 4 ? vertex : undefined;
+    const isInTable = column >= 0 && column < perRow && row >= 0 && row < rows;
+    const isInRow = Math.abs(belowTop - row * layout.row_step) <= amplitude;
+    const isInColumn = fromFirst - column * layout.column_step <= 4 * layout.line_step + layout.line_width;
+    return isInTable && isInRow && isInColumn && vertex < values.length / 4 ? vertex : undefined;
 }
 
 function drawLines(
