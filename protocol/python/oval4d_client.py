@@ -18,6 +18,7 @@ It is one file, although it is long, so that a project can copy it.
 import array
 import asyncio
 import base64
+import collections
 import http.client
 import io
 import itertools
@@ -664,13 +665,14 @@ def png_state(png):
 
 def decode(data):
     """Returns a message from the server: text and slices as a dict, as from_json(), from_cbor() and from_msgpack() do,
-    and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins with the first
-    byte, or if the bytes are not a message of their kind."""
+    and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins as the bytes
+    do, or if the bytes are not a message of their kind."""
     if isinstance(data, str):
         return from_json(data)
-    for first_bytes, read in BINARY_KINDS.values():
-        if data and data[0] in first_bytes:
-            return read(data)
+    # Kinds that two bytes tell come first.
+    for kind in sorted(BINARY_KINDS.values(), key=lambda kind: kind.second_byte is None):
+        if data and data[0] in kind.first_bytes and kind.second_byte in (None, *data[1:2]):
+            return kind.read(data)
     what = f"begins with the byte {data[0]:#04x}" if data else "is empty"
     raise ValueError(f"a binary message {what}: this client knows no such message")
 
@@ -728,10 +730,14 @@ def _with_rows(encoding, read, failure):
     return message
 
 
-# The kinds of binary messages, as ../README.md lists them ("Binary messages"): their first bytes, and the function that
-# decodes them. Each encoding of slices has a kind of its name.
-BINARY_KINDS = {"file": (range(0x21, 0x7F), bytes), "frame": (range(0x89, 0x8A), bytes),
-                "cbor": (range(0xA0, 0xC0), from_cbor), "msgpack": (range(0xDF, 0xE0), from_msgpack)}
+# A kind of binary message: its first bytes, the function that decodes it and, if two bytes tell the kind, the second.
+BinaryKind = collections.namedtuple("BinaryKind", "first_bytes read second_byte", defaults=[None])
+
+# The kinds of binary messages, as ../README.md lists them ("Binary messages"). Each encoding of slices has a kind of
+# its name.
+BINARY_KINDS = {"file": BinaryKind(range(0x21, 0x7F), bytes), "frame": BinaryKind(range(0x89, 0x8A), bytes),
+                "cbor": BinaryKind(range(0xA0, 0xC0), from_cbor),
+                "msgpack": BinaryKind(range(0xDF, 0xE0), from_msgpack)}
 
 
 def _rows(flat, sizes, width=1):

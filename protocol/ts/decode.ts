@@ -149,9 +149,13 @@ function readMsgpack(bytes: Uint8Array): unknown {
     return new MsgpackReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
-/** A kind of binary message: its first byte is in the range `firstByte`. `read` decodes slices; other kinds lack it. */
+/**
+ * A kind of binary message: its first byte is in the range `firstByte`, and its second byte is `secondByte` if two bytes
+ * tell the kind. `read` decodes slices; other kinds lack it.
+ */
 interface BinaryKind {
     firstByte: [least: number, greatest: number];
+    secondByte?: number;
     read?: (bytes: Uint8Array) => unknown;
 }
 
@@ -170,12 +174,17 @@ export function decodeText(text: string): Message {
 /**
  * Decodes a binary message: returns a slices message, or "file" or "frame", whose bytes are used as they are. If
  * `within` is given, the arrays of the message are valid until this arena is used for another message. Throws an Error
- * if no kind of message begins with the first byte, or if the bytes are not a message of their kind.
+ * if no kind of message begins as the bytes do, or if the bytes are not a message of their kind.
  */
 export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file" | "frame" {
-    const first = bytes[0] ?? -1;
-    for (const [name, { firstByte, read }] of Object.entries(kBinaryKinds)) {
-        if (first < firstByte[0] || first > firstByte[1]) continue;
+    const [first = -1, second] = bytes;
+    const kinds = Object.entries(kBinaryKinds).filter(([, { firstByte, secondByte = second }]) => {
+        return first >= firstByte[0] && first <= firstByte[1] && second === secondByte;
+    });
+    // A kind that two bytes tell comes before one that the first of them tells.
+    const kind = kinds.find(([, { secondByte }]) => secondByte !== undefined) ?? kinds[0];
+    if (kind) {
+        const [name, { read }] = kind;
         return read ? decodeSlices(bytes, read, within) : (name as "file" | "frame");
     }
     const what = first < 0 ? "is empty" : `begins with the byte 0x${first.toString(16)}`;

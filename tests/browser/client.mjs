@@ -65,10 +65,11 @@ test("client: it knows the binary messages that protocol/README.md lists, and re
     const readme = readFileSync(new URL("../../protocol/README.md", import.meta.url), "utf8");
     const [, section] = /### Binary messages\n(.*?)\n### /s.exec(readme);
     const known = Object.entries(kBinaryKinds);
-    for (const [name, { firstByte }] of known) {
-        const row = new RegExp(`^\\| 0x(..)(?:–0x(..))? \\|.*\\[${name}\\]`, "m").exec(section);
-        const [least, greatest = least] = row.slice(1);
+    for (const [name, { firstByte, secondByte }] of known) {
+        const row = new RegExp(`^\\| 0x(..)(?:–0x(..))?(?: 0x(..))? \\|.*\\[${name}\\]`, "m").exec(section);
+        const [least, greatest = least, second] = row.slice(1);
         assert.deepEqual(firstByte, [parseInt(least, 16), parseInt(greatest, 16)], name);
+        assert.equal(secondByte, second && parseInt(second, 16), name);
     }
     assert.deepEqual(Object.keys(kBinaryKinds).sort(), ["file", "frame", ...kBinaryEncodings].sort());
     for (let first = 0; first < 256; ++first) {
@@ -77,6 +78,17 @@ test("client: it knows the binary messages that protocol/README.md lists, and re
         assert.throws(() => decodeBinary(Uint8Array.of(first, 0x61)), ({ message }) => message.endsWith(says));
     }
     assert.throws(() => decodeBinary(new Uint8Array(0)), /is empty/);
+});
+
+test("client: a message that begins with the two bytes of a kind is not of the kind with the first byte", () => {
+    const read = () => ({ type: "other" });
+    kBinaryKinds.other = { firstByte: [0x7e, 0x7e], secondByte: 0x55, read };
+    try {
+        for (const others of ["~U", "~U~"]) assert.deepEqual(decodeBinary(Buffer.from(others)), read(), others);
+        for (const files of ["~", "~~U", "U~"]) assert.equal(decodeBinary(Buffer.from(files)), "file", files);
+    } finally {
+        delete kBinaryKinds.other;
+    }
 });
 
 test("client: a requested frame is not mistaken for one of the stream", async () => {

@@ -6,22 +6,32 @@ from pathlib import Path
 README = Path(__file__).resolve().parents[2] / "protocol/README.md"
 
 
-def listed_bytes(text):
-    """Returns the bytes of a list such as "0x89, 0xA0–0xBF"."""
+def listed_beginnings(text):
+    """Returns the beginnings of messages in a list such as "0x89, 0xA0–0xBF" or "0x01 0x02": one or two bytes each."""
     found = []
-    for least, greatest in re.findall(r"0x([0-9A-F]{2})(?:–0x([0-9A-F]{2}))?", text):
-        found += range(int(least, 16), int(greatest or least, 16) + 1)
+    for part in text.replace("0x", "").split(", "):
+        least, *greatest = map(bytes.fromhex, part.split("–"))
+        found += [bytes([byte]) for byte in range(least[0], greatest[0][0] + 1)] if greatest else [least]
     return found
 
 
-def first_bytes():
-    """Returns the first bytes of each kind, by the name of the kind, and of "free" those that no kind has."""
+def beginnings():
+    """Returns the beginnings of each kind, by the name of the kind, and of "free" those that no kind has."""
     section = README.read_text(encoding="utf-8").split("### Binary messages\n")[1].split("\n### ")[0]
     kinds = {}
     for listed, meaning in re.findall(r"^\| (0x.*?) \| (.*?) \|$", section, re.MULTILINE):
         name = re.search(r"\[(\w+)\]", meaning)
-        kinds[name[1] if name else "free"] = listed_bytes(listed)
+        kinds[name[1] if name else "free"] = listed_beginnings(listed)
     return kinds
 
 
-FIRST_BYTES = first_bytes()
+BEGINNINGS = beginnings()
+
+
+def kind_of(message):
+    """Returns the name of the kind of a binary message; "free" if no kind begins so."""
+    for length in (2, 1):
+        for name, known in BEGINNINGS.items():
+            if message[:length] in known:
+                return name
+    raise ValueError("the message is empty")

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import meshes
 import numpy
 import pytest
-from binary_kinds import FIRST_BYTES
+from binary_kinds import kind_of
 from exports import ROTATION, SVG, TABLE, csv_rows, export_refusal, fetch_file, fetch_file_to
 from harness import DEADLINE, run_oval4d
 from PIL import Image
@@ -40,7 +40,7 @@ async def test_websocket_http_and_command_export_the_same_file(server, tmp_path,
         assert meshes.read_three_mf(by_websocket) == meshes.read_three_mf(by_http) == meshes.read_three_mf(path.read_bytes())
     else:
         assert by_websocket == by_http == path.read_bytes()
-    assert by_websocket[0] in FIRST_BYTES["file"]
+    assert kind_of(by_websocket) == "file"
 
 
 @pytest.mark.parametrize("polytope", ["5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"])

@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "protocol/python"))
 from oval4d_client import BINARY_KINDS, png_state  # noqa: E402
 
 # The functions of the Python client that read binary data, by the suffixes of the files that write_messages() writes.
-READERS = {encoding: BINARY_KINDS[encoding][1] for encoding in BINARY_ENCODINGS} | {"png": png_state}
+READERS = {encoding: BINARY_KINDS[encoding].read for encoding in BINARY_ENCODINGS} | {"png": png_state}
 
 # States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density
 # strip, surfaces of a field.
