@@ -51,6 +51,9 @@ SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
 # The types of array.array, by the tags of typed arrays of RFC 8746. In MessagePack, these are types of extensions.
 ARRAY_TYPES = {64: "B", 69: "H", 70: "I", 85: "f", 86: "d"}
+# The same types, and those of signed and long integers, by the markers of numbers in BJData.
+BJDATA_TYPES = {b"i": "b", b"U": "B", b"I": "h", b"u": "H", b"l": "i", b"m": "I", b"L": "q", b"M": "Q", b"d": "f",
+                b"D": "d"}
 # The numpy types of the arrays of a surface.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
@@ -664,9 +667,9 @@ def png_state(png):
 
 
 def decode(data):
-    """Returns a message from the server: text and slices as a dict, as from_json(), from_cbor() and from_msgpack() do,
-    and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins as the bytes
-    do, or if the bytes are not a message of their kind."""
+    """Returns a message from the server: text and slices as a dict, as from_json(), from_cbor(), from_msgpack() and
+    from_bjdata() do, and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins
+    as the bytes do, or if the bytes are not a message of their kind."""
     if isinstance(data, str):
         return from_json(data)
     # Kinds that two bytes tell come first.
@@ -716,6 +719,61 @@ def from_msgpack(data):
     return _with_rows("MessagePack", lambda: msgpack.unpackb(data, ext_hook=typed), msgpack.UnpackException)
 
 
+def from_bjdata(data):
+    """Decodes a slices message in BJData, with the same result as from_cbor(). Reads the part of BJData that the server
+    writes (../README.md, "BJData"), and needs no package for that."""
+    at = 0
+
+    def take(size):
+        nonlocal at
+        if not 0 <= size <= len(data) - at:
+            raise ValueError("it is cut off")
+        at += size
+        return data[at - size : at]
+
+    def number(marker):
+        layout = "<" + BJDATA_TYPES[marker]
+        return struct.unpack(layout, take(struct.calcsize(layout)))[0]
+
+    def text(marker_of_length):
+        return take(number(marker_of_length)).decode()
+
+    def typed_array():
+        values = array.array(BJDATA_TYPES[take(1)])
+        if take(1) != b"#":
+            raise ValueError("a typed array has no count")
+        values.frombytes(take(values.itemsize * number(take(1))))
+        return values
+
+    def value(marker):
+        if marker == b"{":
+            members = {}
+            while (marker := take(1)) != b"}":
+                name = text(marker)
+                members[name] = value(take(1))
+            return members
+        if marker == b"[":
+            marker = take(1)
+            if marker == b"$":
+                return typed_array()
+            items = []
+            while marker != b"]":
+                items.append(value(marker))
+                marker = take(1)
+            return items
+        if marker == b"S":
+            return text(take(1))
+        return marker == b"T" if marker in (b"T", b"F") else number(marker)
+
+    def whole():
+        message = value(take(1))
+        if at < len(data):
+            raise ValueError("there are bytes after its end")
+        return message
+
+    return _with_rows("BJData", whole, ValueError)
+
+
 def _with_rows(encoding, read, failure):
     """Returns the slices message that read() decodes, with one dict per slice. Raises ValueError, which names the
     encoding, if it is not such a message; `failure` is what read() then raises beside errors of Python."""
@@ -737,7 +795,8 @@ BinaryKind = collections.namedtuple("BinaryKind", "first_bytes read second_byte"
 # its name.
 BINARY_KINDS = {"file": BinaryKind(range(0x21, 0x7F), bytes), "frame": BinaryKind(range(0x89, 0x8A), bytes),
                 "cbor": BinaryKind(range(0xA0, 0xC0), from_cbor),
-                "msgpack": BinaryKind(range(0xDF, 0xE0), from_msgpack)}
+                "msgpack": BinaryKind(range(0xDF, 0xE0), from_msgpack),
+                "bjdata": BinaryKind(range(0x7B, 0x7C), from_bjdata, second_byte=0x55)}
 
 
 def _rows(flat, sizes, width=1):

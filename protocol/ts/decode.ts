@@ -50,10 +50,10 @@ function readCbor(bytes: Uint8Array): unknown {
 
 const strictUtf8 = new TextDecoder("utf-8", { fatal: true });
 
-/** Reads MessagePack. The functions of DataView read big-endian numbers, and throw a RangeError beyond the end. */
-class MsgpackReader {
+/** Reads a message in a binary encoding. The functions of DataView throw a RangeError beyond the end. */
+abstract class BinaryReader {
+    protected readonly view: DataView;
     private at = 0;
-    private readonly view: DataView;
 
     constructor(private readonly bytes: Uint8Array<ArrayBuffer>) {
         this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
@@ -62,12 +62,34 @@ class MsgpackReader {
     /** Returns the message. Throws an Error if the bytes are not exactly one value. */
     message(): unknown {
         const value = this.value();
-        if (this.at < this.bytes.length) throw new Error("there are bytes after the end of a message in MessagePack");
+        if (this.at < this.bytes.length) throw new Error("there are bytes after the end of a binary message");
         return value;
     }
 
+    /** Reads the value at the current position. */
+    protected abstract value(): unknown;
+
+    /** Moves forward by `count` bytes. Returns the position before the move. */
+    protected skip(count: number): number {
+        this.at += count;
+        return this.at - count;
+    }
+
+    protected take(count: number): Uint8Array<ArrayBuffer> {
+        if (count > this.bytes.length - this.at) throw new RangeError("a binary message is cut off");
+        const begin = this.skip(count);
+        return this.bytes.subarray(begin, begin + count);
+    }
+
+    protected text(size: number): string {
+        return strictUtf8.decode(this.take(size));
+    }
+}
+
+/** Reads MessagePack, whose numbers are big-endian, as the functions of DataView read them. */
+class MsgpackReader extends BinaryReader {
     /** Reads the value at the current position. Its first byte is its format; small values and sizes are part of it. */
-    private value(): unknown {
+    protected override value(): unknown {
         const format = this.view.getUint8(this.skip(1));
         if (format < 0x80) return format;
         if (format < 0x90) return this.map(format - 0x80);
@@ -88,18 +110,6 @@ class MsgpackReader {
         return format === 0xc0 ? null : format === 0xc3;
     }
 
-    /** Moves forward by `count` bytes. Returns the position before the move. */
-    private skip(count: number): number {
-        this.at += count;
-        return this.at - count;
-    }
-
-    private take(count: number): Uint8Array<ArrayBuffer> {
-        if (count > this.bytes.length - this.at) throw new RangeError("a message in MessagePack is cut off");
-        const begin = this.skip(count);
-        return this.bytes.subarray(begin, begin + count);
-    }
-
     private unsigned(size: number): number {
         const at = this.skip(size);
         if (size === 1) return this.view.getUint8(at);
@@ -112,10 +122,6 @@ class MsgpackReader {
         if (size === 1) return this.view.getInt8(at);
         if (size === 2) return this.view.getInt16(at);
         return size === 4 ? this.view.getInt32(at) : Number(this.view.getBigInt64(at));
-    }
-
-    private text(size: number): string {
-        return strictUtf8.decode(this.take(size));
     }
 
     /** Returns a typed array, or the bytes of an extension of another type. */
@@ -149,6 +155,81 @@ function readMsgpack(bytes: Uint8Array): unknown {
     return new MsgpackReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
+/** The classes of typed arrays, by the markers of their numbers in BJData. */
+const kBjdataArrayTypes = new Map<string, TypedArrayConstructor<unknown>>([
+    ["U", Uint8Array],
+    ["u", Uint16Array],
+    ["m", Uint32Array],
+    ["d", Float32Array],
+    ["D", Float64Array],
+]);
+
+/** Reads the part of BJData that the server writes (protocol/README.md, "BJData"). */
+class BjdataReader extends BinaryReader {
+    protected override value(): unknown {
+        return this.valueAfter(this.marker());
+    }
+
+    private marker(): string {
+        return String.fromCharCode(this.view.getUint8(this.skip(1)));
+    }
+
+    private valueAfter(marker: string): unknown {
+        if (marker === "{") return this.object();
+        if (marker === "[") return this.array();
+        if (marker === "S") return this.text(this.countAfter(this.marker()));
+        return marker === "T" || marker === "F" ? marker === "T" : this.numberAfter(marker);
+    }
+
+    private numberAfter(marker: string): number {
+        if (marker === "i") return this.view.getInt8(this.skip(1));
+        if (marker === "U") return this.view.getUint8(this.skip(1));
+        if (marker === "I") return this.view.getInt16(this.skip(2), true);
+        if (marker === "u") return this.view.getUint16(this.skip(2), true);
+        if (marker === "l") return this.view.getInt32(this.skip(4), true);
+        if (marker === "m") return this.view.getUint32(this.skip(4), true);
+        if (marker === "L") return Number(this.view.getBigInt64(this.skip(8), true));
+        if (marker === "M") return Number(this.view.getBigUint64(this.skip(8), true));
+        if (marker === "d") return this.view.getFloat32(this.skip(4), true);
+        if (marker === "D") return this.view.getFloat64(this.skip(8), true);
+        throw new Error(`a message in BJData has a value with the unknown marker ${JSON.stringify(marker)}`);
+    }
+
+    /** Returns a length. A negative one would move back, and the message would be read without end. */
+    private countAfter(marker: string): number {
+        const count = this.numberAfter(marker);
+        if (!Number.isInteger(count) || count < 0) throw new Error("a length in BJData is not a whole number");
+        return count;
+    }
+
+    private array(): unknown {
+        let marker = this.marker();
+        if (marker === "$") return this.typedArray();
+        const items: unknown[] = [];
+        for (; marker !== "]"; marker = this.marker()) items.push(this.valueAfter(marker));
+        return items;
+    }
+
+    private typedArray(): unknown {
+        const arrayType = kBjdataArrayTypes.get(this.marker());
+        if (!arrayType || this.marker() !== "#") throw new Error("BJData has no such optimized array");
+        return typedArrayOf(this.take(arrayType.BYTES_PER_ELEMENT * this.countAfter(this.marker())), arrayType);
+    }
+
+    private object(): Record<string, unknown> {
+        const members: [string, unknown][] = [];
+        for (let marker = this.marker(); marker !== "}"; marker = this.marker()) {
+            members.push([this.text(this.countAfter(marker)), this.value()]);
+        }
+        return Object.fromEntries(members);
+    }
+}
+
+/** Decodes BJData. Throws an Error if the bytes are not BJData as the server writes it. */
+function readBjdata(bytes: Uint8Array): unknown {
+    return new BjdataReader(bytes as Uint8Array<ArrayBuffer>).message();
+}
+
 /**
  * A kind of binary message: its first byte is in the range `firstByte`, and its second byte is `secondByte` if two bytes
  * tell the kind. `read` decodes slices; other kinds lack it.
@@ -165,6 +246,7 @@ export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, 
     frame: { firstByte: [0x89, 0x89] },
     cbor: { firstByte: [0xa0, 0xbf], read: readCbor },
     msgpack: { firstByte: [0xdf, 0xdf], read: readMsgpack },
+    bjdata: { firstByte: [0x7b, 0x7b], secondByte: 0x55, read: readBjdata },
 };
 
 export function decodeText(text: string): Message {

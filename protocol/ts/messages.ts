@@ -24,7 +24,7 @@ export type Stream = "geometry" | "frames" | "none";
 /**
  * The encoding of slices messages. "json" if absent.
  */
-export type Encoding = "json" | "cbor" | "msgpack";
+export type Encoding = "json" | "cbor" | "msgpack" | "bjdata";
 /**
  * What this client sees if the background is auto: a dark or a light one. "dark" if absent.
  */

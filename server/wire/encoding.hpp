@@ -6,6 +6,7 @@
 #include <string>
 
 #include "text/choice.hpp"
+#include "wire/bjdata_writer.hpp"
 #include "wire/cbor_writer.hpp"
 #include "wire/json_writer.hpp"
 #include "wire/msgpack_writer.hpp"
@@ -13,9 +14,9 @@
 namespace oval4d::wire {
 
 /// The encoding of `slices` messages.
-enum class Encoding : std::uint8_t { json, cbor, msgpack };
+enum class Encoding : std::uint8_t { json, cbor, msgpack, bjdata };
 inline constexpr auto kEncodings = std::to_array<text::Choice<Encoding>>(
-    {{"json", Encoding::json}, {"cbor", Encoding::cbor}, {"msgpack", Encoding::msgpack}});
+    {{"json", Encoding::json}, {"cbor", Encoding::cbor}, {"msgpack", Encoding::msgpack}, {"bjdata", Encoding::bjdata}});
 
 /// Calls `write` with the writer of the encoding, which overwrites `out`.
 template <typename Write>
@@ -27,6 +28,8 @@ void writeEncoded(Encoding encoding, std::string& out, const Write& write) {
             return write(CborWriter(out));
         case Encoding::msgpack:
             return write(MsgpackWriter(out));
+        case Encoding::bjdata:
+            return write(BjdataWriter(out));
     }
 }
 

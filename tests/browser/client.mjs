@@ -91,6 +91,28 @@ test("client: a message that begins with the two bytes of a kind is not of the k
     }
 });
 
+test("client: a file may be JSON, which does not begin as BJData does", () => {
+    for (const text of ['{"type":"Scene"}', '{ "a":1}', "{\n}", "{}", "{"]) {
+        assert.equal(decodeBinary(Buffer.from(text)), "file", text);
+    }
+});
+
+test("client: lengths and markers that are wrong in BJData are refused", () => {
+    const read = (value) => decodeBinary(Buffer.from(`{U\x01a${value}}`, "latin1"));
+    assert.deepEqual(read("[TSU\x02bci\xfd]"), { a: [true, "bc", -3] });
+    const faults = {
+        "is cut off": ["SU\x05abc", `SM${"\xff".repeat(8)}`, `[$D#m${"\xff".repeat(4)}`, "[$d#U\x02abcde"],
+        "is not a whole number": ["[Si\xfd", `[$U#l${"\xff".repeat(4)}`, "[$U#d\0\0\xc0\x7f"],
+        "unknown marker": ["N", "[N]"],
+        "no such optimized array": ["[$S#U\0", "[$UU\0"],
+        "bytes after the end": ["T}"],
+    };
+    for (const [says, values] of Object.entries(faults)) {
+        for (const value of values) assert.throws(() => read(value), ({ message }) => message.includes(says), value);
+    }
+    assert.throws(() => read("[".repeat(100_000)), RangeError);
+});
+
 test("client: a requested frame is not mistaken for one of the stream", async () => {
     const { client, next } = await listen({ stream: "frames", viewport: { width: 320, height: 200 } });
     const first = next("frame");

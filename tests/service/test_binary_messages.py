@@ -35,6 +35,11 @@ def test_files_begin_as_documented(server, row):
     assert kind_of(fetch_file(server, row["name"], shown)) == "file"
 
 
+@pytest.mark.parametrize("text", [b'{"type":"Scene"}', b'{ "a":1}', b"{\n}", b"{}", b"{"])
+def test_a_file_may_be_json(text):
+    assert kind_of(text) == "file" and decode(text) == text
+
+
 def test_the_python_client_knows_the_documented_kinds():
     def beginnings_of(kind):
         second = [] if kind.second_byte is None else [kind.second_byte]

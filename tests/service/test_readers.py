@@ -106,7 +106,10 @@ async def test_the_python_client_reads_or_refuses_damaged_messages(server, messa
                                   b"\x9b" + b"\x7f" * 8, b"\xbb" + b"\x7f" * 8, b"\x5b" + b"\x7f" * 8, b"\xd8\x55\x43abc",
                                   b"\xc4\x82\x1b" + b"\x7f" * 8 + b"\x01", b"\xa1\x66slices\xa0",
                                   b"\xa1\x66slices\xa1\x66counts\xf6", b"\xdf" + b"\x7f" * 4, b"\xdd" * 1000,
-                                  b"\xc7\x03\x55abc", b"\xdf\0\0\0\x01\xa6slices\x80"])
+                                  b"\xc7\x03\x55abc", b"\xdf\0\0\0\x01\xa6slices\x80",
+                                  b"{", b"{i\xff", b"[Si\xfd", b"{U\x01aN}", b"{d" + bytes(4) + b"T}", b"[" * 1000, b"[$",
+                                  b"[$S#U\x01a", b"[$d$U\x01abcd", b"[$d#M" + b"\xff" * 8, b"[$d#U\x02abcdefg",
+                                  b"{U\x06slices{}}", b"{U\x06slices{U\x06countsF}}", b"{}{}"])
 def test_the_python_client_refuses_invalid_data_with_value_error(data):
     for read in READERS.values():
         with pytest.raises(ValueError):

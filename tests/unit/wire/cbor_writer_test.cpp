@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/wire/support.hpp"
+#include "wire/bjdata_writer.hpp"
 #include "wire/cbor_writer.hpp"
 #include "wire/json_writer.hpp"
 #include "wire/msgpack_writer.hpp"
@@ -45,6 +46,7 @@ TEST(Writers, MembersOfAnObjectAreAsIfWrittenThere) {
     expectMembersAsIfWrittenThere<JsonWriter>();
     expectMembersAsIfWrittenThere<CborWriter>();
     expectMembersAsIfWrittenThere<MsgpackWriter>();
+    expectMembersAsIfWrittenThere<BjdataWriter>();
 }
 
 // The bytes of RFC 8949 and RFC 8746.
