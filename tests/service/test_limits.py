@@ -12,7 +12,7 @@ import websockets
 from harness import DEADLINE, Server, run_oval4d
 from png import pixels
 from test_pacing import masked_frame, open_nonreading_socket
-from wire import Client, Refused, connect, handshake_status
+from wire import Client, Refused, connect, credentials_of, handshake_status
 
 
 async def request_refusal(client, type_, **members):
@@ -114,6 +114,18 @@ async def test_the_number_of_sessions_is_limited():
                 error = json.loads(await third.recv())
                 assert error["code"] == "too_many" and "2" in error["message"]
                 await (await third.ping())
+
+
+async def test_a_session_is_not_evicted_for_one_that_another_limit_refuses():
+    with Server("--max-client-sessions", 1, "--max-new-sessions", 1) as server:
+        async with Client(server) as client:
+            credentials = credentials_of(client)
+        async with connect(server) as second:
+            await second.send('{"type":"hello","id":1}')
+            error = json.loads(await second.recv())
+            assert error["code"] == "too_many" and "per minute" in error["message"]
+        async with Client(server, **credentials):
+            pass
 
 
 async def connect_when_possible(server):

@@ -8,11 +8,7 @@ import socket
 import png
 import pytest
 from harness import DEADLINE, LONG_TIME, Server, is_sanitizer_build
-from wire import Client
-
-
-def credentials_of(client):
-    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+from wire import Client, credentials_of
 
 
 def slices_revisions(client):

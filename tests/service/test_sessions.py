@@ -4,11 +4,7 @@ import asyncio
 
 import pytest
 from harness import Server
-from wire import Client, hello_refusal
-
-
-def credentials_of(client):
-    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+from wire import Client, credentials_of, hello_refusal
 
 
 async def test_several_clients_see_every_change(server):

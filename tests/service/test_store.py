@@ -11,11 +11,7 @@ import subprocess
 import pytest
 import websockets
 from harness import DEADLINE, PROGRAM, Server, is_sanitizer_build
-from wire import Client, hello_refusal
-
-
-def credentials_of(client):
-    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+from wire import Client, credentials_of, hello_refusal
 
 
 @pytest.fixture(name="store_path")

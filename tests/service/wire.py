@@ -180,6 +180,10 @@ class Client:
         return await self.wait_until(found)
 
 
+def credentials_of(client):
+    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+
+
 async def hello_refusal(server, session="", **hello):
     """Sends a hello that the server refuses; returns the error code, and the close code that follows."""
     async with connect(server, session) as socket:

@@ -82,27 +82,27 @@ WriteBehindStore::Listener SessionManager::listener() {
 std::optional<Error> SessionManager::admitSession(AddressAccount& client) {
     const auto now = SessionsByClient::Clock::now();
     const Options& options = services_.options;
+    // Sessions are evicted only once no limit can refuse the new one anymore.
+    std::optional<std::string> evicted;
     if (byClient_.count(client.name(), now) >= options.client.sessions) {
-        const auto unmodified = byClient_.oldestUnmodified(now, &client.name());
-        if (!unmodified) {
+        evicted = byClient_.oldestUnmodified(now, &client.name());
+        if (!evicted) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.client.sessions) +
                                                   " sessions for one address; reopen one of them or try again later"};
         }
-        evict(*unmodified);
+    } else if (writeBehind_.sessionCount() >= options.maxSessions) {
+        evicted = byClient_.oldestUnmodified(now);
+        if (!evicted) {
+            return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
+                                                  " sessions, and none of them may be discarded now; try again later"};
+        }
     }
     if (!client.admitNewSession(now)) {
         const auto most = static_cast<long long>(options.client.newSessionsPerMinute);
         return Error{ErrorCode::too_many,
                      "one address may open at most " + std::to_string(most) + " sessions per minute; try again soon"};
     }
-    if (writeBehind_.sessionCount() >= options.maxSessions) {
-        const auto unmodified = byClient_.oldestUnmodified(now);
-        if (!unmodified) {
-            return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
-                                                  " sessions, and none of them may be discarded now; try again later"};
-        }
-        evict(*unmodified);
-    }
+    if (evicted) evict(*evicted);
     return std::nullopt;
 }
 
