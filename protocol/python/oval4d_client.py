@@ -23,6 +23,8 @@ import http.client
 import io
 import itertools
 import json
+import math
+import operator
 import os
 import random
 import re
@@ -863,7 +865,7 @@ def _fogs_of(columns):
     """Returns one dict per slice with its fog."""
     sizes = _rows(columns["size"], [1] * len(columns["step"]), 3)
     walls = _rows(columns["walls"], columns["counts"]["walls"], 4)
-    values = _rows(columns["values"], [x * y * z for x, y, z in sizes])
+    values = _rows(columns["values"], [math.prod(map(operator.index, size)) for size in sizes])
     minima = _rows(columns["min"], [1] * len(sizes), 3)
     return [{"size": size.tolist(), "min": least.tolist(), "step": step,
              "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _lattice(row, size)}

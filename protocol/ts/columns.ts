@@ -79,13 +79,18 @@ export type IntegerAllocator = (count: number) => Uint32Array;
 type Range = [begin: number, end: number];
 
 /**
- * Returns consecutive ranges of these sizes, the first of which begins at index 0. Throws RangeError if the last one
- * ends beyond `length`.
+ * Returns consecutive ranges of these sizes, the first of which begins at index 0. Throws RangeError if a size is not a
+ * whole number from 0, or if the last range ends beyond `length`.
  */
 function ranges(sizes: Integers, length: number): Range[] {
     let end = 0;
-    const all = Array.from(sizes, (size): Range => [end, (end += size)]);
-    if (end > length) throw new RangeError(`the slices have ${end} elements, but the array has only ${length}`);
+    const all: Range[] = [];
+    for (const size of sizes) {
+        if (!Number.isInteger(size) || size < 0 || end + size > length) {
+            throw new RangeError(`${size} elements from number ${end} on are not in an array of ${length}`);
+        }
+        all.push([end, (end += size)]);
+    }
     return all;
 }
 

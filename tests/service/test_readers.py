@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cbor2
 import pytest
 from harness import DEADLINE
 from wire import BINARY_ENCODINGS, ENCODINGS, connect
@@ -117,6 +118,16 @@ def test_the_python_client_refuses_invalid_data_with_value_error(data):
     text = b"[" * 50_000
     with pytest.raises(ValueError):  # nested more deeply than a recursive reader's stack allows
         png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
+
+
+def test_the_python_client_refuses_a_text_as_the_size_of_fog():
+    columns = dict.fromkeys(("index", "w", "label", "label_size", "focus", "drawn", "position", "label_at", "sides",
+                             "vertices", "edges", "corners"), [])
+    columns["counts"] = columns["of"] = {kind: [] for kind in ("vertices", "edges", "faces")}
+    size = ["a" * 1000, 10_000, 10_000]  # the product is a text of 100 GB
+    columns["fog"] = {"size": size, "min": [0, 0, 0], "step": [1], "walls": [], "counts": {"walls": [0]}, "values": []}
+    with pytest.raises(ValueError, match="interpreted as an integer"):
+        READERS["cbor"](cbor2.dumps({"type": "slices", "slices": columns}))
 
 
 @pytest.mark.release_only
