@@ -10,13 +10,14 @@ using Seconds = FairQueue::Seconds;
 
 constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
-constexpr double kDecay = 0.75;  // the factor by which each new measurement reduces the weight of earlier ones
-// In EstimateCorrection::factor(), the prior has the same weight as measured jobs whose estimates sum to this time.
+constexpr double kDecay = 0.75;  // each new measurement multiplies the weights of earlier ones by this factor
+// In EstimateCorrection::factor(), the prior `general` has the same weight as measured jobs whose estimates add up to
+// this time.
 constexpr Seconds kPriorWeight{0.02};
-// Corrections are learned from measured times that are clipped to this multiple of the cost, because other programs
-// sometimes delay a job.
+// Before a correction is learned from the measured time of a job, this time is reduced to at most this multiple of the
+// job's cost, because other programs sometimes delay a job.
 constexpr double kMaxOverrun = 2;
-constexpr double kMaxCorrection = 8;  // estimates are multiplied or divided by at most this factor
+constexpr double kMaxCorrection = 8;  // a correction multiplies or divides an estimate by at most this factor
 
 }  // namespace
 
@@ -38,8 +39,8 @@ Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
     return std::max(kMinCost, lane.correction_.factor(ofClient) * estimate);
 }
 
-/// Returns the cost to charge to a class: the cost of a job divided by the weight of the class, which is its number of
-/// active clients.
+/// Returns the cost of a job as `scheduler_` counts it for the job's class (all short jobs, or all long ones): the cost
+/// divided by the weight of the class, which is its number of active clients.
 Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
@@ -102,15 +103,17 @@ Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
     return client.lanes_[length].next()->jobs_.front().cost;
 }
 
-/// Updates the queue entries of a lane, its client and their class after a change of the lane's first job.
+/// Updates the positions of a lane, of its client and of the class of the lane's first job in the queues of their
+/// schedulers. Must be called when the lane's first job or virtual finish time has changed. The lane must not be empty.
 void FairQueue::scheduleLane(const LanePtr& lane) {
     const QueuedJob& first = lane->jobs_.front();
     lane->client_->lanes_[first.length].enqueueFlow(lane->states_[first.length], lane, first.cost);
     scheduleClient(lane->client_, first.length);
 }
 
-/// Updates the queue entries of a client and of the class of this length, after a change of the client's next job of
-/// this length.
+/// Updates the positions of a client and of the class of jobs of this length in the queues of their schedulers; removes
+/// from its queue each of the two that has no waiting job of this length. Must be called when the client's next job of
+/// this length, or the client's virtual finish time, has changed.
 void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     JobClass& jobClass = classes_[length];
     if (client->lanes_[length].empty()) {

@@ -72,8 +72,8 @@ class FairScheduler {
     /// another waiting job, else remove().
     void recordStart(FlowState& state, Seconds cost) {
         virtualTime_ = std::max(virtualTime_, state.finish) + cost / activeFlows_;
-        // Keep the finish time of the flow from falling behind the virtual time by more than the cost of the job, even
-        // if estimates were wrong.
+        // Even if estimates were wrong, the finish time of the flow may fall behind the virtual time by at most the
+        // cost of the job.
         state.finish = std::max(state.finish + cost, virtualTime_ - cost);
         maxFinish_ = std::max(maxFinish_, state.finish);
         ++state.running;
@@ -98,7 +98,8 @@ class FairScheduler {
 /// share the client's time equally.
 ///
 /// The cost of a job is an estimate until the job ends; then the measured time replaces the estimate. Measured times
-/// also correct the estimates of later jobs: in the same lane, in new lanes of the same client, and of new clients.
+/// also correct the estimates of later jobs in the same lane, in new lanes of the same client, and in the lanes of new
+/// clients.
 ///
 /// Jobs are not preempted, so long jobs could occupy all threads while short jobs wait. Therefore some threads are
 /// reserved: a quarter of them, rounded down, but at least one. If there is only one thread, it is not reserved. A
@@ -133,15 +134,15 @@ class FairQueue {
     /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
     /// jobs is active.
     static constexpr Seconds kVeryLongJobThreshold{0.25};
-    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. Within this
-    /// time after a long job was queued in a lane, short jobs do not make the lane active.
+    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. However, if a
+    /// long job was queued in the lane less than this time ago, the short job does not make it active.
     static constexpr std::chrono::seconds kActivePeriod{10};
 
     /// A job that pop() returned. The caller must run it at once and then call finished().
     struct DueJob {
         Job job;
         LanePtr lane;
-        Seconds estimate, cost;  ///< the estimate given to push(), and that estimate corrected by measured times
+        Seconds estimate, cost;  ///< the estimate given to push(), and the corrected estimate
         JobLength length;
     };
 

@@ -16,7 +16,7 @@ class ForkJoin {
   public:
     using Job = std::function<void()>;
 
-    /// Marks one processor as busy as long as this object exists.
+    /// Counts one processor as busy, for ForkJoin::invoke(), as long as this object exists.
     class BusyProcessorGuard {
       public:
         explicit BusyProcessorGuard(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }

@@ -15,7 +15,7 @@
 
 namespace oval4d::parallel {
 
-/// Thrown by functions that call WorkerPool::post(), to report that it rejected a job because the queue is full.
+/// Thrown by functions that call WorkerPool::post(), to report that the pool rejected a job because its queue is full.
 class QueueFull : public std::runtime_error {
   public:
     QueueFull() : std::runtime_error("too many jobs are queued") {}
@@ -41,9 +41,9 @@ class WorkerPool {
         Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
         /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
-        ForkJoin* forkJoin = nullptr;  ///< if not null, counts one processor as busy during each job
-        /// Returns the current time, by which jobs are scheduled and measured. Tests pass one that returns a virtual
-        /// time.
+        ForkJoin* forkJoin = nullptr;  ///< if not null, is told that one processor is busy during each job
+        /// Returns the current time, by which jobs are scheduled and measured. Tests pass a function that returns a
+        /// virtual time.
         std::function<FairQueue::Clock::time_point()> now = FairQueue::Clock::now;
     };
     static constexpr std::chrono::seconds kIdleDelay{3};
@@ -80,7 +80,7 @@ class WorkerPool {
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const Options options_;
-    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // of all jobs without a lane
+    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // for all jobs without one
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
