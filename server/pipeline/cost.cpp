@@ -16,8 +16,9 @@ double elementTotal(const slicing::Object& object) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
 
-/// Returns approximately how many of n elements of a polytope a hyperplane cuts. The elements form a three-dimensional
-/// boundary, which the hyperplane cuts in a two-dimensional surface: hence the exponent 2/3.
+/// Returns approximately how many elements a hyperplane cuts in a polytope that has n elements (vertices, edges, faces
+/// and cells). The elements form a three-dimensional boundary, which the hyperplane cuts in a two-dimensional surface:
+/// hence the exponent 2/3.
 double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
 
 /// Returns the estimated time, in seconds, to extract the surfaces of a field, and to draw or write them; 0 for other
@@ -29,7 +30,7 @@ double surfaceSeconds(const session::State& state, double slices, double cubes, 
     const slicing::SurfaceLimits limits = slicing::surfaceLimits(quality);
     const fields::EvaluationCost cost = field->function->cost();
     // Assumes that a surface crosses 1.5 times as many lattice cubes as a plane through the field, and has one point in
-    // each of them. About three lattice points are sampled for each of these points.
+    // each of these cubes. About three lattice points are sampled for each point of the surface.
     const double points = 1.5 * slices * cubes * cubes * static_cast<double>(state.look.field.levels.size());
     const bool isColored = field->second != nullptr && scene::colorsByValue(state.look);
     const double coloring = isColored ? field->second->function->cost().value : 0;
@@ -38,7 +39,8 @@ double surfaceSeconds(const session::State& state, double slices, double cubes, 
 }
 
 /// Returns the estimated time, in seconds, to sample the fog of a field, and to draw it in this many pixels or to write
-/// it; 0 without fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
+/// it; 0 if the field shows no fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's
+/// diameter.
 double fogSeconds(const session::State& state, double slices, double cubes, double pixels, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(state.object);
     if (field == nullptr || state.look.field.fog.empty()) return 0;
@@ -54,14 +56,14 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
     const double n = elementTotal(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = state.slices.count * (2e-5 + 1.2e-6 * elementsCut(n));
-    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
+    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // estimated number of faces blended at a pixel
     // The focus slice takes up to half the picture's height. The other slices of the oval are smaller, and together
     // have a few times as many pixels as the focus slice. So all slices count as kSlices slices of the size of the
     // focus slice.
     constexpr double kSlices = 4;
     const double cubes = state.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
-    // In full quality, lattices have at least cubesAcross() cubes across the diameter of the field, even in small
-    // slices.
+    // In full quality, the lattice of each slice has at least cubesAcross() cubes across the diameter of the field,
+    // even if the slice is drawn small. Hence the greater of the two times.
     const double field = std::max(surfaceSeconds(state, kSlices, cubes, quality),
                                   surfaceSeconds(state, state.slices.count, slicing::cubesAcross(quality), quality)) +
                          fogSeconds(state, kSlices, cubes, pixels / kSlices, quality);

@@ -101,9 +101,9 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
 }
 
-// Divides the object's extent along w into `count` equal parts, and returns the hyperplanes in the middles of the
-// parts. For a point cloud, the parts are slightly larger, because a slice does not contain the points at the upper end
-// of its part.
+// Divides the object's extent along w into `count` equal intervals, and returns the hyperplanes in the middles of the
+// intervals. For a point cloud, the intervals are slightly longer, because a slice does not contain the points at the
+// upper end of its interval.
 geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
     const double larger = std::holds_alternative<slicing::CloudPtr>(state.object) ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
@@ -143,8 +143,8 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.chosenW, state);
 }
 
-// Returns the set of slices to export instead of `slices`: its only slice is the projection of the whole object. Uses
-// the orthogonal projection if the picture shows it, else the perspective projection.
+// Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
+// projection is orthogonal if the picture shows an orthogonal projection, else perspective.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
     const scene::ProjectionSettings& settings = state.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
@@ -232,19 +232,19 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     look.coloring = state.look.coloring;
     look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
     look.field = state.look.field;
-    if (!hasOwnLook) look.parts.faces = isField;  // without this look: the surfaces of fields, but no Scene::fill
+    if (!hasOwnLook) look.parts.faces = isField;  // show the surfaces of fields, but do not fill faces
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFill(PictureWorkLimits().fillSteps);
-    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size; a
-    // drawing of a tall view has them in portrait format.
+    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size,
+    // with width and height exchanged for a tall view.
     const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;
     scene::Viewport viewport;
     if (isSquare) viewport.width = viewport.height;
     if (isTall(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
-    if (element) scene.look.highlight = element;  // only now, because compose() would give it another color
+    if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
     // also shows the focus point, as this view does.
     if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;

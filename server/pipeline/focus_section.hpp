@@ -11,8 +11,9 @@ namespace oval4d::pipeline {
 /// calls. May be used by one thread at a time.
 class FocusSectionNamer {
   public:
-    /// Cuts the focus slice of the object and names it. A name is empty if the slice has no such name. Names are valid
-    /// until the process ends. Takes at most about as long as one slice of a picture.
+    /// Cuts the focus slice of the object and returns its two names (see slicing::SectionNamePair). A name is empty if
+    /// it does not exist. The names are valid until the process ends. Takes at most about as long as one slice of a
+    /// picture.
     slicing::SectionNamePair names(const session::State& state);
 
   private:

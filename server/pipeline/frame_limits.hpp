@@ -14,8 +14,9 @@ struct FrameLimits {
     std::int64_t maxPixels = 16'777'216;
 };
 
-/// Returns the size of a picture for which none is given: that of a default scene::Viewport, or as near to it as the
-/// limits allow. If the limits allow no size at all, checkViewport() refuses the result.
+/// Returns the size of a picture if the client gives no size: the size of a default scene::Viewport or, if the limits
+/// do not allow it, a size near it that they allow. If the limits contradict each other, no size is allowed, and
+/// checkViewport() refuses the result.
 scene::Viewport usualViewport(const FrameLimits& limits);
 
 /// Returns the viewport if it is within the limits, else the error `out_of_range`, whose message says what is allowed.

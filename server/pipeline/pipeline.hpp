@@ -21,8 +21,8 @@
 
 namespace oval4d::pipeline {
 
-/// The seconds that each step of a picture took; 0 for a step that was not run. Adds two steps to those of
-/// raster::DrawTimes: `write` for a `slices` message, and `encode` for a PNG file.
+/// The seconds that each step of a picture took; 0 for a step that was not run. In addition to the steps of
+/// raster::DrawTimes: `write`, to write a `slices` message, and `encode`, to encode a PNG file.
 struct PictureTimes : raster::DrawTimes {
     double write = 0, encode = 0;
 };
@@ -44,9 +44,9 @@ class Pipeline {
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              PictureWorkLimits limits = {});
 
-    /// Returns the names of the section in the focus slice, for the `state` message. There are two, because the slice
-    /// may have a name, such as "icosahedron", and so may the convex hull of those of its vertices that are vertices of
-    /// the object (see slicing::SectionNamePair). A name that does not exist is empty.
+    /// Returns the two names of the section in the focus slice, for the `state` message: the name of the slice, such as
+    /// "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
+    /// slicing::SectionNamePair). A name that does not exist is empty.
     slicing::SectionNamePair nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the
@@ -68,7 +68,7 @@ class Pipeline {
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 
     /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
-    /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws
+    /// chunk. Overwrites `out`. Calls `drawn`, if given, when the picture is drawn but not yet encoded. Throws
     /// slicing::TooManySliceEdges as slice() does, and std::runtime_error if the picture cannot be drawn, most likely
     /// because no GL context can be created.
     void drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
@@ -77,8 +77,8 @@ class Pipeline {
     /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp()).
     void warmUp() { rasterizer_->warmUp(); }
 
-    /// Frees cached memory, which otherwise keeps the size that the largest picture needed. Call this when the pipeline
-    /// is idle, because allocating the memory again takes a few milliseconds.
+    /// Frees cached memory, of which the pipeline otherwise keeps as much as the largest picture needed. Call this when
+    /// the pipeline is idle, because allocating the memory again takes a few milliseconds.
     void freeMemory();
 
     /// Returns the times of the last calls. slice() and drawPng() first set all times to 0; writeSlices() replaces

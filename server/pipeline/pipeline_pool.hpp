@@ -15,7 +15,7 @@ namespace oval4d::pipeline {
 /// it. Thread-safe.
 class PipelinePool {
   public:
-    using Argument = Pipeline&;  ///< the parameter of a job
+    using Argument = Pipeline&;  ///< the type of the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
     struct Options {
