@@ -9,9 +9,9 @@
 namespace oval4d::net {
 
 /// Counts and limits the bytes that the server holds for clients: files, pictures and messages that clients have not
-/// yet read, long messages and uploads being received, objects loaded or built by name, and undo histories. One budget
-/// covers all clients together; each client has an account in it. Bytes are reserved before they are used. Every
-/// function may be called from any thread.
+/// yet read; long messages and uploads that the server is receiving; objects loaded or built by name; undo histories.
+/// One budget covers all clients together; each client has an account in it. Bytes are reserved on an account before
+/// they are used. Every function may be called from any thread.
 class ByteBudget {
   public:
     class Account;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMinute = 60;
 constexpr std::size_t kFirstSweep = 256;     // number of clients at which forgetIdle() is first called
-constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one account
+constexpr std::size_t kMaxClients = 65'536;  // maximum number of clients with their own account; all others share one
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
 address_v6 asIPv6(const address& any) {

@@ -73,8 +73,8 @@ class AddressAccount {
     /// Returns the client's lane in the pool of load workers (see Services::loadWorkers).
     const parallel::WorkerPool::LanePtr& loadLane() const { return loadLane_; }
 
-    /// Returns whether all rate limits have fully recovered. If so, it makes no difference to the client whether this
-    /// object is deleted and created again.
+    /// Returns whether all rate limits have fully recovered. If they have, this account may be deleted: a new account
+    /// would treat the client in the same way.
     bool hasFullRateLimits(Clock::time_point now) const;
 
   private:
@@ -119,14 +119,14 @@ class Clients {
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
     /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
-    /// `proxy` and goes backward through the entries of X-Forwarded-For as long as the current address is a trusted
-    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. The first
-    /// time that an entry is not an address, logs a warning.
+    /// `proxy` and goes through the entries of X-Forwarded-For, the last one first, as long as the current address is
+    /// that of a trusted proxy and the next entry is an address (see forwardedAddress()). Returns the address at which
+    /// it stops. The first time that an entry is not an address, logs a warning.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.
     std::size_t bytesHeld() const { return budget_.held(); }
-    /// Returns the number of known clients, that is, of accounts, except those that forgetIdle() has deleted.
+    /// Returns the number of known clients: those whose accounts forgetIdle() has not deleted.
     std::size_t size() const;
 
   private:
@@ -139,7 +139,7 @@ class Clients {
     ByteBudget budget_;
     mutable std::mutex mutex_;
     std::map<std::string, AddressAccountPtr, std::less<>> clients_;  // guarded by mutex_
-    std::size_t sweepAt_;  // number of clients at which forgetIdle() is called; guarded by mutex_
+    std::size_t sweepAt_;  // forgetIdle() is called at this number of clients; guarded by mutex_
 };
 
 }  // namespace oval4d::net

@@ -6,8 +6,8 @@ namespace {
 
 using process::SandboxMode;
 
-// Maximum number of file descriptors of a child process: the standard streams, the channel, a descriptor that is
-// received over the channel, and those that libraries keep open.
+// Maximum number of file descriptors of a child process: the standard streams, the channel to the server, a descriptor
+// that the server passes over this channel, and descriptors that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
 /// Returns `options.drawMemory` or, if this is 0, an upper bound of the memory that a rasterizer process needs for
@@ -40,7 +40,8 @@ std::vector<std::string> childEnvironment(const Options& options, std::size_t wo
 }
 
 process::Confinement rasterizerConfinement(const Options& options) {
-    // In addition to kOwnFiles, one file descriptor for each worker: that of the worker's shared pixel buffer.
+    // In addition to kOwnFiles, a rasterizer process needs one descriptor for each worker: that of the memory into
+    // which it draws the worker's pictures.
     return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 

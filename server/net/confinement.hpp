@@ -12,8 +12,8 @@ namespace oval4d::net {
 
 /// Returns the environment variables through which the server passes its options to child processes
 /// (process::ChildOptions::environment). `workers`: the number of picture workers. Unless the options turn the sandbox
-/// off, checks whether the system can sandbox child processes. If it cannot, sets `warning` to a message for the log,
-/// or throws std::runtime_error if the options require a sandbox.
+/// off, checks whether the system can sandbox child processes. If the system cannot, sets `warning` to a message for
+/// the log, or throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning);
 
 /// Returns the confinement that a rasterizer process applies to itself. `options` must have been read from the

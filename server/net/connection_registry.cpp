@@ -93,8 +93,8 @@ ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const AddressAcc
     };
     {
         const std::lock_guard lock(mutex_);
-        // Connections that were refused stay registered until they end, so the number of connections may exceed a limit
-        // by more than one. Therefore several idle connections may have to be evicted.
+        // Connections that were refused stay registered until they end. Therefore the number of connections may exceed
+        // a limit by more than one, and several idle connections may have to be evicted.
         while (admission == AdmissionDecision::admitted) {
             if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
                 evict(&client, AdmissionDecision::client_full);

@@ -23,7 +23,8 @@ class ConnectionRegistry {
     enum class EndReason { stopping, evicted };
     using EndHandler = std::function<void(EndReason)>;
 
-    /// The entry of one connection in the registry. The constructor adds it, and the destructor removes it.
+    /// The registration of one connection. The constructor adds the connection to the registry, and the destructor
+    /// removes it.
     class Registration {
       public:
         Registration(ConnectionRegistry& connections, AddressAccountPtr client);
@@ -31,8 +32,8 @@ class ConnectionRegistry {
         Registration& operator=(const Registration&) = delete;
         ~Registration();
 
-        /// Sets the handler that ends the connection. It is called, on any thread, when the server stops or the
-        /// connection is evicted. If one of these events has already happened, setEndHandler() itself calls the
+        /// Sets the handler that ends the connection. The handler is called, on any thread, when the server stops or
+        /// the connection is evicted. If one of these events has already happened, setEndHandler() itself calls the
         /// handler.
         void setEndHandler(EndHandler handler);
 
@@ -51,10 +52,9 @@ class ConnectionRegistry {
     enum class AdmissionDecision { admitted, server_full, client_full };
     /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
     /// first, until there is room for the new one: those of this client if the client is at its limit, else those of
-    /// the client with the most connections. If the client from which to evict has no idle connection, evicts none and
-    /// returns the limit that is reached. `registered`: the number of registrations that the new connection itself
-    /// already has (0 or 1); they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit
-    /// per client does not apply.
+    /// the client with the most connections. If that client has no idle connection left, returns the limit that is
+    /// reached. `registered`: the number of registrations that the new connection itself already has (0 or 1); they are
+    /// not counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
     AdmissionDecision admit(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.

@@ -25,9 +25,9 @@ auto toSteadyDuration(Duration duration) {
 }
 
 /// Calls `start` with a callback, suspends the coroutine until that callback is called, and returns the value that was
-/// passed to the callback. The callback must be called exactly once, from any thread; the coroutine resumes on its own
-/// executor. Create `start` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its
-/// captures twice.
+/// passed to the callback. `start` must ensure that the callback is called exactly once, from any thread. The coroutine
+/// resumes on its own executor. Create `start` in an ordinary function: if a lambda is created in a coroutine, GCC 12
+/// destroys its captures twice.
 template <typename Value>
 boost::asio::awaitable<Value> awaitCallback(std::function<void(std::function<void(Value)>)> start) {
     namespace asio = boost::asio;

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Opens a file or folder in an open folder, without following a symbolic link. Returns -1 if that fails.
+/// Opens a file or folder in the folder whose descriptor is `folder`, without following a symbolic link. Returns the
+/// descriptor, or -1 if it cannot be opened.
 int openName(int folder, const std::string& name, int flags) {
     return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
@@ -61,8 +62,8 @@ std::string versionOfZarr(int folder) {
 }
 
 /// Returns a string that changes when a file in the folder, or in a folder within it, changes, such as a chunk of a
-/// Zarr array. Does not follow symbolic links. Considers at most kMaxFiles, because even their status takes time to
-/// read.
+/// Zarr array. Does not follow symbolic links. Considers at most kMaxFiles files, because reading the status of each
+/// file takes time.
 std::string versionOfFilesIn(const fs::path& folder) {
     constexpr std::size_t kMaxFiles = 10'000;
     std::size_t count = 0, sum = 0;  // a sum does not depend on the order in which the files are found
@@ -172,7 +173,7 @@ std::vector<std::string> DataFolder::list() const {
     return found;
 }
 
-/// Opens the file, the Zarr folder, or the files of the series with this name.
+/// Opens the entry with this name: its file, its Zarr folder, or the files of its series.
 Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const {
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
     if (folder_.empty()) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
@@ -260,8 +261,9 @@ Result<FieldCacheFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
     }
 }
 
-/// Puts a field into the cache. Makes room by dropping the least recently used fields that no session uses. Errors:
-/// `too_large` if the field alone exceeds the maximum memory; `too_many` if the fields in use leave no room for it.
+/// Puts a field into the cache. `onDisk`: whether the field has a file in the field cache. Makes room by dropping the
+/// least recently used fields that no session uses. Errors: `too_large` if the field alone exceeds the maximum memory;
+/// `too_many` if the fields in use leave no room for it.
 Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);
     const std::lock_guard lock(mutex_);

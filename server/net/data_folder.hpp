@@ -42,16 +42,16 @@ class DataFolder {
     /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Unless
     /// knownNames() has the names, reads the folder, which blocks the calling thread.
     std::vector<std::string> names() const;
-    /// Returns the names that names() last read from the folder, if that reading began less than kListedFor ago;
-    /// otherwise an empty optional. Returns an empty list if there is no data folder.
+    /// Returns the names that names() last read from the folder; an empty optional if it began to read them kListedFor
+    /// ago or earlier, or has not read them yet. Returns an empty list if there is no data folder.
     std::optional<std::vector<std::string>> knownNames() const;
 
-    /// Returns the field that `load.dataName` names. If it is not in memory, calls `reader` to read it, with a copy of
-    /// `load` that contains the open files. Blocks the calling thread, also while another thread reads the same field.
-    /// Errors: `not_found` if the folder has no such file; `too_large` if the field takes more memory or disk space
-    /// than the limits allow, or if a series has more than kMaxSeries files; `too_many` if fields in use leave too
-    /// little memory or disk space; `bad_field` if the file is not an array, or is found to have changed while it was
-    /// read; those of `reader`.
+    /// Returns the field that `load.dataName` names. If it is not in memory, calls `reader` with a copy of `load` that
+    /// contains the opened files. Blocks the calling thread until the field is read, by this thread or by another one
+    /// that is already reading the same field. Errors: `not_found` if the folder has no such file; `too_large` if the
+    /// field takes more memory or disk space than the limits allow, or if a series has more than kMaxSeries files;
+    /// `too_many` if fields in use leave too little memory or disk space; `bad_field` if the file is not an array, or
+    /// is found to have changed while it was read; those of `reader`.
     Result<session::ObjectWithWarnings> read(const session::LoadObject& load, const session::Limits& limits,
                                              const Reader& reader);
 
@@ -69,9 +69,9 @@ class DataFolder {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
         std::shared_ptr<const fields::FileHandle> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
-        std::string version;  // a text that changes when a file changes; of a Zarr folder, only its metadata
-        // Of a Zarr folder, a text that changes when a chunk changes. A field is not refused if that happens while it
-        // is read: a simulation may write other arrays of the folder.
+        std::string version;  // changes when one of `files` changes, or the metadata of the Zarr folder
+        // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. A change while a field is read
+        // does not make read() fail, because a simulation may be writing other arrays of the folder.
         std::string chunks;
     };
     // A field in memory.

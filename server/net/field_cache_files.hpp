@@ -23,9 +23,9 @@ class FieldCacheFiles {
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
     /// Returns a new file of this size. Reserves its space on the disk if the file system can do so, so that writing to
-    /// it cannot fail for lack of space. Returns a null pointer if the file fits the limit alone, but not together with
-    /// the other files. This object must outlive the file. Errors: `too_large` if the file is larger than the limit;
-    /// `internal` if it cannot be made; `too_many` if the disk is full.
+    /// it cannot fail for lack of space. Returns a null pointer if this size is within the limit, but the total size of
+    /// all files would exceed it. This object must outlive the file. Errors: `too_large` if the file is larger than the
+    /// limit; `internal` if it cannot be made; `too_many` if the disk is full.
     Result<FilePtr> make(std::size_t bytes);
 
     /// Returns the size of all files, in bytes.

@@ -10,7 +10,7 @@ namespace {
 
 using prometheus::Histogram;
 
-// Upper bounds of the histogram buckets, in seconds, for all times except those to make a file.
+// Upper bounds of the histogram buckets, in seconds, of all histograms but that of the time to make a file.
 const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
 
 // Upper bounds of the histogram buckets, in seconds, for the time to make a file.

@@ -11,7 +11,7 @@
 
 namespace oval4d::net {
 
-/// Calls a function of its owner once after each call of start(). The owner is the object that has the timer as a
+/// Calls a function of its owner once, at the time that start() sets. The owner is the object that has the timer as a
 /// member. Not thread-safe: use the timer only on the strand given to the constructor. It calls the owner on the same
 /// strand.
 class OneShotTimer {

@@ -38,7 +38,7 @@ struct Options {
     /// In this order: host names that clients may use for the server; origins of foreign pages that may connect (for
     /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see IpNetwork).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
-    std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
+    std::string token;  ///< secret that clients must send; empty: a random one, but none if all hosts are loopback
     bool open = false;  ///< require no token, even on addresses other than loopback; `token` must be empty then
 
     std::size_t maxLoadMessageBytes = 8U << 20U;    ///< maximum size of a `load` message or of an uploaded state
@@ -55,7 +55,7 @@ struct Options {
     int maxRequestsPerSecond = 2000;                ///< maximum messages per second from one connection
     parallel::FairQueue::Limits jobs;               ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;                    ///< limits on the size of pictures
-    pipeline::PictureWorkLimits picture;            ///< limits on what a picture shows
+    pipeline::PictureWorkLimits picture;            ///< limits on the time and memory that a picture takes
     exports::ExportLimits file;                     ///< limits on the files that clients request
     session::Limits session;                        ///< limits of each session
     std::string store = "memory";                   ///< location of the sessions: see store::StoreOptions::url

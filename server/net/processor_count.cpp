@@ -36,8 +36,9 @@ std::size_t processorCount(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
-        // In a container, the path in the line may be that of the group on the host, although only the container's own
-        // group is visible, at the root of `mount`. Files that are not visible are skipped.
+        // In a container, the path in the line may be that of the group on the host, but the container sees only its
+        // own group, at `mount`. Therefore try the path and all its parents, up to `mount`; quotaIn() skips files that
+        // do not exist.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
             if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;

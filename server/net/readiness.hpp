@@ -22,7 +22,7 @@ class Readiness {
 
     /// Returns whether every worker has drawn its first picture and the server is not stopping.
     bool ready() const { return missing_ == 0 && !stopping_; }
-    /// Marks the server as stopping. /readyz then tells load balancers to send no new clients.
+    /// Marks the server as stopping: /readyz then tells load balancers to send no new clients.
     void markStopping() { stopping_ = true; }
     bool stopping() const { return stopping_; }
     /// Returns whether a worker failed to draw its first picture. The server then never becomes ready.

@@ -42,8 +42,8 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 20;
 constexpr auto kWorkerStopTimeout = 500ms;
-// The time after which file reader processes end if no file is read: until then, a client that loads another file need
-// not wait for a process to start.
+// The time after which file reader processes end if no file is read: as long as they run, a client that loads another
+// file need not wait for a process to start.
 constexpr Seconds kReaderIdleTimeout{10};
 
 /// Raises the soft limit of open files to the hard limit, because each connection uses a file descriptor.
@@ -131,7 +131,7 @@ class Server {
     Options options_;
     Clients clients_;
     FieldCacheFiles fieldCacheFiles_;  // outlives all fields; declared before io_, whose handlers may hold fields
-    ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines hold them
+    ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines own them
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
@@ -263,8 +263,8 @@ asio::awaitable<void> Server::acceptConnections(tcp::acceptor& acceptor) {
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // The most likely reason is that no file descriptor is free. A descriptor becomes free when a connection
-            // ends.
+            // The most likely reason is that no file descriptor is free. Wait, because one becomes free when a
+            // connection ends.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             asio::steady_timer pause(io_, 100ms);
             co_await pause.async_wait(kAsTuple);
@@ -311,7 +311,7 @@ void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
             "set only one of them");
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
-    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails instead of ending this process
     std::signal(SIGCHLD, SIG_DFL);  // if ignored, the ids of ended children could be reused before waitpid()
     Server(std::move(options), forkJoin, heap).run();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the server.
+// The function that runs the whole server until a signal stops it.
 
 #include "net/options.hpp"
 #include "parallel/fork_join.hpp"

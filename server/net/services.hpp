@@ -47,7 +47,7 @@ struct Services {
     polytopes::PolytopeCache& polytopes;     ///< polytopes that were built from their names
     DataFolder& data;                        ///< the arrays that the server offers
     const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
-    slicing::CriticalCache& critical;        ///< cached critical values of w, the results of searches
+    slicing::CriticalCache& critical;        ///< cached results of searches for critical values of w
 };
 
 }  // namespace oval4d::net

@@ -11,8 +11,9 @@ namespace oval4d::net {
 
 /// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
 /// Without a minimum rate, a very slow client could make the server hold the data for hours. Each fragment must be
-/// transferred within Options::writeTimeout. In addition, the fragment after the first n bytes must be transferred
-/// within n / Options::minReadRate plus two write timeouts from the start; a rate of 0 turns this second limit off.
+/// transferred within Options::writeTimeout. In addition, once n bytes have been transferred, the next fragment must be
+/// transferred before the time n / Options::minReadRate + 2 · Options::writeTimeout has passed since the start. A rate
+/// of 0 turns this second limit off.
 class TransferDeadline {
   public:
     using Clock = std::chrono::steady_clock;

@@ -24,9 +24,9 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request);
 /// answering them costs time or reveals data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
-/// Checks the access rules, and counts a wrong token against the client's rate limit. If the request is refused,
-/// returns the reply. Otherwise, returns an empty optional, and sets `cookie` to the value of Set-Cookie for the reply,
-/// or to an empty string if the reply needs no cookie.
+/// Checks a request by the rules of `access`, and counts a wrong token against the client's rate limit. If the request
+/// is refused, returns the reply. Otherwise, returns an empty optional, and sets `cookie` to the value of Set-Cookie
+/// for the reply, or to an empty string if the reply needs no cookie.
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
                                  AddressAccount& client, std::string& cookie);
 

@@ -21,7 +21,8 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
 bool isHexadecimal(char c) { return text::isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 bool isHostNameCharacter(char c) { return text::isDigit(c) || text::isLetter(c) || c == '-' || c == '.' || c == '_'; }
 
-/// Returns the port of an authority, or the default port of the scheme, which browsers omit.
+/// Returns the port of an authority; `defaultPort` if it is missing, because browsers omit the default port of a
+/// scheme.
 std::string_view portOrDefault(const Authority& authority, std::string_view defaultPort) {
     return authority.port.empty() ? defaultPort : authority.port;
 }
@@ -115,9 +116,9 @@ bool AccessControl::isListedOrigin(std::string_view origin) const {
     return !origin.empty() && listed(origins_, origin);
 }
 
-/// Requests without an Origin come from programs other than browsers, or from the server's own pages, and are allowed.
-/// The origin of the server's own pages has the same host and port as the request; the scheme may differ, because a
-/// proxy may terminate TLS.
+/// Returns whether a request to `host` with this Origin is allowed. A request without an Origin is allowed, because it
+/// comes from the server's own page or from a program other than a browser. The origin of the server's own pages has
+/// the same host and port as the request; the scheme may differ, because a proxy may terminate TLS.
 bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view host) const {
     if (origin.empty() || isListedOrigin(origin)) return true;
     for (const auto& [scheme, port] : {std::pair("http://", "80"), std::pair("https://", "443")}) {

@@ -28,9 +28,9 @@ struct Authority {
 /// contains user information, a space or a port that is not a number.
 std::optional<Authority> parseAuthority(std::string_view text);
 
-/// Decides whether requests are allowed. All requests except health probes are checked. The Origin check keeps out
-/// pages of other sites, the Host check prevents DNS rebinding, and the token keeps out everybody on the network who
-/// does not have it.
+/// Decides whether requests are allowed. The server checks all requests except health probes. The Origin check keeps
+/// out pages of other sites, the Host check prevents DNS rebinding, and the token keeps out everybody on the network
+/// who does not have it.
 class AccessControl {
   public:
     /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names. If this list
@@ -44,7 +44,7 @@ class AccessControl {
     Verdict check(const AccessCheckInput& fields) const;
 
     /// Returns whether the browser says that a page of another site makes the request, and the origin of that page is
-    /// not an allowed foreign origin. If so, the request must not cause expensive work. Returns false if a person has
+    /// not an allowed foreign origin. Such a request must not cause expensive work. Returns false if a person has
     /// followed a link on a page of another site.
     bool isCrossSite(const AccessCheckInput& fields) const;
 

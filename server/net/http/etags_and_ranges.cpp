@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Parses a number of bytes; returns the maximum of std::size_t for a larger one. Returns an empty optional unless the
-/// text consists of digits.
+/// Parses a number of bytes; returns the maximum of std::size_t for a number that is larger. Returns an empty optional
+/// unless the text consists of digits.
 std::optional<std::size_t> bytesIn(std::string_view digits) {
     std::size_t value = 0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);

@@ -36,8 +36,8 @@ namespace {
 constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
 constexpr std::size_t kReadBufferBytes = 64U << 10U;
 
-// After a refusal, the server continues to read up to these limits of bytes and of time: closing a socket with unread
-// bytes would reset the connection, and the client might not receive the reply.
+// After a refusal, the server continues to read up to these limits of bytes and of time: if it closed the socket while
+// bytes are unread, the connection would be reset, and the client might not receive the reply.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
@@ -160,8 +160,8 @@ asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     co_return std::nullopt;
 }
 
-/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For, and checks the limit of that
-/// client's connections. Does nothing if the request does not come from a trusted proxy.
+/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For, and checks whether that client
+/// has too many connections. Does nothing if the request does not come from a trusted proxy.
 void HttpConnection::identifyClient(const HttpRequest& request) {
     boost::system::error_code fault;
     const auto peer = stream_.socket().remote_endpoint(fault);
@@ -364,7 +364,7 @@ std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
     return isCrossSiteRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
 
-/// Replies to a request and closes the connection, because it is uncertain where a further request would begin.
+/// Replies to a request and closes the connection, because it is uncertain at which byte a further request would begin.
 asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply reply) {
     resourcePolicy_ = "same-origin";
     HttpRequest last(request);

@@ -1,5 +1,5 @@
 #pragma once
-// HTTP responses.
+// HTTP replies, and functions that make the common kinds of replies.
 
 #include <string>
 #include <utility>

@@ -12,7 +12,7 @@ namespace oval4d::net {
 /// A request target (RFC 9112, section 3.2).
 struct RequestTarget {
     std::string path;       ///< percent-decoded
-    std::string authority;  ///< host and port in absolute form, such as "localhost:8080"; empty in origin form
+    std::string authority;  ///< host and port, such as "localhost:8080"; empty for a target in origin form
     session::QueryParameters query;
 };
 

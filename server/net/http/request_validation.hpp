@@ -20,9 +20,9 @@ struct HttpError {
 
 inline constexpr unsigned kUpgradeRequired = 426;  ///< HTTP status: the client must use another protocol
 
-/// Whether a request may have a body.
+/// What the header of a request must say about a body.
 enum class BodyRule : bool {
-    none,      ///< the header must announce no body, so that the next request begins directly after it
+    none,      ///< the header must announce no body; the next request begins directly after the header
     required,  ///< the header must state the length of the body
 };
 

@@ -71,7 +71,7 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
 }
 
 /// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons (no warning contains
-/// one). Replaces minus signs by hyphens, because clients read header fields as ASCII or ISO 8859-1.
+/// one). Replaces minus signs (U+2212) by hyphens, because clients read header fields as ASCII or ISO 8859-1.
 std::string warningsField(const std::vector<std::string>& warnings) {
     std::string value;
     for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
@@ -94,7 +94,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         const AddressAccountPtr& client,
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        // A PNG file is rarely larger than its pixels.
+        // Reserve the size of the pixels until the size of the file is known: a PNG file is rarely larger.
         auto held = client->byteAccount().reserve(image::byteCount(viewport));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
@@ -163,8 +163,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// Returns the state that a query describes. `others`: the names of further parameters that the query may have. Builds
-/// the polytope on a worker if necessary. Throws what runOnPool() throws.
+/// Returns the state that a query describes. `others`: the names of further parameters that the query may have. If the
+/// polytope of the state must be built, a worker builds it. Throws what runOnPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
                                                       std::span<const std::string_view> others,
                                                       AddressAccountPtr client) {

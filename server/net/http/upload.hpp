@@ -19,10 +19,10 @@
 
 namespace oval4d::net {
 
-/// A parsed upload request, without the file.
+/// A parsed upload request, without the uploaded file.
 struct Upload {
     std::string session;                      ///< id of the session
-    std::optional<session::LoadObject> load;  ///< without the file; empty if the file contains a state
+    std::optional<session::LoadObject> load;  ///< how to load the field in the file; empty if the file contains a state
 };
 
 /// Returns whether requests with this method and path upload a file, and therefore have a body: PUT and POST to a path
@@ -49,7 +49,7 @@ std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared
                                                                      std::size_t maxMessage);
 
 /// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format`, and with
-/// status 429 and a time to wait for `too_many`.
+/// status 429 and the header field Retry-After for `too_many`.
 Reply uploadErrorReply(const Error& error);
 
 /// The body of an upload while it is received: a file in memory, whose bytes are reserved on the client's account. The

@@ -11,7 +11,7 @@
 
 namespace oval4d::net {
 
-/// A representation of a file, uncompressed or compressed (RFC 9110, section 3.2).
+/// The bytes of a file, uncompressed or compressed: a representation in the sense of RFC 9110, section 3.2.
 struct Representation {
     SharedBytes bytes;
     std::string coding;  ///< the content coding (Content-Encoding); "identity" if uncompressed

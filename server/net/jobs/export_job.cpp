@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Counts a file in Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the destructor
-/// records how long the file took.
+/// Adds 1 to Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the destructor records how
+/// long the file took.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

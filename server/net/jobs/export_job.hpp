@@ -13,18 +13,18 @@
 
 namespace oval4d::net {
 
-/// A file, and the warnings about it (see exports::ExportedFile).
+/// An exported file, and the warnings about it (see exports::ExportedFile).
 struct FinishedFile {
     SharedBytes bytes;
     std::vector<std::string> warnings;
 };
 
-/// The result of the job: the file, or an error. The optional is empty only until the job is done.
+/// The result of the job that exportJob() returns: the file, or an error. Empty only until the job is done.
 using ExportResult = std::optional<Result<FinishedFile>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
 /// the last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that
-/// the account has no room.
+/// the byte account has no room for the file.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
                                                           const exports::ExportRequest& request,
                                                           const AddressAccountPtr& client);

@@ -6,7 +6,7 @@
 namespace oval4d::net {
 
 /// Returns a function that reads an object in a file reader process: an array of the data folder if
-/// LoadObject::dataName is set, otherwise a client's file. The services must outlive the function.
+/// LoadObject::dataName is not empty, otherwise a file that a client has sent. The services must outlive the function.
 session::FileReader fileReader(const Services& services);
 
 }  // namespace oval4d::net

@@ -10,7 +10,8 @@
 
 namespace oval4d::net {
 
-/// Returns a job that calls loader->completePending(stop).
+/// Returns a job that completes on a worker the work that `loader` has deferred (see ObjectLoader::completePending()).
+/// `stop` ends a search for critical values of w early.
 inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
                                                                    std::stop_token stop = {}) {
     return [loader, stop = std::move(stop)](std::size_t /*worker*/) {

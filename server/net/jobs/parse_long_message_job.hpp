@@ -15,8 +15,7 @@ namespace oval4d::net {
 /// The result of parsing a message.
 using ParseResult = std::variant<wire::Request, wire::BadRequest>;
 
-/// Returns the error for a message that is longer than messages of its type may be. The error states the maximum
-/// lengths.
+/// Returns the error for a message that is too long for its type. The error states the maximum lengths.
 Error messageTooLong(const Options& options);
 
 /// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other

@@ -1,5 +1,5 @@
 #pragma once
-// The searches of a session for critical values of w, where sections change their type.
+// The searches of a session for critical values of w, at which the type of the section changes.
 
 #include <memory>
 #include <stop_token>
@@ -15,7 +15,7 @@ namespace oval4d::net {
 class CriticalSearchHandle {
   public:
     /// `by`: the connection that requested the search; null if no connection did (LiveSession::apply()). `workersStop`:
-    /// the stop token of the workers; the search stops, too, when the workers are stopped.
+    /// the stop token of the workers; when the workers are stopped, the search stops, too.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
@@ -39,7 +39,7 @@ class CriticalSearchHandle {
 class CriticalSearches {
   public:
     /// Registers a search for the critical values of w of a state. The caller must run the search, and keep the
-    /// returned pointer as long as it runs.
+    /// returned pointer until the search ends.
     std::shared_ptr<CriticalSearchHandle> add(const std::shared_ptr<Peer>& by, const session::State& state,
                                               std::stop_token workersStop);
     /// Requests a stop of the searches that this connection has requested.

@@ -23,7 +23,7 @@ class DraftTiming {
         changedBefore_ = true;
         changed_ = now;
     }
-    /// Begins a period of quick changes, even if the last change was not quick.
+    /// Begins a period of quick changes, even if the last change was not within kBurst of the previous one.
     void begin() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has rested for kRest.
     void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
@@ -31,7 +31,8 @@ class DraftTiming {
     bool isQuick() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point changed() const { return changed_; }
-    /// Returns the time from which endIfRested() ends a period of quick changes, if the session does not change before.
+    /// Returns the time from which endIfRested() ends a period of quick changes, if the session does not change before
+    /// that time.
     Clock::time_point restEnds() const { return changed_ + kRest; }
 
   private:

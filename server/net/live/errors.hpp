@@ -13,12 +13,13 @@
 
 namespace oval4d::net {
 
-/// Sends an `error` message, and counts it. `id`: the id of the request that it answers; empty if it answers none.
+/// Sends an `error` message, and counts it. `id`: the id of the request that failed; empty if the error answers no
+/// request.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Returns the error for a client to whom a picture of a state cannot be sent, because making it has failed with `why`:
-/// `bad_field` if the file of the state's field can no longer be read, `too_large` if the slices have too many edges,
-/// else `otherwise`. Logs the failure unless it returns `too_large`.
+/// Returns the error for a client to whom a picture of a state cannot be sent, because making the picture has failed
+/// with `why`: `bad_field` if the file of the state's field can no longer be read, `too_large` if the slices have too
+/// many edges, else `otherwise`. Logs the failure unless it returns `too_large`.
 Error pictureError(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                    const std::exception& why, const Error& otherwise);
 

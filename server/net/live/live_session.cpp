@@ -1,5 +1,5 @@
-// This file is long, because the functions of a session run on one strand and share its state. What they only call is
-// in the files beside it.
+// This file is long, because the functions of a session run on one strand and share its state. Code that does not need
+// this state is in other files of this folder.
 
 #include "net/live/live_session.hpp"
 
@@ -130,9 +130,9 @@ void LiveSession::scheduleSave() {
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
-/// Returns a function that writes the session, or only its head (the state and the revision), to the store. The
-/// returned function must be called on the strand. It calls its argument when the write is done: see
-/// WriteBehindStore::save(); with `false` if `detached_` is true.
+/// Returns a function that writes the session as it is now, or only its head (the state and the revision), to the
+/// store. The returned function must be called on the strand. Its argument is called as WriteBehindStore::save() calls
+/// `written`; if `detached_` is true, nothing is written, and the argument is called with `false`.
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -221,7 +221,7 @@ std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
 
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
 /// clients. If several servers share the store and `awaitStore` is true, this function returns only when the result is
-/// in the store, because a command must not be acknowledged earlier.
+/// in the store, because a command must not be acknowledged before that.
 asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(AddressAccountPtr by,
                                                                               std::shared_ptr<Peer> peer,
                                                                               const session::Command& command,
@@ -265,8 +265,8 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(Clock::now());
     searches_.stopOthers(session_.current);
-    // Begin a new field that is larger than memory with a draft, because its first picture of full quality takes much
-    // longer.
+    // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
+    // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) streams_->beginDrafts();
     scheduleSave();
@@ -283,16 +283,16 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     co_return applied;
 }
 
-/// Registers a search for the critical values of w of the current object (see slicing/critical/), so that it can be
-/// stopped. completePending() runs it.
+/// Registers a search for the critical values of w of the current object (see slicing/critical/), so that the search
+/// can be stopped. completePending() runs the search.
 std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::shared_ptr<Peer>& peer) {
     assertOnStrand();
     return searches_.add(peer, session_.current, services_.exportWorkers.stopToken());
 }
 
-/// Builds or reads the loader's pending object on a worker. If a search is pending instead, runs it. `search`: the
-/// registration of the pending search; null if no search is pending. Returns an error if there is no room for the
-/// result, else an empty optional.
+/// Builds or reads the loader's pending object on a worker. If a search is pending instead, an export worker runs it.
+/// `search`: the registration of the pending search; null if no search is pending. Returns an error if there is no room
+/// for the result, else an empty optional.
 asio::awaitable<std::optional<Error>> LiveSession::completePending(AddressAccountPtr by,
                                                                    std::shared_ptr<session::ObjectLoader> loader,
                                                                    std::shared_ptr<CriticalSearchHandle> search) {
@@ -441,7 +441,8 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-/// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows there.
+/// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows at this
+/// point.
 std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
                                                                       std::optional<glm::dvec2> point) const {
     const SnapshotPtr known = streams_->newestSnapshot();

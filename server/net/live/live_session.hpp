@@ -28,8 +28,8 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value, applies commands, answers requests, and saves the session. Every
-/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. Its
-/// members are used only on the session's strand. Public functions may be called from any thread.
+/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. The
+/// members of a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
@@ -41,7 +41,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
                                                store::SessionCredentials credentials, store::Fence fence,
                                                AddressAccountPtr client, session::Session value);
-    /// Only for create().
+    /// Only create() may call this constructor, because create() does the rest of the construction.
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 store::Fence fence, AddressAccountPtr client, session::Session value);
 
@@ -74,12 +74,11 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// executed, so that `left` receives their results.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Ends the searches for critical values of w that a client of the session has requested. They fail with
-    /// `canceled`.
+    /// Ends the searches for critical values of w that `peer` has requested. These requests fail with `canceled`.
     void stopSearches(std::shared_ptr<Peer> peer);
 
-    /// Writes the whole session to the store. Releases its reference to `completion` once the session is written, or
-    /// once the store is found to be unavailable.
+    /// Writes the whole session to the store. Keeps a reference to `completion` until the session is written or the
+    /// store is found to be unavailable, so that the caller can wait for this.
     void save(std::shared_ptr<void> completion = {});
 
     /// Closes all connections, and never writes the session to the store again. Must be called when another server has

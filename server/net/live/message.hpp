@@ -1,5 +1,5 @@
 #pragma once
-// Messages from the server to clients over WebSockets.
+// The messages that the server sends to clients over WebSockets.
 
 #include <string>
 #include <utility>

@@ -10,7 +10,7 @@ namespace oval4d::net {
 
 /// Tracks the pictures on their way to one client. Each picture is sent (queued), then written to the socket, then
 /// shown by the client. At most kInFlight pictures may be sent but not yet shown: two are enough to keep the client
-/// busy, and too few to form a queue of outdated pictures.
+/// busy, and few enough that the client need not show many outdated pictures.
 class Pacing {
   public:
     using Clock = std::chrono::steady_clock;
@@ -33,8 +33,8 @@ class Pacing {
     /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.
     void assumeShown(Clock::time_point now, Clock::duration timeout);
-    /// Returns the time from which assumeShown() marks the oldest unshown picture as shown. Returns an empty optional
-    /// if there is no such picture, or if that picture is not yet written.
+    /// Returns the time from which assumeShown() with this `timeout` marks the oldest unshown picture as shown. Returns
+    /// an empty optional if there is no such picture, or if that picture is not yet written.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:

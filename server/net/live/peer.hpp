@@ -25,8 +25,8 @@ class Peer {
     virtual const AddressAccountPtr& client() const = 0;
 
     /// Makes the connection notice at once if its client leaves while the current request is being executed, and then
-    /// call LiveSession::stopSearches(). Without this call, the connection may notice only after the request that the
-    /// client has left.
+    /// call LiveSession::stopSearches(). Without this call, the connection may not notice that the client has left
+    /// before the request is done.
     virtual void watchWhileExecuting() = 0;
 
     /// Closes the connection with a WebSocket close code after the queued messages have been written.

@@ -11,7 +11,7 @@
 namespace oval4d::net {
 
 /// The picture jobs of a session. At most one job is queued or being drawn. When the last picture of a job has been
-/// drawn, the next job may begin, while this picture is still being encoded. Not thread-safe.
+/// drawn, the next job may begin while this picture is being encoded. Not thread-safe.
 class PictureJobs {
   public:
     /// A picture that has been drawn and is being encoded.

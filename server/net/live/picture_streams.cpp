@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Time from the rejection of a picture job, because the queue is full, to the next attempt.
+// Time between the rejection of a picture job by a full queue and the next attempt.
 constexpr auto kRetryInterval = 100ms;
 
 const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
@@ -105,8 +105,8 @@ slicing::Quality PictureStreams::wantedQuality() const {
 }
 
 /// Schedules pictures of full quality for the time when the period of quick changes ends (DraftTiming::restEnds()).
-/// Until the timer expires, wantedQuality() remains `draft`, so that even a server that is too busy to make the draft
-/// before that time does not skip it.
+/// Until the timer expires, wantedQuality() remains `draft`, so that the draft is made even if the server is too busy
+/// to make it before that time.
 void PictureStreams::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
@@ -175,7 +175,7 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
 }
 
 /// Returns the client to whose lane a job for the pictures `wanted` is charged. If several clients receive these
-/// pictures, they take turns from job to job.
+/// pictures, they are charged in turn, one for each job.
 const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
@@ -224,9 +224,9 @@ void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
     });
 }
 
-/// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still
-/// newer than those that the clients have: if changes are very frequent, clients see all pictures that the workers have
-/// time to make.
+/// Sends the pictures that a worker has made. Sends them even if the session has changed in the meantime, because they
+/// are newer than the pictures that the clients have. So if changes are very frequent, clients see all pictures that
+/// the workers have time to make.
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
@@ -301,7 +301,7 @@ void PictureStreams::sendState(Subscriber& subscriber) {
     });
 }
 
-/// Starts a timer that calls expirePictures(), which counts pictures as shown that clients have not acknowledged in
+/// Starts a timer that calls expirePictures(), which marks pictures as shown that clients have not acknowledged in
 /// time.
 void PictureStreams::schedulePacing() {
     std::optional<Clock::time_point> first;

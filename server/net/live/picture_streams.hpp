@@ -47,8 +47,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// `sessionId`: for the log. `metered`: the session, whose owner calls sessionChanged() after each change.
     PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
 
-    /// Sets the function to call after each step of the motion, because a step changes the session. Must be called
-    /// before a client is added.
+    /// Sets the function to call after each step of the motion, so that the changed session can be saved. Must be
+    /// called before a client is added.
     void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
 
     /// Adds a client, or changes its stream if it was added before.
@@ -64,8 +64,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Notes that the session has reached a new revision.
     void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
-    /// Makes the pictures of a field drafts until the session rests, as after changes in quick succession (see
-    /// DraftTiming).
+    /// Until the session rests, makes only drafts of the pictures of a field, as during changes in quick succession
+    /// (see DraftTiming).
     void beginDrafts() { draftTiming_.begin(); }
     /// Notes that a client shows the picture of this revision, and sends the next one.
     void pictureShown(const Peer& peer, std::uint64_t ofRevision);
@@ -74,13 +74,13 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// to receive a picture, or a worker may have become available.
     void update();
 
-    /// Returns the time at which the session reached its revision.
+    /// Returns the time at which the session reached its current revision.
     Clock::time_point changed() const { return draftTiming_.changed(); }
     /// Returns the snapshot of the current revision, of full quality; null if there is none.
     SnapshotPtr newestSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
   private:
-    // A connection to this session.
+    // A connected client of this session, and what it was sent.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
         ClientJobLanes lanes;

@@ -166,7 +166,8 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
         finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
     } else {
         const Seconds cost = decodingCost(fetch->record);
-        // Opening a file of the data folder may take long.
+        // A record that refers to a file of the data folder goes to a load worker, because opening this file may take
+        // long.
         const bool opensFile = std::ranges::any_of(
             fetch->record.objects, [](const auto& object) { return store::refersToFile(object.second); });
         parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
@@ -181,14 +182,14 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
 
 void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
-    bool isUnread = false, mustWait = false;  // whether a file was not read; if so, whether it may be later
+    bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
-            isUnread = mustWait = true;  // also if the reader throws, as it does when the server stops
+            isUnread = mustWait = true;  // both stay true if the reader throws, as it does when the server stops
             const auto loaded = fileReader(services_)(load, services_.options.session);
             isUnread = !loaded;
             if (loaded) return loaded->object;
-            // A file counts as too large also if reading it takes too long, as it may when many are read.
+            // `too_large` also means that reading took too long, as it may when many files are read at once.
             constexpr std::array kForNow{ErrorCode::too_many, ErrorCode::too_large, ErrorCode::internal};
             mustWait = std::ranges::find(kForNow, loaded.error().code) != kForNow.end();
             return loaded.error();

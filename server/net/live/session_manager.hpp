@@ -35,12 +35,12 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written, or once the
-    /// store is found to be unavailable.
+    /// (WritePolicy::at_close). Keeps references to `completion` until the sessions are written or the store is found
+    /// to be unavailable, so that the caller can wait for this.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
-    /// Writes pending changes to the store for at most about the time `limit`. The caller must not call any function of
-    /// this object afterward.
+    /// Writes pending changes to the store, and gives up after about the time `limit`. The caller must not call any
+    /// function of this object afterward.
     void stop(Seconds limit);
 
     /// Returns the number of sessions with at least one client.

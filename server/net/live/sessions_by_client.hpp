@@ -39,7 +39,7 @@ class SessionsByClient {
   private:
     struct SessionInfo {
         std::string client;
-        std::uint64_t closed = 0;  // sequence number that increases with each closed session; 0 while open
+        std::uint64_t closed = 0;  // position in the order in which sessions were closed, from 1; 0 while open
         bool unmodified = false;
         Clock::time_point expires;  // when the session is forgotten, if it is closed
     };

@@ -41,7 +41,7 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
     using scene::Background;
     session::State state = snapshot.state;
     if (key.background) state.look.background = *key.background;
-    SharedBytes stateText;  // for the PNG file; keeps the background `automatic`, which is replaced in `state` below
+    SharedBytes stateText;  // to store in the PNG file; unlike `state` below, keeps the background `automatic`
     if (key.stream == Stream::frames) {
         stateText = key.background ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
                                                                     snapshot.quality, key.scheme))

@@ -25,11 +25,11 @@ struct StreamKey {
     wire::Encoding encoding = wire::Encoding::json;
     scene::Viewport viewport;
     scene::Scheme scheme = scene::Scheme::dark;        ///< colors of pictures whose background is `automatic`
-    std::optional<scene::Background> background = {};  ///< unless empty, replaces the session's background
+    std::optional<scene::Background> background = {};  ///< if not empty, replaces the session's background
     bool operator==(const StreamKey&) const = default;
 };
 
-/// The state of one revision, with its slices if a client needs them. Immutable once made.
+/// The state of one revision of a session, with its slices if a client needs them. Immutable once made.
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;

@@ -33,8 +33,8 @@ class SnapshotPictureCache {
     }
 
     /// Adds pictures of `snapshot`. Does nothing if the snapshot that is kept is newer: it has a later revision, or the
-    /// same revision in a higher quality. If another snapshot is kept, first replaces it by `snapshot` and drops its
-    /// pictures. `snapshot` may be null if there are no pictures.
+    /// same revision in a higher quality. If another snapshot is kept, first drops it and its pictures, and keeps
+    /// `snapshot` instead. `snapshot` may be null if there are no pictures.
     void add(const SnapshotPtr& snapshot, List pictures) {
         const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;

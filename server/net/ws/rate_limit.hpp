@@ -6,8 +6,8 @@
 namespace oval4d::net {
 
 /// Limits the rate of requests. A burst may have as many requests as the rate allows in two seconds; further requests
-/// are refused, but still count. If a client keeps sending until it exceeds the limit by the size of another burst, it
-/// is abusive and should be disconnected. Not thread-safe.
+/// are refused, but still count. A client that exceeds the limit by the size of another burst is abusive and should be
+/// disconnected. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;

@@ -1,5 +1,5 @@
-// This file is long, because a connection is one class: what it reads, executes and writes depends on each other's
-// state, such as when it closes.
+// This file is long, because a connection is one class: reading, executing and writing depend on the same state, such
+// as whether the connection is closing.
 
 #include "net/ws/websocket_connection.hpp"
 
@@ -60,9 +60,9 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     co_await readLoop();
     services_.metrics.webSockets.Decrement();
     ended_ = true;
-    // A client that no longer sends may no longer read, so a pending write might never end. Closing the socket ends a
-    // pending write; its handler releases the message that is being written, from whose bytes the socket sends until
-    // then.
+    // A client that no longer sends may no longer read, so a pending write might never end. Closing the socket ends the
+    // write. Until the handler of the write is called, outbox_ must keep the message that is being written, because the
+    // socket reads its bytes.
     beast::get_lowest_layer(stream_).close();
     if (!writing_) outbox_.clear();
     deadline_.cancel();
@@ -131,9 +131,9 @@ void WebSocketConnection::startHandling(Incoming incoming) {
                    });
 }
 
-/// Reads the next message. Waits until the current one has been executed, so that a client that closes the connection
-/// right after a request still receives the answer. Once the client has joined a session, waits at most until its pong
-/// may be due, or until watchWhileExecuting() is called, as it is for long searches.
+/// Reads the next message. First waits until the current message has been executed, so that a client that closes the
+/// connection right after a request still receives the answer. Once the client has joined a session, this wait ends
+/// early when a pong of the client may be due, or when watchWhileExecuting() is called, as it is for long searches.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -327,8 +327,8 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinSession(wir
     co_return joined;
 }
 
-/// Returns a function that joins the requested session, or creates one if none is requested, and passes the result to
-/// its argument.
+/// Returns a function that joins the requested session, or creates one if none is requested, and calls its argument
+/// with the result.
 std::function<void(SessionManager::JoinHandler)> WebSocketConnection::sessionOpener(const std::string& token) {
     return [sessions = sessions_, client = client_,
             credentials = store::SessionCredentials{requestedId_, token}](const SessionManager::JoinHandler& done) {
@@ -359,7 +359,8 @@ void WebSocketConnection::send(Message message, std::function<void()> written) {
                });
 }
 
-/// Closes the connection, because the client's byte account has no room for another message that waits to be read.
+/// Closes the connection, because the client's byte account has no room for another message that the client has not
+/// read.
 void WebSocketConnection::closeForUnreadBytes() {
     services_.metrics.droppedSlowClients.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
@@ -385,7 +386,7 @@ void WebSocketConnection::closeForShutdown() {
             self->unsent_ -= self->outbox_.back().message.bytes.size();
             self->outbox_.pop_back();
         }
-        self->drainedSignal_.cancel();  // read() may wait for messages that are now discarded
+        self->drainedSignal_.cancel();  // wakes read(), which waits while too many bytes are unsent
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
     });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A WebSocket connection.
+// One WebSocket connection: reads the requests of a client and writes the messages to it.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -117,7 +117,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
     bool writing_ = false, ended_ = false;
     std::uint64_t writes_ =
-        0;  // number of completed writes, by which the handler of deadline_ tells whether its write has completed
+        0;  // number of completed writes; tells the handler of deadline_ whether the write that it limits is complete
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
     std::optional<TransferDeadline> transferDeadline_;  // gives the timeouts of the message that is being written
     // The deadlines of the current write and of the hello, and two timers that are canceled to wake waiting coroutines:
