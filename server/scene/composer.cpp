@@ -62,8 +62,8 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
     // The size in pixels of one unit of the object at distance 1 from the eye.
     const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
-    // In full quality, no lattice is coarser than the one for messages (uniformStep()). On a coarser lattice, thin
-    // bodies in small slices would break into pieces.
+    // In full quality, no lattice is coarser than that of the slices in messages (uniformStep()). On a coarser lattice,
+    // thin bodies in small slices would break into pieces.
     const double coarsest = quality == slicing::Quality::full ? slicing::uniformStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {

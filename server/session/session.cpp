@@ -48,8 +48,9 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
     slicing::Object object = image->second;
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
     const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
-    // Clamp, because the second time step of an array enlarges the domain along w by a greater factor than the
-    // circumradius.
+    // Spacing and offset grow in proportion to initialSliceExtent(), but their bounds in proportion to the
+    // circumradius. When an array gets its second time step, the extent grows by a greater factor than the
+    // circumradius, so the products may exceed the bounds.
     state.slices.spacing = std::clamp(state.slices.spacing * ratio, kMinSpacing * radius, kMaxSpacing * radius);
     state.slices.offset = std::clamp(state.slices.offset * ratio, -reach, reach);
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));

@@ -39,9 +39,11 @@ struct SectionNamePair {
 class SectionNamer {
   public:
     /// A quick test: returns false if the section of `object`, rotated by `orientation`, by the hyperplane at `w`
-    /// certainly has no name, and true if it may have one. Counts the vertices in the hyperplane (n) and the edges that
-    /// cross it (m); if neither n nor n + m is from 1 to the vertex count of the largest named shape, there is no name.
-    /// Always false for point clouds and fields. Linear in the number of edges; does not cut the slice.
+    /// certainly has no name, and true if it may have one. Let n be the number of vertices in the hyperplane, and m the
+    /// number of edges that cross it. The slice has n + m vertices, and the hull of the object's own vertices has n
+    /// (see SectionNamePair). The result is true if at least one of these two numbers is between 1 and the vertex count
+    /// of the largest named shape. It is always false for point clouds and fields. Takes time linear in the numbers of
+    /// vertices and edges; does not cut the slice.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.

@@ -45,7 +45,7 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
 });
 
 /// Kinds of text files that are refused. Their signatures are compared with the start of the text in lowercase. The
-/// first signature must be the longest, because plainText() compares only as many characters of the text.
+/// first signature must be the longest, because its length is the number of characters that plainText() compares.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},

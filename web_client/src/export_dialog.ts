@@ -129,8 +129,8 @@ export class ExportDialog {
     }
 
     /**
-     * Follows the slices while the dialog is open: the server exports those of its newest state, and a move of the
-     * focus may have been on its way when the dialog opened.
+     * Updates the slice values shown while the dialog is open. The server exports the slices of its newest state, which
+     * may differ from those shown at first: when the dialog opened, a move of the focus may have been on its way.
      */
     updateSlices({ section, slices }: State): void {
         if (!this.dialog.isOpen || !this.state) return;

@@ -29,7 +29,7 @@ class ArrayFunction final : public ScalarFunction {
   public:
     /// The default of `eagerSamples` in the constructor.
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
-    /// Arrays of up to this many samples have no coarser version, because they are already fast.
+    /// Arrays of up to this many samples have no coarser version, because slicing them is fast anyway.
     static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;
     /// The maximum number of samples in the selection that forSteps() returns for an array that the constructor does
     /// not read.

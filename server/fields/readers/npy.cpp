@@ -145,7 +145,7 @@ Result<ReadField> readNpy(const FileContents& file, const ReadOptions& options) 
     if (header->fortranOrder) std::reverse(shape.begin(), shape.end());  // from the slowest dimension to the fastest
     auto axes = axesOf(options.axes, shape.size());
     if (!axes) return axes.error();
-    // `options.axes` follows the shape in the header, that is, the order of the indices in Python.
+    // `options.axes` is in the order of the shape in the header, so it is reversed as the shape is.
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
     std::vector<Dimension> dimensions;
     for (std::size_t i = 0; i < shape.size(); ++i) dimensions.push_back({shape[i], (*axes)[i]});

@@ -38,7 +38,8 @@ class ChunkReader {
 
     // Converts all chunks. `stride` has, for each dimension, the distance in `to` between neighbors along this
     // dimension; `first` is the place of the array's first number in `to`. `to` must contain only zeros before the
-    // call. Calls `afterward` after about every kNumbers numbers.
+    // call, because missing chunks whose fill value is 0 are skipped. Calls `afterward` about once per kNumbers
+    // numbers, so that the caller can release memory.
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {

@@ -70,7 +70,8 @@ class SnubPrism : public Recipe {
     // because the antiprism also has symmetries that are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
-        // The linear notation of an antiprism begins with the branch 2, the right angle, as in "s2s5s x".
+        // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is
+        // "s2s5s x", not "s5s2s x".
         const bool antiprism = q_.numerator == 2;
         return "s" + textOf(antiprism ? q_ : p_) + "s" + textOf(antiprism ? p_ : q_) + "s x";
     }

@@ -188,9 +188,9 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const Paint& paint
     if constexpr (depth == DepthUse::unused) {
         alpha = _mm256_and_ps(alpha, inside);
     } else {
-        // Let d be the distance of the patch from the eye, and r the much smaller radius of the shape. A point of the
-        // shape is closer to the eye than the patch by rn. The nearness of the point is 1 / (d − rn), which is almost
-        // (1 + rn / d) / d.
+        // Let d be the distance of the patch from the eye, r the much smaller radius of the shape, and n the component
+        // of the normal toward the eye. The point of the shape is closer to the eye than the patch by r·n, so its
+        // nearness is 1 / (d − r·n), which is almost (1 + n·r/d) / d. 1/d is `patch`, and r/d is paint.bulge.
         const __m256 patch = valueOf(paint.nearness, start.nearness);
         const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
         const __m256 old = pixels.depths(canvas.nearness), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);

@@ -30,8 +30,9 @@ struct ClampedRadius {
     float edgeU;          ///< the u, greater than 1, at which the coverage becomes 0
 };
 
-/// Returns how a shape is drawn. `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in
-/// which the shape is thin, 1 for a bar and 2 for a ball.
+/// Clamps the radius of a shape to at least kMinRadius, and returns how this changes its size and its opacity.
+/// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
+/// for a bar and 2 for a ball.
 ClampedRadius clampedRadius(float pixels, int dimensions) {
     ClampedRadius clamped{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {

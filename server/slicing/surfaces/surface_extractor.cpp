@@ -668,7 +668,8 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     const auto edgeNumber = [](int axis, int u, int v) {
         return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
     };
-    // The offsets (u, v) of the four cubes around an edge, counterclockwise as seen from its second end.
+    // The four cubes around an edge are at the offsets (−u, −v) from the cube where the edge begins, for these (u, v):
+    // counterclockwise as seen from the second end of the edge.
     static constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (const Cube& cube : cubes_) {
         const bool cornerInside = (cube.inside & 1U) != 0;
