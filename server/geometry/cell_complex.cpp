@@ -12,7 +12,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Returns whether a vertex loop is a convex polygon: whether it turns the same way at every corner, by 2π in total.
+// Returns whether a vertex loop is a convex polygon. Such a loop turns in the same direction at every corner, by 2π in
+// total.
 bool isConvexLoop(const CellComplex& complex, std::span<const std::uint32_t> loop) {
     if (loop.size() == 3) return true;
     const std::size_t n = loop.size();

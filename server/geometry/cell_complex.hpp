@@ -13,9 +13,9 @@
 
 namespace oval4d::geometry {
 
-/// A cell complex in R⁴: vertices, edges, 2-faces and cells, some of which may be missing. It need not be a manifold.
-/// Every kind of object that has edges is derived from CellComplex, so that one implementation of slicing, projecting
-/// and measuring serves all of them. Indices are 0-based and have 32 bits.
+/// A cell complex in R⁴: vertices, and optionally edges, 2-faces and cells. It need not be a manifold. Every kind of
+/// object that has edges is derived from CellComplex, so that one implementation of slicing, projecting and measuring
+/// serves all of them. Indices are 0-based and have 32 bits.
 struct CellComplex : ObjectInfo {
     std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
     std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
@@ -32,8 +32,8 @@ struct CellComplex : ObjectInfo {
     bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
 };
 
-/// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. The caller must ensure that
-/// no vertex follows itself in a loop.
+/// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. In each loop, successive
+/// vertices must be different, and so must the last and the first one.
 void findEdges(CellComplex& complex);
 
 /// Returns whether every 2-face is a convex polygon. A 2-face that is not flat is not convex.

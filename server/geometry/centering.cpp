@@ -14,7 +14,7 @@ namespace {
 constexpr double kFar = 3;         // an object is far if its center is more than this many extents from the origin
 constexpr int kBitsOfCenter = 36;  // the center is rounded to this many bits below the leading bit of the extent
 
-// Returns the mean of points. Computes it from their differences from the first point, because these differences are
+// Returns the mean of points. Adds up the differences of the points from the first one, because these differences are
 // exact if the points are far from the origin and close together.
 glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
     glm::dvec4 sum(0);

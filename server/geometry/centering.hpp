@@ -12,8 +12,8 @@ namespace oval4d::geometry {
 /// origin, its size is measured from there, and its slices lie around it.
 struct Centering {
     enum class OriginChoice : std::uint8_t {
-        automatic,  ///< like `object` if the object is far from the origin of the file (see newOriginFor()); else
-                    ///< `origin`
+        automatic,  ///< like the choice `object` if the object is far from the origin of the file (see
+                    ///< newOriginFor()), else like the choice `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
         point,      ///< the point `place`

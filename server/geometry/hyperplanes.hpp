@@ -12,9 +12,9 @@ struct Hyperplanes {
     int count = 21;
     double spacing = 0.1;  ///< greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
-    /// The values of w of the hyperplanes in any order, in the units of the object: `count` values, or, if the
-    /// hyperplanes are evenly spaced, none. If there are values, `offset` is not used, and `spacing` is only the
-    /// thickness of the slices of a point cloud.
+    /// Empty if the hyperplanes are evenly spaced. Otherwise, the w coordinates of the `count` hyperplanes in any
+    /// order, in the units of the object; `offset` is then not used, and `spacing` is only the thickness of the slices
+    /// of a point cloud.
     std::vector<double> listed = {};
 
     /// Returns the w coordinate of the hyperplane with the index i (0 … count − 1), for which n = first + i.

@@ -25,8 +25,8 @@ struct ObjectInfo {
     glm::dvec4 originInFile{0};  ///< the point of the object's file that became the origin of the object, in the
                                  ///< coordinates of the file; transformedTo() maps this point like a vertex. 0
                                  ///< unless loading moved the object (see Centering)
-    bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; the faces
-                                 ///< of its slices may cross each other
+    bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; faces of
+                                 ///< a slice of such a polytope may cross each other
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };

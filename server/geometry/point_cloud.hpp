@@ -15,7 +15,9 @@ namespace oval4d::geometry {
 /// afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
-    std::vector<double> radii;  ///< the radius of each point's ball, in the units of the points; 0: the default radius
+    /// The radius of each point's ball, in the units of the points. 0 stands for the default radius: see
+    /// slicing::relativeBallRadius().
+    std::vector<double> radii;
 };
 
 /// Makes a cloud from points and the radius of each point's ball (see PointCloud::radii). Throws std::invalid_argument

@@ -37,9 +37,10 @@ class PointIndex {
     }
 
   private:
-    // Returns the hash of the cell that contains p if corner = 0xff. Otherwise returns the hash of the cell that
-    // contains the point at a distance of grid / 4 from p along every axis: forward along axis i if bit i of `corner`
-    // is set, else backward. The cells of the corners 0 … 15 include every cell that may contain a point equal to p.
+    // Returns the hash of a cell. If `corner` is 0xff, this is the cell that contains p. Otherwise, it is the cell that
+    // contains p after p is moved by grid / 4 along every axis: in the positive direction of axis i if bit i of
+    // `corner` is set, else in the negative direction. The cells of the corners 0 … 15 include every cell that may
+    // contain a point equal to p.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {

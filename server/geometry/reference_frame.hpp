@@ -12,14 +12,14 @@
 
 namespace oval4d::geometry {
 
-/// Returns the Galilean transformation r' = r − v w, w' = w, where r is (x, y, z). After it, an object that had the
-/// velocity v is at rest. The unit of v is one unit of x, y and z per unit of w. The determinant of the map is 1, and
-/// its inverse is galileanTransformation(−v).
+/// Returns the Galilean transformation r' = r − v w, w' = w, where r is (x, y, z) and v is `velocity`. An object with
+/// the velocity v is at rest after this transformation. The unit of v is one unit of x, y and z per unit of w. The
+/// determinant of the map is 1, and its inverse is galileanTransformation(−v).
 glm::dmat4 galileanTransformation(const glm::dvec3& velocity);
 
-/// Returns the Lorentz boost to the rest frame of an observer with the velocity v (Jackson, Classical Electrodynamics,
-/// §11.3). The speed of light is 1, and |v| must be less than 1. The boost preserves w² − x² − y² − z². Its determinant
-/// is 1, and its inverse is lorentzBoost(−v).
+/// Returns the Lorentz boost to the rest frame of an observer with the velocity v = `velocity` (Jackson, Classical
+/// Electrodynamics, §11.3). The speed of light is 1, and |v| must be less than 1. The boost preserves w² − x² − y² −
+/// z². The determinant of the boost is 1, and the inverse is lorentzBoost(−v).
 glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 
 /// A frame of reference for objects whose axis w is time. It applies three maps in this order: a Galilean

@@ -94,10 +94,11 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 
 // Let u be one of the imaginary units i, j and k. Multiplication by exp(uθ) from the left rotates the plane of the
 // other two imaginary units by θ, and the plane (w, u) by θ from w toward u. Multiplication by exp(uθ) from the right
-// rotates the plane of the other two units by −θ, and the plane (w, u) by θ. So for the rotation by A in the plane
-// without w (counted i→j, j→k, k→i) and by B from u toward w, θ is (A − B) / 2 on the left and −(A + B) / 2 on the
-// right. Multiplications from the left commute with those from the right, so the exponential of the sum over all planes
-// is l times r, where the logarithms of l and of r are the sums of u θ over the three units u.
+// rotates the plane of the other two units by −θ, and the plane (w, u) by θ. So the rotation by A in the plane of the
+// other two units (from i toward j, from j toward k, or from k toward i) and by B from u toward w has θ = (A − B) / 2
+// on the left and θ = −(A + B) / 2 on the right. Multiplications from the left commute with those from the right.
+// Therefore the rotation of the whole turn is v ↦ l·v·r, where the logarithm of l is the sum of u θ over the three
+// units u with the θ of the left side, and the logarithm of r is this sum with the θ of the right side.
 Rotation::Rotation(const Turn& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {
@@ -136,8 +137,8 @@ std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const 
 }
 
 // A simple rotation that takes the unit vector a to the unit vector b is v ↦ (m ā) v (ā m). Here, ā is the conjugate of
-// a, and m = (a + b) / |a + b| is half way between a and b. This rotation takes a to m ā a ā m = m ā m. That is the
-// reflection of a in the line of m, which is b.
+// a, and m = (a + b) / |a + b| is half way between a and b. This rotation takes a to m ā a ā m = m ā m, the reflection
+// of a in the line through 0 and m. This reflection is b.
 Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
     const glm::dquat a = asQuaternion(glm::normalize(from));
     const glm::dquat b = asQuaternion(glm::normalize(to));

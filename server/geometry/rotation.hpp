@@ -29,15 +29,16 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name, or std::nullopt if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time:
-/// exp(Σ θ_ab G_ab), where exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double
-/// rotation. Angles in planes that share an axis give a rotation in oblique planes.
+/// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time: it
+/// is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for which exp(θ G_ab) is the
+/// simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles in planes that share an
+/// axis give a rotation in oblique planes.
 class Turn {
   public:
     /// No rotation: no plane has an angle.
     Turn() = default;
-    /// The simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns the
-    /// perpendicular plane by beta.
+    /// The simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns by beta in the
+    /// perpendicular plane.
     Turn(Plane plane, double alpha, std::optional<double> beta = {});
 
     /// Returns the angle in a plane, in radians; std::nullopt if the turn has no angle in this plane.
@@ -73,11 +74,12 @@ class Rotation {
 
     /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as a
     /// rotation matrix if each of its entries differs by at most `tolerance` from the corresponding entry of the matrix
-    /// of the result.
+    /// of the returned rotation.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
-    /// Returns the rotation with exactly these quaternions. Does not normalize them again; therefore a stored rotation
-    /// is restored bit by bit. Returns std::nullopt if the length of one of them differs from 1 by 1e-10 or more.
+    /// Returns the rotation with exactly these quaternions. Does not normalize the quaternions again, so that a stored
+    /// rotation is restored bit by bit. Returns std::nullopt if the length of a quaternion differs from 1 by 1e-10 or
+    /// more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     /// Returns the simple rotation by the smallest angle that takes the direction of `from` to the direction of `to`.
@@ -87,9 +89,9 @@ class Rotation {
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
     /// Returns this rotation with the angles in its two invariant planes multiplied by `fraction`: 0 gives the
-    /// identity, and 1 this rotation. Of the possible pairs of angles, uses the one with the smallest angles, which are
-    /// from −π to π. Exception: the planes of the rotation v ↦ −v are not determined, so every `fraction`, even 0,
-    /// gives v ↦ −v.
+    /// identity, and 1 this rotation. Several pairs of angles give this rotation; uses the pair with the smallest
+    /// angles, which are from −π to π. Exception: the invariant planes of the rotation v ↦ −v are not determined, so
+    /// every `fraction`, even 0, gives v ↦ −v.
     Rotation power(double fraction) const;
     /// Returns the larger of the absolute values of the angles in the two invariant planes, in radians: from 0 to π.
     double angle() const;

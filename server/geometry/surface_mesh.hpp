@@ -16,9 +16,10 @@
 namespace oval4d::geometry {
 
 /// A surface in R⁴: a cell complex without cells, whose 2-faces are triangles, quads or other polygons. Made by
-/// makeSurfaceMesh() or transformedTo(), and not changed afterward. A 2-face need not be flat: a slice of it joins the
-/// points where the hyperplane cuts the edges of the 2-face. An edge may lie in any number of 2-faces, so the surface
-/// may have a boundary and need be neither connected nor orientable nor a manifold. It may intersect itself.
+/// makeSurfaceMesh() or transformedTo(), and not changed afterward. A 2-face need not be flat: a slice of it consists
+/// of straight segments between the points where the hyperplane cuts the edges of the 2-face. An edge may lie in any
+/// number of 2-faces, so the surface may have a boundary and need be neither connected nor orientable nor a manifold.
+/// It may intersect itself.
 struct SurfaceMesh : CellComplex {};
 
 /// Thrown by makeSurfaceMesh() for vertices and 2-faces that do not form a valid surface.
