@@ -18,7 +18,7 @@
 // the hyperplane. A point on an edge that starts in the hyperplane moves to the vertex where the edge starts. A segment
 // in a 2-face that has an edge in the hyperplane moves to this edge. Elements that shrink to a point are removed.
 // Therefore vertices in the hyperplane need no special cases, and sections of cells are closed loops even if 2-faces
-// are stars.
+// are star polygons.
 
 namespace oval4d::slicing {
 
@@ -60,8 +60,9 @@ bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet&
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
-// Uses the general method for each hyperplane that touches the polytope from one side. Returns false if more than two
-// hyperplanes touch it in this way, within kOnPlaneTolerance.
+// Sets touching_ for the hyperplanes that touch the polytope from one side, and cuts the slices in them by the general
+// method (see cutGeneral()). Returns false if more than two hyperplanes touch the polytope from one side, within
+// kOnPlaneTolerance.
 bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());

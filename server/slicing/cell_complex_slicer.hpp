@@ -47,16 +47,17 @@ class CellComplexSlicer {
     };
     // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
     // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
-    // slotBegin_). The segment is then moved down into the hyperplane. `edge` is kNone if the segment shrinks to a
-    // point. Otherwise, numberEdges() sets `edge` to the slice edge of the segment; before that, `edge` is the index of
-    // the edge of the complex to which the segment moves, or kNewEdge if it moves to no edge of the complex.
+    // slotBegin_). The segment is then moved down into the hyperplane. `edge` is kNone if no slice edge results, for
+    // example because the segment shrinks to a point. Otherwise, before numberEdges(), `edge` is the edge of the
+    // complex to which the segment moves, or kNewEdge if it moves to no edge of the complex; numberEdges() then sets
+    // `edge` to the slice edge of the segment.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
         std::uint32_t edge;
     };
-    // A slice face: a closed loop with `size` corners, of which loopCorners_[begin] is the first. `source` is its
-    // source number (see SliceSet).
+    // A face of the slice in hyperplane `plane`: a closed loop with `size` corners, of which loopCorners_[begin] is the
+    // first. `source` is its source number (see SliceSet).
     struct Loop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
@@ -115,8 +116,8 @@ class CellComplexSlicer {
     // numbers differ if the vertex lies in a hyperplane; the index of this hyperplane is below_.
     std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_ (see cutFaces())
     bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
-    // Slice vertices and slice edges are given by their indices in SliceSet::vertices and SliceSet::edges, which are
-    // counted over all slices.
+    // In the members below, slice vertices and slice edges are given by their indices in SliceSet::vertices and
+    // SliceSet::edges, which are counted over all slices.
     std::vector<std::uint32_t> vertexPoint_;  // per vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
     // is slotBegin_[e] + k − below_[lower end of e]. slotPoint_ is the slice vertex of each slot.

@@ -40,8 +40,8 @@ class CoordinateHistograms {
 
     using Range = fields::ValueRange;
 
-    /// Computes the histograms of a field rotated by `orientation`. range() then includes those `levels` that lie
-    /// between the least and the greatest value of the field at the points.
+    /// Computes the histograms of a field rotated by `orientation`. After this call, range() includes those `levels`
+    /// that lie between the least and the greatest value of the field at the sampled points.
     void measure(const fields::Field& field, const geometry::Rotation& orientation, std::span<const double> levels);
 
     /// Returns the interval of values that the rows represent. It contains the values at the points except outliers,

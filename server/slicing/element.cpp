@@ -23,7 +23,7 @@ namespace {
 using geometry::CellComplex;
 using geometry::PointCloud;
 
-// Calls `visit` with the number of each vertex of the element. For a cell, visits a vertex once for each 2-face of the
+// Calls `visit` with the index of each vertex of the element. For a cell, visits a vertex once for each 2-face of the
 // cell that contains the vertex.
 template <typename Visit>
 void visitVertexNumbers(const CellComplex& p, const Element& element, Visit visit) {
@@ -101,8 +101,8 @@ class OrthonormalBasis {
   public:
     /// Makes the basis of an element with this dimension from vectors that span the directions within the element, by
     /// the Gram–Schmidt process. Each step takes the vector whose part perpendicular to the basis is longest, so that
-    /// rounding errors of the points do not count as directions. Ignores parts whose length is at most `tolerance`.
-    /// Overwrites the vectors.
+    /// rounding errors of the points do not count as directions. Stops early if the longest part is at most `tolerance`
+    /// long. Overwrites the vectors.
     OrthonormalBasis(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
@@ -113,13 +113,13 @@ class OrthonormalBasis {
         }
     }
 
-    /// Returns the coordinates, in this basis, of the component of v within the span. If the basis has fewer than three
-    /// vectors, the remaining coordinates are 0.
+    /// Returns the coordinates, in this basis, of the orthogonal projection of v onto the span of the basis. If the
+    /// basis has fewer than three vectors, the remaining coordinates are 0.
     glm::dvec3 coordinates(const glm::dvec4& v) const {
         return {glm::dot(v, basis_[0]), glm::dot(v, basis_[1]), glm::dot(v, basis_[2])};
     }
 
-    /// Returns the component of v that is perpendicular to the span.
+    /// Returns the component of v that is perpendicular to all vectors of the basis.
     glm::dvec4 perpendicular(glm::dvec4 v) const {
         for (std::size_t i = 0; i < size_; ++i) v -= glm::dot(v, basis_.at(i)) * basis_.at(i);
         return v;
@@ -194,7 +194,7 @@ void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsSho
 }
 
 // Sets the length, area or volume in `out`. `toFile` is the linear part of the map from the object's coordinates to
-// those of its file.
+// those of vertexInFile().
 void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
@@ -291,7 +291,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     };
     visitElements(findNearest, object);
     if (candidates.empty()) return std::nullopt;
-    // An element within 1.4e-6 radians of +w, an angle with this value of 1 − cos, already points to +w.
+    // An element already points to +w if its angle from +w is less than 1.4e-6 radians, where 1 − cos is 1e-12.
     constexpr double kThere = 1e-12;
     if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
     return Element{kind, candidates[nearest]};

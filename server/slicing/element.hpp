@@ -50,8 +50,8 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
 /// Returns the rotation by the smallest angle that, applied after `orientation`, turns the direction of the element to
-/// +w. The direction of the element is the result of directionOf(); the argument `preferred` is the direction that
-/// `orientation` alone turns to +w. Requires element.index < elementCount(object, element.kind).
+/// +w. The direction of the element is the result of directionOf(), to which the direction that `orientation` alone
+/// turns to +w is passed as `preferred`. Requires element.index < elementCount(object, element.kind).
 geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
@@ -90,15 +90,15 @@ void findPartsShowing(const Object& object, const Element& element, PartsShowing
 /// The center and the size of an element.
 struct ElementMeasurements {
     std::optional<double> length;  ///< the length of an edge; empty for other elements
-    /// The area of a 2-face, and the volume of a cell; empty for other elements. A region that a star encloses n times
-    /// counts n times.
+    /// The area of a 2-face, and the volume of a cell; empty for other elements. A region that a star polygon or star
+    /// polyhedron encloses n times counts n times.
     std::optional<double> area, volume;
     glm::dvec4 center{0};  ///< the mean of the element's vertices
 };
 
-/// Measures an element in the coordinates of vertexInFile(): those of the object's file, before any rotation, or for a
-/// field those of its function. Takes time linear in the size of the element, apart from sorting its vertices. Requires
-/// element.index < elementCount(object, element.kind).
+/// Measures an element in the coordinates of vertexInFile(): those of the object's file, before any rotation, or, for a
+/// field, those of its function. Takes time linear in the size of the element, apart from sorting its vertices.
+/// Requires element.index < elementCount(object, element.kind).
 ElementMeasurements measureElement(const Object& object, const Element& element);
 
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
@@ -108,7 +108,7 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 
-/// The w coordinate of a group of vertices, and their number.
+/// A group of vertices whose w coordinates are equal, apart from rounding errors: their mean w, and their number.
 struct HeightGroup {
     double w = 0;
     std::size_t vertexCount = 0;

@@ -63,7 +63,7 @@ void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std:
 }
 
 // Appends the vertices, edges and 2-faces of the shape to `out`, but no entries to vertexBegin, edgeBegin and
-// faceBegin. Returns the w coordinate of the shape.
+// faceBegin. `sources` must be the result of findPartsShowing(). Returns the w coordinate of the shape.
 double addShape(const CellComplex& p, const Element& element, const PartsShowingElement& sources,
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;

@@ -22,7 +22,7 @@ inline constexpr double kMaxLevel = 1e30;
 struct FogPoint {
     double value = 0;
     double opacity = 0;  ///< 0 … 1, of a layer of fog that is as thick as the object's circumradius
-    std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color from blue (first point) to amber (last)
+    std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color that scene::makeFogTable() chooses
     bool operator==(const FogPoint&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<FogPoint> auto& point, auto& visit) {

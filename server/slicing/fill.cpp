@@ -221,9 +221,9 @@ void FaceFiller::sortActive(double y) {
     }
 }
 
-// Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
-// else begins a new piece. Only a piece whose left side arrives at the left end of the region can be extended. There is
-// at most one such piece, except where several sides meet.
+// Adds the region between two sides in the current strip, which lies inside the face and begins at height `bottom`:
+// extends an open piece if this keeps it convex, else begins a new piece. Only a piece whose left side arrives at the
+// left end of the region can be extended. There is at most one such piece, except where several sides meet.
 void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     const double x = l.at(bottom);
@@ -250,8 +250,8 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
     open_.push_back(piece);
 }
 
-// Returns whether the piece can continue upward along these sides: whether it stays convex, and its chains have room
-// for another corner.
+// Returns whether the piece can continue upward from height `bottom` along these sides: whether it stays convex, and
+// its chains have room for another corner.
 bool FaceFiller::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
     const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
     const auto follows = [&](const Side& before, const Side& after, double inward) {

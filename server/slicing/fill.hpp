@@ -28,7 +28,7 @@ struct FilledFaces {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
         std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, endLoop;  ///< its loops: the faces firstLoop … endLoop − 1 of the SliceSet
+        std::uint32_t firstLoop, endLoop;  ///< the face's loops: faces firstLoop … endLoop − 1 of the SliceSet
         int winding;                       ///< the maximum of |winding number|; 0 if the face is filled roughly
     };
     std::vector<std::uint32_t> faceBegin, pieceBegin, cornerBegin;

@@ -7,8 +7,7 @@
 namespace oval4d::slicing {
 
 /// Sets `out`, except its surfaces and fogs, to the slices in the hyperplanes w = planes.listed[i]; `planes.listed`
-/// must not be empty. Calls `cut` with each hyperplane and with a set to which `cut` must write the slice in this
-/// hyperplane.
+/// must not be empty. Calls cut(plane, set) for each hyperplane; `cut` must write the slice in `plane` to `set`.
 template <typename Cut>
 void cutEachHyperplane(const geometry::Hyperplanes& planes, SliceSet& out, Cut cut) {
     SliceSet one;

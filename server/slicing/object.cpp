@@ -36,7 +36,8 @@ double relativeBallRadius(const CellComplex& p) {
     for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
     const double meanEdge = sum / static_cast<double>(p.edges.size());
     const double radius = 0.062 * std::min(1.0, std::pow(meanEdge / p.circumradius, 0.65));
-    // The bars of a nonconvex polytope may cross each other. Half the radius keeps the crossings visible.
+    // The bars that show the edges of a nonconvex slice may cross each other. Half the radius keeps the crossings
+    // visible.
     return p.convex ? radius : 0.5 * radius;
 }
 
@@ -77,10 +78,10 @@ glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::
     return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
 }
 
-// A cell's normal is the 4-D counterpart of a polygon's area vector. It is a sum over the triangles into which the
-// cell's 2-faces are divided, oriented as seen from outside the cell: for each triangle, the result of
-// perpendicularTo() for the vectors from a fixed vertex of the cell to the three corners. As the orientations of all
-// cells agree, all normals point outward.
+// A cell's normal is the 4-D counterpart of a polygon's area vector. To compute it, the cell's 2-faces are divided into
+// triangles that are counterclockwise seen from outside the cell. The normal is the sum of perpendicularTo() over these
+// triangles, applied to the vectors from a fixed vertex of the cell to the three corners. The orientations of all cells
+// agree, so that all normals point outward.
 void findCellHyperplanes(const CellComplex& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
     normals.assign(p.cells.size(), glm::dvec4(0));
     offsets.assign(p.cells.size(), 0);

@@ -3,8 +3,8 @@
 // needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
 // session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. If the new kind is derived from
 // geometry::CellComplex, only code that stores and reads objects distinguishes it from other cell complexes. All other
-// code uses these functions; some of the other code also asks whether an object is a point cloud or a field
-// (fieldIn()), because only fields have levels and fog.
+// code uses the functions below. Some of it also asks whether an object is a point cloud or a field (fieldIn()),
+// because only fields have levels and fog.
 
 #include <array>
 #include <cstddef>

@@ -22,7 +22,7 @@ template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // Clang 16 has no implicit deduction guides for aggregates
 
 /// Calls `visitor` with the elements of an object: a const geometry::CellComplex& or, for a point cloud, a const
-/// geometry::PointCloud&. The elements of a field are those of its domain. Returns the result of this call.
+/// geometry::PointCloud&. For a field, passes its domain. Returns what `visitor` returns.
 template <typename V>
 decltype(auto) visitElements(const V& visitor, const Object& object) {
     return std::visit(Overloaded{[&]<std::derived_from<geometry::CellComplex> Complex>(

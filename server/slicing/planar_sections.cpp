@@ -57,8 +57,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // Two axes are perpendicular to the plane. The one of these axes that comes first in kFirstAxis is the axis
-            // of the plane's first hyperplane, so that each plane is cut only once.
+            // Two axes are perpendicular to the plane. The plane is cut only when `first` is the one of them that comes
+            // first in kFirstAxis, so that it is cut only once.
             const auto firstAxis = std::ranges::find_if_not(kFirstAxis, contains);
             if (*firstAxis != first) continue;
             out[i].axes = axes;

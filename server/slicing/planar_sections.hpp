@@ -33,7 +33,7 @@ struct PlanarSection {
     std::vector<float> ballScale, ballOpacity;        ///< per point, as in SliceSet
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: its two points
     std::vector<std::uint32_t> edgeSource;
-    /// The points in the order in which they bound the section, if the edges form one closed polygon; else empty.
+    /// If the edges form one closed polygon: the indices of the points in their order around it. Otherwise empty.
     std::vector<std::uint32_t> boundary;
 };
 

@@ -165,7 +165,7 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     cellIsFacing_.resize(normals_.size());
     for (std::size_t c = 0; c < normals_.size(); ++c) {
         const double slack =
-            kOnPlaneTolerance * glm::length(normals_[c]);  // a cell seen edge-on is not turned toward the eye
+            kOnPlaneTolerance * glm::length(normals_[c]);  // so that a cell seen edge-on does not face the eye
         cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
 }

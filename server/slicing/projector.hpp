@@ -35,8 +35,8 @@ class Projector {
         /// Whether to write the 2-faces of the object, which bound the projected cells. Writes no 2-faces if the object
         /// has no cells, or if one of its 2-faces is not convex.
         bool cells = false;
-        /// Whether to leave out the elements that the 4-D eye cannot see. The eye sees an element if it sees the outer
-        /// side of at least one cell that contains the element. Leaves out nothing if the object has no cells.
+        /// Whether to leave out the elements that the 4-D eye cannot see. An element is visible if the eye sees the
+        /// outer side of at least one cell that contains the element. Leaves out nothing if the object has no cells.
         bool culled = false;
         int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
     };

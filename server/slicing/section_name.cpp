@@ -15,17 +15,17 @@
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
 // which do not depend on the orientation. These distances suffice for nameOfObjectVertices(), which names a convex
-// hull. A slice, however, need not be the convex hull of its vertices. It is the hull if it has the edges of the hull
-// and equally many faces. Therefore nameOfSlice() also compares the number and the lengths of the edges, and the number
-// of faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as the
-// cuboctahedron and the triangular orthobicupola (Johnson's J27).
+// hull. A slice, however, need not be the convex hull of its vertices. It is the hull if it has the same edges and the
+// same number of faces as the hull. Therefore nameOfSlice() also compares the number and the lengths of the edges, and
+// the number of faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as
+// the cuboctahedron and the triangular orthobicupola (Johnson's J27).
 
 namespace oval4d::slicing {
 
 namespace {
 
 constexpr double kTolerance = 1e-6;        // the tolerance of distances, relative to the circumradius
-constexpr int kMaxSides = 20;              // the maximum for polygons, and for the bases of prisms and antiprisms
+constexpr int kMaxSides = 20;              // of polygons, and of the bases of prisms and antiprisms
 constexpr std::size_t kMaxVertices = 120;  // the vertex count of the largest shape, the truncated icosidodecahedron
 constexpr std::string_view kPoint = "point";
 
@@ -66,12 +66,12 @@ struct SectionNamer::Shape {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
     double edge = 0;                      // the length of all edges
-    // For each kind of vertices: the distances of such a vertex from all vertices, in ascending order. Most shapes have
-    // one kind.
+    // The distances of a vertex from all vertices, in ascending order: one list for all vertices with the same
+    // distances. Most shapes have only one list.
     std::vector<std::vector<double>> distances;
 
-    // `dimension` is 1 for a segment, 2 for polygons and 3 for polyhedra. The edges must join the vertices that are
-    // nearest to each other.
+    // `dimension` is 1 for a segment, 2 for polygons and 3 for polyhedra. Takes the pairs of vertices with the least
+    // distance from each other as the edges.
     Shape(std::string shapeName, int dimension, std::vector<glm::dvec3> vertices) : name(std::move(shapeName)) {
         moveIntoUnitSphere(vertices);
         std::size_t edgeEnds = 0;

@@ -22,8 +22,9 @@ struct PlanesAtVertex {
     std::size_t below, upTo;
 };
 
-// Counts the hyperplanes at a vertex with this w. `sorted` has the values of planes.listed in ascending order. A vertex
-// at a distance of at most `tolerance` from a hyperplane lies in it, as in CellComplexSlicer.
+// Counts the hyperplanes below a vertex with this w, and those below or through it. `sorted` has the values of
+// planes.listed in ascending order. A vertex at a distance of at most `tolerance` from a hyperplane lies in it, as in
+// CellComplexSlicer.
 PlanesAtVertex planesAt(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
                         double w) {
     if (!sorted.empty()) {

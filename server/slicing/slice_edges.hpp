@@ -1,6 +1,6 @@
 #pragma once
 // A limit on the size of slices. The memory and the time that slices take are proportional to the number of their
-// edges, and a polytope with long edges has many slices with almost as many edges as the polytope has 2-faces.
+// edges, and if a polytope has long edges, many of its slices have almost as many edges as the polytope has 2-faces.
 
 #include <cstddef>
 #include <stdexcept>

@@ -53,7 +53,7 @@ struct SliceSet {
     std::vector<std::uint32_t> edgeSource;
     std::vector<std::uint32_t> cornerBegin;  ///< the index of the first corner of each face; then the number of corners
     std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise seen from outside
-    std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next in its loop
+    std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next corner
     std::vector<std::uint32_t> faceSource;
     std::vector<SliceSurface> surfaces;  ///< for a field: one per slice; else empty
     std::vector<SliceFog> fogs;          ///< for a field with fog: one per slice; else empty
@@ -62,7 +62,7 @@ struct SliceSet {
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
-    /// Returns the total size of all slices. The set must not be default-constructed.
+    /// Returns the total size of all slices. The set must not be default-constructed, because its lists are then empty.
     SliceCounts totalCounts() const {
         return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
     }

@@ -65,7 +65,7 @@ bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices plane
 bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
                 SliceSet& out) {
     first_ = first;
-    SliceCounts here = at;  // a local copy, which no other write can alias
+    SliceCounts here = at;  // a local copy, because writes to arrays might alias `at`
     for (std::size_t step = 0; step + 1 < structureChanges_.size(); ++step) {
         int k = structureChanges_[step];
         const int next = structureChanges_[step + 1];
@@ -266,9 +266,9 @@ bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
         cornerBegin[i] = corner;
         const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
-        // `start` lies on the edge of the cell that became active last. In a convex cell, this edge is cut as long as
-        // the cell is. If the hyperplane does not cut the 2-face of `start`, rounding errors have made the cell
-        // nonconvex.
+        // `start` lies on the edge of the cell that became active last. In a convex cell, the hyperplane cuts this edge
+        // as long as it cuts the cell. If the hyperplane does not cut the 2-face of `start`, rounding errors have made
+        // the cell nonconvex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;
         std::uint32_t end = start;
         do {

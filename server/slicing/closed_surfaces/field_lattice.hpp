@@ -15,14 +15,14 @@
 
 namespace oval4d::slicing {
 
-/// A regular 4-D lattice that fills the domain of a field. The coordinates of its points are those after the rotation
-/// of the object. If the field is an array, its samples are the lattice points; along an axis with one sample, there
-/// are two lattice points with the same value.
+/// A regular 4-D lattice that fills the domain of a field. position() returns coordinates after the rotation of the
+/// object. If the field is an array, its samples are the lattice points; along an axis with one sample, there are two
+/// lattice points with the same value.
 class FieldLattice {
   public:
-    /// For a formula, the lattice has `cells` cells along the longest side of the domain. Along the other sides, it has
-    /// as many cells of about the same length as fit, but at least kMinCells. For an array, `cells` is ignored. `field`
-    /// must outlive this object.
+    /// For a formula, the lattice has `cells` cells along the longest side of the domain. Along each other side, it has
+    /// cells of about the same length, but at least kMinCells of them. For an array, `cells` is ignored. `field` must
+    /// outlive this object.
     FieldLattice(const fields::Field& field, const geometry::Rotation& orientation, int cells);
     static constexpr int kMinCells = 4;
 
@@ -52,8 +52,8 @@ class FieldLattice {
     fields::Bounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
     /// Writes the samples in the box from `first` to `last`, both included; x varies fastest. `values` must have room
     /// for all of them. A formula may be infinite at a pole, such as 1/(x²+y²+z²+w²) at the origin; the sample is then
-    /// the greatest float, or the least one, so that it is above or below all levels. Infinite samples of an array are
-    /// missing ones, and remain infinite.
+    /// the greatest float, or the least one, so that it is above or below all levels. An infinite sample of an array
+    /// stands for a missing value, and remains infinite.
     void sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const;
     /// Returns the sample at a point.
     float sample(glm::ivec4 point) const;
@@ -63,7 +63,7 @@ class FieldLattice {
     glm::ivec4 pointCounts_{2};
     std::array<glm::dvec4, 4> sides_{};  // the sides of the domain, in the coordinates of the rotated object
     glm::dvec4 shift_{0};                // the center of the domain, in the same coordinates as sides_
-    std::array<std::vector<double>, 4> coordinates_;  // per axis and lattice index: the function's argument
+    std::array<std::vector<double>, 4> coordinates_;  // per axis and index along it: the function's coordinate
     bool positive_ = true;
 };
 

@@ -22,7 +22,8 @@ class CriticalCache {
     /// Returns the result for these arguments of findCriticalSections(), or null if it is not in the cache.
     CriticalPtr find(const Object& object, const geometry::Rotation& orientation, const FieldSettings& settings);
 
-    /// Adds the result for these arguments. Does nothing if the memory of this result exceeds the limit.
+    /// Adds the result for these arguments of findCriticalSections(). Does nothing if the memory of this result exceeds
+    /// the limit.
     void add(const Object& object, const geometry::Rotation& orientation, const FieldSettings& settings,
              CriticalPtr result);
 

@@ -27,7 +27,7 @@ using TopologyByLevel = std::vector<SectionTopology>;
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
-constexpr std::size_t kMaxChanges = 1000;  // the maximum for all levels together; a noisy field may have more changes
+constexpr std::size_t kMaxChanges = 1000;  // of all levels together; a noisy field may have more changes
 
 /// Cuts one field by one hyperplane at a time.
 class SectionCutter {
@@ -219,8 +219,8 @@ class CriticalSearch {
     double width() const { return found_.greatest - found_.least; }
     bool mustEnd() const { return options_.stop.stop_requested() || Clock::now() > end_; }
 
-    // Finds the intervals in which the topology changes. Always halves the widest interval, so that the search can end
-    // at any time.
+    // Finds the intervals in which the topology changes. Always halves the widest interval, so that w is covered evenly
+    // even if the search ends early.
     void findIntervals() {
         const double gap = width() / kCriticalSections;
         // Leaves out the ends of the range of w, where the domain may be a wedge that is thinner than a lattice cube.
@@ -290,8 +290,9 @@ class CriticalSearch {
         return result;
     }
 
-    // Searches for critical points near those points of a section where the surface is most nearly tangent to the
-    // hyperplane. Sets `best` to the w of the critical point nearest to the change, unless `best` is already nearer.
+    // `surface` is the section at `w`. Searches for critical points near those of its points where it is most nearly
+    // tangent to the hyperplane. Sets `best` to the w of the critical point that is nearest to the middle of the
+    // interval of the change, unless `best` is already nearer.
     void searchNearTangentPoints(const TopologyChange& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;

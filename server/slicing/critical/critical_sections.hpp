@@ -71,7 +71,7 @@ using CriticalPtr = std::shared_ptr<const CriticalSections>;
 /// Limits on one search.
 struct CriticalOptions {
     /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
-    /// CriticalSections::tolerance is greater than otherwise. Sections are compared to find the SectionChange of each
+    /// CriticalSections::tolerance may be greater than usual. Sections are compared to find the SectionChange of each
     /// critical w until 1.5 times this limit has passed since the start. After that, the SectionChange is derived from
     /// the numbers of components and cavities alone.
     std::chrono::duration<double> time{10};

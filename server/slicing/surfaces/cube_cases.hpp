@@ -8,8 +8,8 @@
 namespace oval4d::slicing {
 
 /// The two corners of each edge of a cube. The corners are numbered x + 2y + 4z for x, y, z in {0, 1}. Edge 4a + u + 2v
-/// is parallel to axis a, and u, v in {0, 1} are its coordinates along the other two axes, in the order x, y, z. Face
-/// 2a + s is perpendicular to axis a, at the coordinate s along this axis.
+/// is parallel to axis a, and u, v in {0, 1} are its coordinates along the other two axes: u along the one that comes
+/// first in the order x, y, z. Face 2a + s is perpendicular to axis a, at the coordinate s along this axis.
 inline constexpr std::array<std::array<std::uint8_t, 2>, 12> kCubeEdges = [] {
     std::array<std::array<std::uint8_t, 2>, 12> edges{};
     for (std::uint8_t axis = 0; axis < 3; ++axis) {

@@ -22,7 +22,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Distances in lattice steps. A point within kOnWall of a wall counts as on the wall. Points are moved onto walls by at
-// most kMostMoved along each axis; the layers of points around the domain must be thicker than this.
+// most kMostMoved along each axis. The layers of points that layOut() adds around the domain must be thicker than this.
 constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
 
 /// Returns the least float that is not less than `value`. A float is less than this result if and only if it is less
@@ -44,8 +44,9 @@ constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
     return crossed;
 }();
 
-/// Returns a bit for each wall that a point of this block of cubes may be beyond, even after it was moved onto other
-/// walls. `first` is the block's corner 0, and `cubes` the number of cubes along each side of the block.
+/// Returns a bit for each wall beyond which a point of this block of cubes may lie, even after the point was moved onto
+/// other walls. `first` is the position of the block's corner 0, and `cubes` the number of cubes along each side of the
+/// block.
 std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
     const double half = 0.5 * cubes * step;
     const glm::dvec3 center = first + half;
@@ -217,7 +218,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     const double half = 0.5 * kBlock * step_;
     const ExtentsTowardWalls ofBlock = extentsTowardWalls(section, half);
     const ExtentsTowardWalls ofGroup = extentsTowardWalls(section, 2 * half);
-    const glm::ivec3 last = blockCount_ - 1;  // the layer of unused blocks
+    const glm::ivec3 last = blockCount_ - 1;  // the layer of blocks that are never active
     for (glm::ivec3 g(0); g.z < last.z; g.z += 2) {
         for (g.y = 0; g.y < last.y; g.y += 2) {
             for (g.x = 0; g.x < last.x; g.x += 2) {
@@ -565,7 +566,7 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
         const double to = glm::dot(normal, outer.position) - offset, rise = to - from;
         const auto by = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
         const double t = to > 0 ? -from / rise : 1;
-        // Where an inner end lies on several walls, the edge leaves through the one that it meets at the greatest
+        // Where an inner end lies on several walls, the edge leaves through the wall that it meets at the greatest
         // angle.
         const bool same = found && constraint < kOnLevel && to > 0 && std::abs(t - first) <= kSame;
         if (same && rise > steepest) constraint = by;
@@ -650,7 +651,7 @@ ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, s
 }
 
 // Moves a point by a Newton step. If the point would be more than one lattice step from its start along an axis, moves
-// it back to its start instead, because the linear approximation is wrong.
+// it back to its start instead, because the linear approximation does not hold so far away.
 void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) {
     const glm::dvec3 next = positions_[point] + step.solve();
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
@@ -662,9 +663,9 @@ void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) 
 void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     caps_.clear();
     const auto firstPoint = static_cast<std::uint32_t>(out.points.size() - positions_.size());
-    // The two axes that follow the axis of an edge in the cyclic order x, y, z, and the edge's number in the cube at
-    // the offset (−u, −v) along these two axes.
+    // For the axis of an edge: the two axes that follow it in the cyclic order x, y, z.
     static constexpr std::array<std::array<int, 2>, 3> kOthers{{{1, 2}, {2, 0}, {0, 1}}};
+    // Returns the number that the edge has in the cube at the offset (−u, −v) along these two axes (see kCubeEdges).
     const auto edgeNumber = [](int axis, int u, int v) {
         return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
     };

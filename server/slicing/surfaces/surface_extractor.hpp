@@ -25,7 +25,7 @@ namespace oval4d::slicing {
 /// Extracts the surfaces of slices by dual marching cubes on a cubic lattice. Skips blocks of the lattice that
 /// certainly contain no surface. A cube through which the surface passes gets one point per patch (see CubeCase).
 /// Newton's method moves the point onto the level set and, where the surface leaves the domain, also onto the walls
-/// (see FieldSection), so that caps are flat and their rims sharp.
+/// (see FieldSection), so that caps (see SliceSurface) are flat, and their rims sharp.
 ///
 /// Lattice points just beyond a wall are moved onto it before the function is sampled (as in F. Labelle, J. Shewchuk,
 /// "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves, and are smooth even where a
@@ -86,7 +86,7 @@ class SurfaceExtractor {
     // A place where the surface crosses an edge of the lattice.
     struct Crossing {
         glm::dvec3 position;
-        std::uint16_t constraint;  // a constraint mask (see kWalls): what lies at this place
+        std::uint16_t constraint;  // the constraint mask (see kWalls) of this place
     };
 
     using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
@@ -147,7 +147,7 @@ class SurfaceExtractor {
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the coordinates of lattice point (0, 0, 0), in lattice steps
-    glm::ivec3 blockCount_{0};                      // along each axis, including one unused block at its upper end
+    glm::ivec3 blockCount_{0};                      // along each axis, including an inactive one at its upper end
     glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
     std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
     std::size_t capacity_ = 0;                      // the size of each of the next three arrays

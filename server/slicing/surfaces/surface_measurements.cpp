@@ -75,7 +75,8 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
         moment += part.moment + part.volume * glm::dvec3(points[point]);
     }
     if (result.volume > 0) result.centroid = moment / result.volume;
-    // Each triangle has three edges, and each edge belongs to two triangles: V − E + F with E = 3F / 2.
+    // The Euler characteristic is V − E + F. Each triangle has three edges, and each edge belongs to two triangles; so
+    // E = 3F / 2, and the result is V − F / 2.
     result.euler = static_cast<long>(std::ranges::count(used, true)) - static_cast<long>(triangles.size() / 2);
     return result;
 }
