@@ -13,7 +13,8 @@
 // `visit` reads or writes one record (see store/state_codec.cpp). A struct is stored as an array, and the number of a
 // member is its index in this array. Servers of other versions read and write the same records, hence these rules: a
 // member keeps its number forever; no number is used again; a new member gets the next number and is visited with
-// addedMember(), because records of earlier versions lack it. The same rules hold for the numbers of enumerators.
+// addedMember(), because records of earlier versions lack it. The same rules hold for the numbers of enumerators. A
+// record with members that this version does not know is refused, because they would be lost when it is written again.
 //
 // - member(number, value) or member(number, value, range): a member, and the range of a floating-point number or of all
 //   such numbers in a vector or list; a record with another number is refused

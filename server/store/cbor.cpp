@@ -58,6 +58,11 @@ json parseRecord(std::string_view bytes) {
     return value;
 }
 
+void refuseUnknownMembers(const json& array, std::size_t known) {
+    if (array.size() > known)
+        throwUnreadable("a later version of oval4d has stored it, with settings that this version does not know");
+}
+
 double readNumber(const json& value, double least, double most) {
     const auto found = value.get<double>();
     if (!(found >= least && found <= most)) throwUnreadable("a number is out of range");

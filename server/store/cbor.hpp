@@ -2,6 +2,7 @@
 // Functions that write CBOR records (RFC 8949), and that read values from them and check these values.
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -26,6 +27,10 @@ std::string encodeCbor(const nlohmann::json& value);
 /// Parses a record: an array that begins with kRecordVersion. Throws UnreadableRecord if `bytes` is anything else or is
 /// nested too deeply.
 nlohmann::json parseRecord(std::string_view bytes);
+
+/// Throws UnreadableRecord if the array has more than `known` members. Only a later version of this program can have
+/// stored it; if it were read, what this version does not know would be lost when the session is stored again.
+void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
 /// Calls `read` and returns its result. Converts exceptions of the JSON library to UnreadableRecord.
 template <typename Read>

@@ -10,7 +10,8 @@
 
 // A session is encoded as two CBOR arrays: the head [version, revision, objects, current state], and the whole, which
 // has four more members: [version, revision, objects, current state, undo steps, redo steps, loaded objects, pending
-// key]. New versions may add members only at the end of an array.
+// key]. New versions may add members only at the end of an array. A version refuses arrays with members that it
+// does not know.
 
 namespace oval4d::store {
 
@@ -18,6 +19,8 @@ using nlohmann::json;
 using session::Session;
 
 namespace {
+
+constexpr std::size_t kHeadMembers = 4, kWholeMembers = 8;
 
 constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53: JSON readers represent integers exactly up to this one
 
@@ -61,6 +64,7 @@ Session decodeSession(std::string_view whole, std::string_view head, const Objec
                       polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
         const json value = parseRecord(whole);
+        refuseUnknownMembers(value, kWholeMembers);
         ObjectListDecoder objects(value.at(2), objectOf, cache);
         Session session;
         session.revision = revisionIn(value.at(1));
@@ -71,6 +75,7 @@ Session decodeSession(std::string_view whole, std::string_view head, const Objec
         session.pendingKey = readShortText(value.at(7));
         if (head.empty()) return session;
         const json newer = parseRecord(head);
+        refuseUnknownMembers(newer, kHeadMembers);
         const auto revision = revisionIn(newer.at(1));
         if (revision <= session.revision) return session;
         session.undoSteps.push_back(std::move(session.current));

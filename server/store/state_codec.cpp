@@ -141,32 +141,40 @@ class MemberReader {
     explicit MemberReader(const json& array) : array_(array) {}
 
     template <typename T, typename... Ranges>
-    void member(std::size_t number, T& value, Ranges... range) const {
-        read(array_.at(number), value, range...);
+    void member(std::size_t number, T& value, Ranges... range) {
+        read(at(number), value, range...);
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t number, T& value, Ranges... range) const {
+    void addedMember(std::size_t number, T& value, Ranges... range) {
         if (number < array_.size()) member(number, value, range...);
     }
-    void array(std::size_t number, const auto& visitThem) const {
-        const MemberReader reader(array_.at(number));
+    void array(std::size_t number, const auto& visitThem) {
+        MemberReader reader(at(number));
         visitThem(reader);
+        reader.refuseUnreadMembers();
     }
-    void rotation(std::size_t number, geometry::Rotation& rotation) const {
+    void rotation(std::size_t number, geometry::Rotation& rotation) {
         const auto decoded =
-            geometry::Rotation::fromQuaternions(quaternionIn(array_.at(number)), quaternionIn(array_.at(number + 1)));
+            geometry::Rotation::fromQuaternions(quaternionIn(at(number)), quaternionIn(at(number + 1)));
         if (!decoded) throwUnreadable("an orientation is not a rotation");
         rotation = *decoded;
     }
 
+    /// Throws UnreadableRecord if the array has more members than those that have been read.
+    void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
+
   protected:
-    const json& at(std::size_t number) const { return array_.at(number); }
+    const json& at(std::size_t number) {
+        readCount_ = std::max(readCount_, number + 1);
+        return array_.at(number);
+    }
 
   private:
     template <typename Struct>
     static void read(const json& value, Struct& into) {
-        const MemberReader reader(value);
+        MemberReader reader(value);
         visitStoredMembers(into, reader);
+        reader.refuseUnreadMembers();
     }
     static void read(const json& value, bool& into) { into = value.get<bool>(); }
     template <std::integral Integer>
@@ -201,6 +209,7 @@ class MemberReader {
     }
     // An array of an earlier version may lack some parts; these keep their defaults.
     static void read(const json& value, scene::Parts& into) {
+        refuseUnknownMembers(value, scene::kParts.size());
         for (std::size_t i = 0; i < std::min(value.size(), scene::kParts.size()); ++i)
             read(value.at(i), into.*scene::kParts[i].flag);
     }
@@ -218,6 +227,7 @@ class MemberReader {
     }
 
     const json& array_;
+    std::size_t readCount_ = 0;  // all members that have been read have smaller numbers
 };
 
 /// Reads the members of a state. Its object is an index into the list of objects.
@@ -225,7 +235,7 @@ class StateReader : public MemberReader {
   public:
     StateReader(const json& array, const ObjectListDecoder& objects) : MemberReader(array), objects_(objects) {}
 
-    void object(std::size_t number, slicing::Object& value) const { value = objects_.at(at(number)); }
+    void object(std::size_t number, slicing::Object& value) { value = objects_.at(at(number)); }
 
   private:
     const ObjectListDecoder& objects_;
@@ -296,8 +306,9 @@ json encodeState(const State& state, ObjectListEncoder& objects) {
 
 State decodeState(const json& array, ObjectListDecoder& objects) {
     State state{};
-    const StateReader reader(array, objects);
+    StateReader reader(array, objects);
     visitStoredMembers(state, reader);
+    reader.refuseUnreadMembers();
     if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
         throwUnreadable("a boost is too fast");
     state.object = objects.transformedTo(state.source, state.referenceFrame);

@@ -129,6 +129,43 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     EXPECT_EQ(back.current.object, back.current.source);
 }
 
+// If a record with an unknown member were read, the member would be lost when the session is stored again.
+TEST(Codec, RefusesMembersOfLaterVersions) {
+    using nlohmann::json;
+    Session session;
+    session::line(session, "set pace=2");
+    session.current.look.highlight = slicing::Element{slicing::ElementKind::cell, 0};
+    session.current.look.field.fog = {{-1, 0.5}, {0, 1}};
+    session.current.ongoingTurnToward = session::OngoingTurnToward{{}, 1};
+    ObjectTable table;
+    const json whole = json::from_cbor(encodeWhole(session, 10, table.keyOf));
+    const auto refusalOf = [&](const json& record, const std::string& head = "") -> std::string {
+        try {
+            decodeSession(encodeCbor(record), head, table.objectOf, support::cache());
+        } catch (const UnreadableRecord& fault) {
+            return fault.what();
+        }
+        return "";
+    };
+    ASSERT_EQ(refusalOf(whole), "");
+    // The record; its state; the angles, the slices, the look, the turn toward an element and the frame of reference;
+    // the parts, the camera's orbit, the highlight, the settings of the field and a control point of its fog; and a
+    // state of the history.
+    for (const char* place : {"", "/3", "/3/3", "/3/4", "/3/5", "/3/8", "/3/9", "/3/5/1", "/3/5/2", "/3/5/8", "/3/5/10",
+                              "/3/5/10/2/0", "/4/0"}) {
+        json later = whole;
+        json& array = later.at(json::json_pointer(place));
+        ASSERT_TRUE(array.is_array()) << place;
+        array.push_back(false);
+        EXPECT_NE(refusalOf(later).find("a later version"), std::string::npos) << place << ": " << refusalOf(later);
+    }
+    ++session.revision;
+    json head = json::from_cbor(encodeHead(session, table.keyOf));
+    ASSERT_EQ(refusalOf(whole, encodeCbor(head)), "");
+    head.push_back(false);
+    EXPECT_NE(refusalOf(whole, encodeCbor(head)).find("a later version"), std::string::npos);
+}
+
 TEST(Codec, MakesTheImageOfAnObjectOnce) {
     Session session;
     for (const char* text : {"polytope 24-cell", "boost x 0.6", "set spacing=0.1", "focus 3", "boost x 0.5", "focus 4"})
