@@ -11,9 +11,13 @@ void encodeRequest(const session::State& state, scene::Viewport viewport, slicin
                    const RasterizerLimits& limits, std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
-    archive(slicing::infoOf(state.source).serial), archive(slicing::infoOf(state.object).serial);
-    archive(state.referenceFrame), archive(state.orientation.left()), archive(state.orientation.right());
-    archive(state.slices), archive(state.look);
+    // All members are named, so that this function does not compile without a new member. If the new member affects
+    // pictures, it must be sent, too. The angles of the keys and the motion do not.
+    const auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] =
+        state;
+    archive(slicing::infoOf(source).serial), archive(slicing::infoOf(object).serial);
+    archive(frame), archive(orientation.left()), archive(orientation.right());
+    archive(slices), archive(look);
     archive(viewport), archive(quality), archive(limits);
 }
 
