@@ -304,6 +304,16 @@ TEST(Tables, TheChoicesAreThoseOfTheSchemas) {
         EXPECT_EQ(allowedIn(type, "projection"), namesIn(scene::kProjectionKinds)) << type;
         EXPECT_EQ(allowedIn(type, "background"), namesIn(scene::kBackgrounds)) << type;
     }
+    session::forEachSetting([]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            using Value = std::remove_cvref_t<decltype(setting.ofState(std::declval<session::State&>()))>;
+            if constexpr (text::HasChoices<Value>) {
+                const json schema = session::schemaOf(setting.name);
+                EXPECT_EQ(schema.at("enum").get<Names>(), namesIn(choicesOf(Value{}))) << setting.name.text;
+            }
+        }
+    });
+    EXPECT_EQ(allowedIn("settings", "highlight.element"), namesIn(slicing::kElementKinds));
     EXPECT_EQ(allowedIn("get", "background"), namesIn(scene::kBackgrounds));
     EXPECT_EQ(allowedIn("hello", "scheme"), namesIn(scene::kSchemes));
     EXPECT_EQ(allowedIn("slices", "scene.view"), namesIn(scene::kViews));
