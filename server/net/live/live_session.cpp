@@ -463,7 +463,8 @@ std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const Stre
 // This function is last in the file, because the specializations of run() must be declared before it.
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
-    co_await std::visit([&](const auto& body) { return run(peer, body, request.id); }, request.body);
+    // The body is moved, because that of a `load` message may be large.
+    co_await std::visit([&](auto& body) { return run(peer, std::move(body), request.id); }, request.body);
 }
 
 }  // namespace oval4d::net
