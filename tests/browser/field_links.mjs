@@ -42,6 +42,18 @@ test("field panel: the mistakes of an address are reported", async () => {
     await close();
 });
 
+test("field panel: an address with a box and a second function, but no formula, is reported", async () => {
+    const { url } = await common();
+    const { page, close } = await openPage({ url: `${url}?box=-1,1,-1,1,-1,1,0,2&values=x*y&slices=11` });
+    await page.waitForFunction(() => /values needs a formula/.test(document.getElementById("notice").textContent));
+    const lines = (await page.locator("#notice").textContent()).split("\n");
+    assert.equal(lines.length, 2);
+    assert.match(lines[0], /“box=-1,1,-1,1,-1,1,0,2”: box needs a formula/);
+    assert.match(lines[1], /“values=x\*y”/);
+    await page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "11");
+    await close();
+});
+
 test("field panel: an address has the fog", async () => {
     const { page, script, close } = await openPanel({ permissions: ["clipboard-read", "clipboard-write"] });
     const fog = [{ value: -1, opacity: 0.5 }, { value: 0.25, opacity: 1, color: 0x00ff80 }];

@@ -149,11 +149,16 @@ function parametersOf(query: string): [name: string, value: string][] {
 
 /**
  * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without a formula. If
- * the box is not valid, the field has kUsualBox, and `faults` says what is wrong.
+ * the box is not valid, the field has kUsualBox. `faults` says so, and which parameters lack their formula.
  */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(parametersOf(query));
-    if (formula === undefined) return { faults: [] };
+    if (formula === undefined) {
+        const alone = Object.entries({ box, values }).filter(([, value]) => value !== undefined);
+        return {
+            faults: alone.map(([name, value]) => `The address contains “${name}=${value}”: ${name} needs a formula`),
+        };
+    }
     const given = box === undefined ? kUsualBox : boxOf(parseNumbers(box));
     const fault = `The address contains “box=${box}”: it must be eight numbers, the ranges of x, y, z and w`;
     return { field: { formula, box: given ?? kUsualBox, ...(values && { values }) }, faults: given ? [] : [fault] };
