@@ -1001,6 +1001,10 @@ export interface Measured {
      * The mean of the element's vertices; the place of a vertex.
      */
     center: [number, number, number, number];
+    /**
+     * Of a cell: the index of its kind in `polytope.kinds` of the `state`.
+     */
+    kind?: number;
 }
 /**
  * Answers a `ping`. Between two pongs, the threads were busy for the fraction Δ`busy` / (`workers` · Δ`time`) of the time.

@@ -79,8 +79,9 @@ struct Measured {
     std::uint64_t revision = 0;
     std::optional<double> length, area, volume;
     glm::dvec4 center{0};
+    std::optional<std::uint64_t> kind = {};  ///< of a cell: its type, as an index into ObjectInfo::cellTypes
 };
-BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center))
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind))
 
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {

@@ -95,8 +95,9 @@ test("frame pointing: the server names what is under the mouse, with the words o
     const { at, source } = faceIn(seen, size, 1);
     const { revision } = await script.state();
     await hoverAt(...at);
-    const text = await labeled(page, /./);
-    assert.match(text, new RegExp(`^Cell ${source} · octahedron · w −?[\\d.]+ … −?[\\d.]+ · slice w 0.2$`));
+    const text = await labeled(page, /volume/);
+    const sizes = "volume 3.77 · w −?[\\d.]+ … −?[\\d.]+";
+    assert.match(text, new RegExp(`^Cell ${source} · octahedron · ${sizes} · slice w 0.2$`));
     const [{ type, what, width, height, x, y }] = await asked();
     assert.deepEqual([type, what, width, height], ["get", "at", size.width, size.height]);
     assert.ok(Math.hypot(x - at[0], y - at[1]) < 1);
@@ -121,7 +122,7 @@ test("frame pointing: the server names what is under the mouse, with the words o
     await page.click("[data-page-tool=geometry]");
     await page.waitForSelector("#drawing[data-drawn-by=geometry]");
     await hoverAt(...at);
-    assert.equal(await labeled(page, /./), text);
+    assert.equal(await labeled(page, /volume/), text);
     assert.deepEqual(errors, []);
     await close();
 });

@@ -34,16 +34,16 @@ test("pointing: a cell under the mouse is named, and lit in its slices, the proj
     const { source: cell, at } = faceIn(seen, size, 1);
     const { revision } = await script.state();
     await moveTo(...at);
-    const text = await labeled(page, /./);
+    const text = await labeled(page, /volume/);
     const lit = await shot(page);
-    assert.equal((await script.state()).revision, revision, "the server is not asked");
+    assert.equal((await script.state()).revision, revision, "pointing changes nothing");
 
     // The server lights the same.
     const kept = await script.request({ type: "set", highlight: { element: "cell", number: cell } });
     const { highlight, projection, scene } = await picture();
     assert.equal(highlight.own_vertices.length, 6, "an octahedron");
     const range = rangeOf(verticesFrom(seen, highlight.own_vertices));
-    assert.equal(text, `Cell ${cell} · octahedron · ${range} · slice w 0.2`);
+    assert.equal(text, `Cell ${cell} · octahedron · volume 3.77 · ${range} · slice w 0.2`);
 
     const places = edgesAround(seen, size, cell);
     assert.ok(places.length >= 4, "the cell is in several slices");
@@ -108,12 +108,12 @@ test("pointing: the tap of a finger shows the name that the mouse shows, until t
         await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
         const { at } = faceIn(await picture(), size, 2);
         await moveTo(...at);
-        const text = await labeled(page, /^Cell/);
+        const text = await labeled(page, /^Cell.*volume/);
         await moveTo(4, 4);
         await labeled(page, /^$/);
         const { revision } = await script.state();
         await tap(...at);
-        assert.equal(await labeled(page, /^Cell/), text, mode);
+        assert.equal(await labeled(page, /^Cell.*volume/), text, mode);
         const { slices } = await script.until((one) => one.revision > revision, "the tapped slice is the focus");
         assert.equal(slices.focus, 2);
         await frames(page);
@@ -203,6 +203,28 @@ test("pointing: a vertex is named in the band of its column, as by the server, a
     await close();
 });
 
+test("pointing: a cell is named with its kind, if there are several, and with its volume", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned({ polytope: "truncated tesseract" });
+    const { kinds } = (await script.state()).polytope;
+    assert.deepEqual(kinds.map(({ name }) => name), ["truncated cube", "tetrahedron"]);
+    const seen = await picture();
+    const { source, at } = faceIn(seen, size, 1);
+    const { kind } = await script.request({ type: "measure", element: "cell", number: source });
+    await moveTo(...at);
+    const named = `^Cell ${source} · ${kinds[kind].name} · volume ${["109", "0\\.943"][kind]} · w `;
+    await labeled(page, new RegExp(named));
+
+    // A moving observer sees another size.
+    const { revision } = await script.request({ type: "set", pace: 2 });
+    await presented(page, revision);
+    const moving = faceIn(await picture(), size, 1);
+    await moveTo(4, 4);
+    await moveTo(...moving.at);
+    await labeled(page, new RegExp(`^Cell ${moving.source} · (truncated cube|tetrahedron) · w `));
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointing: a click keeps the element and moves the focus in one step; the background and Escape end it", async () => {
     const { page, script, press, errors, size, picture, click, close } = await openTurned();
     await spoken(page, "24-cell"); // from now on, changes are announced
@@ -263,7 +285,7 @@ test("pointing: the label stays within a narrow drawing, and stars and point clo
         }
         return assert.fail(`${anywhere} is nowhere`);
     };
-    await name({ polytope: "24-cell" }, { anywhere: /^Cell \d+ · octahedron · w/ });
+    await name({ polytope: "24-cell" }, { anywhere: /^Cell \d+ · octahedron · .*w/ });
     await name({ polytope: "small stellated 120-cell" }, { anywhere: /^Cell \d+ · / });
     const cloud = "CLOUD\n0 0 0 0\n1 0 0 0.001\n-1 0 0 0\n0 1 0 0\n0 -1 0 0\n";
     await script.request({ type: "load", name: "five points", format: "cloud", data: cloud });

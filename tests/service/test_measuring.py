@@ -22,11 +22,23 @@ async def test_regular_polytopes_have_regular_elements(server, polytope, sizes, 
         done = await client.request("set", polytope=polytope)
         for (element, member), size, distance in zip(SIZES.items(), sizes, distances):
             measured = await client.request("measure", element=element, number=7)
-            assert set(measured) == {"type", "id", "revision", member, "center"}
+            kind = {"kind"} if element == "cell" else set()
+            assert set(measured) == {"type", "id", "revision", member, "center"} | kind
             assert measured["revision"] == done["revision"]
             assert measured[member] == pytest.approx(size)
             assert math.hypot(*measured["center"]) == pytest.approx(distance)
         assert (await client.request("get", what="state"))["revision"] == done["revision"], "nothing changes"
+
+
+async def test_a_cell_has_its_kind(server):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="truncated tesseract")
+        kinds = (await client.request("get", what="state"))["polytope"]["kinds"]
+        assert [(kind["name"], kind["cells"]) for kind in kinds] == [("truncated cube", 8), ("tetrahedron", 16)]
+        cells = [await client.request("measure", element="cell", number=number) for number in range(24)]
+        cube, tetrahedron = ([cell["volume"] for cell in cells if cell["kind"] == kind] for kind in range(2))
+        assert cube == pytest.approx(8 * [2**3 * (21 + 14 * math.sqrt(2)) / 3])
+        assert tetrahedron == pytest.approx(16 * [math.sqrt(8) / 3])
 
 
 async def test_neither_a_rotation_nor_a_frame_of_reference_changes_them(server):

@@ -129,7 +129,11 @@ export class App {
         this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
-    private readonly pointedLabel = new PointedLabel(this.drawing, () => this.state);
+    private readonly pointedLabel = new PointedLabel(
+        this.drawing,
+        () => this.state,
+        ({ element, number }) => this.client.request({ type: "measure", element, number }),
+    );
     private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, this.pointedLabel, () => this.state);
     private readonly framePointing: FramePointing = new FramePointing(
         this.drawing,

@@ -179,7 +179,9 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure
         co_return;
     }
     const slicing::ElementMeasurements found = slicing::measureElement(object, element);
-    peer->send(textAnswer(wire::Measured{revision(), found.length, found.area, found.volume, found.center}, id));
+    wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
+    if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
+    peer->send(textAnswer(measured, id));
 }
 
 template <>

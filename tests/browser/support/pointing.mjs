@@ -48,9 +48,15 @@ export async function labeled(page, pattern) {
 export const frames = (page) =>
     page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
+/** The picture, without the label. */
 export async function shot(page) {
     await frames(page);
-    return decode(await page.locator("#drawing").screenshot());
+    const setVisibility = (visibility) =>
+        page.evaluate((value) => void (document.getElementById("pointed").style.visibility = value), visibility);
+    await setVisibility("hidden");
+    const picture = decode(await page.locator("#drawing").screenshot());
+    await setVisibility("");
+    return picture;
 }
 
 /** Whether a pixel has the hue of the highlight, 0xff4fb8, in some light or faintly. */
