@@ -43,7 +43,7 @@ std::vector<std::string_view> namesOf(const Choices& choices) {
     return names;
 }
 
-/// An enumeration that has a table of choices. A function choicesOf(value) for the enumeration returns the table.
+/// An enumeration with a table of choices, which a function choicesOf(value) returns for any of its values.
 template <typename Enum>
 concept HasChoices = std::is_enum_v<Enum> && requires(Enum value) { choicesOf(value).begin()->name; };
 

@@ -47,8 +47,8 @@ char* putSeparator(char* at, const Separator& separator) {
 
 constexpr float kExponentFrom = 1e5F;  // from this value on, std::to_chars may write integers with an exponent
 
-// Writes the numbers from index `begin` to `end` − 1, each followed by its separator. The numbers are the coordinates
-// of vectors of `Size` numbers; numbers[0] is the first coordinate of a vector. Returns the end of the text.
+// Writes numbers[begin] … numbers[end − 1] at `at`, each followed by its separator. `numbers` holds the coordinates of
+// vectors of `Size` numbers each; numbers[0] is the first coordinate of a vector. Returns the end of the text.
 template <std::size_t Size>
 char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
     static constexpr auto kSeparators = separators<Size>();
@@ -74,7 +74,7 @@ using Int32x4 = std::int32_t __attribute__((vector_size(16)));
 // A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
 // processes all groups of a block before the next step begins. This hides the latency of the instructions, because the
 // groups do not depend on each other.
-constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of the vector sizes 3 and 4
+constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
 
 // The texts of the numbers of a block, each in two integers: `head`, whose lowest byte is the first character, and
 // `digits`.
@@ -84,24 +84,26 @@ struct FormattedNumbers {
     // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
     // byte.
     alignas(32) std::uint64_t digits[kBlock];
-    // Per group: true if `head` and `digits` cannot hold a number of the group, because it is too small or too large,
-    // or has no nonzero digit after the second decimal, so that `head` could end in superfluous zeros. In this case,
-    // putPlain() writes all numbers of the group.
+    // Per group: whether putPlain() must write all numbers of the group. This is so if one of the numbers is too small
+    // or too large for `head` and `digits`, or has no nonzero digit after the second decimal. In the latter case,
+    // `head` could end in superfluous zeros.
     bool needsFallback[kGroups];
 };
 
-// The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
-// power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple is therefore read back as the same
-// float. At most one multiple of 10^(1 − p) is read back as the same float, too; if there is one, it is shorter and is
-// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reasons for the lower bound:
-// FormattedNumbers has room for ten decimals only; and a power of two must be written exactly, because the spacing of
-// the floats below it is half of the spacing above it. For e from −10 on, 2^e has at most p decimals. Reason for the
-// upper bound: FormattedNumbers has room for only two digits before the point.
+// The method: a float from 2^e to 2^(e + 1) is rounded to the nearest integer multiple of 10^−p. Here, 10^−p is the
+// largest power of ten that is less than 2^(e − 23), the spacing of these floats. Therefore the multiple is read back
+// as the same float. At most one multiple of 10^(1 − p), which has one decimal less, is also read back as this float.
+// If there is one, it is used instead.
+//
+// The method is valid for e from −10 to 5; p falls from 10 to 6 as e grows. The lower bound has two reasons. First,
+// FormattedNumbers has room for only ten decimals. Second, a power of two must be written exactly, because the floats
+// below it have half the spacing of the floats above it. It is written exactly, because 2^e has at most p decimals if e
+// is at least −10. The upper bound has one reason: FormattedNumbers has room for only two digits before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
-// kExponentMask selects the exponent bits of a float. These bits minus kHalfSpacing are the float 2^(e − 24), half of
-// the spacing.
+// kExponentMask selects the exponent bits of a float. If kHalfSpacing is subtracted from these bits, they represent the
+// float 2^(e − 24), which is half the spacing of the floats.
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
-constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p (for p, see above)
+constexpr double kMargin = 0x1p-20;  // bounds the rounding errors of convert(), in units of 10^−p (for p, see above)
 
 // Tables for the unit 10^−p, with the index 10 − p: kUnitsPerOne contains 10^p, and kUnitSize contains the unit itself
 // as a multiple of 10^−10. Floats represent all of these numbers exactly.

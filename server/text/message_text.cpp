@@ -15,7 +15,8 @@ namespace oval4d::text {
 
 namespace {
 
-// Returns the Levenshtein distance in O(|a| |b|) steps, so both texts must be short.
+// Returns the Levenshtein distance of two texts. The number of steps is the product of their lengths, so both must be
+// short.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -33,8 +34,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t kMaxQuotedBytes = 60;
 
-// Returns the length in bytes of the UTF-8 character at this position, or 0 if there is no valid character. The limits
-// on the second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
+// Returns the length in bytes of the UTF-8 character that begins at byte `at` of `text`, or 0 if none begins there. The
+// limits on the second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
 std::size_t characterAt(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     const unsigned char lead = byte(0);
@@ -61,8 +62,8 @@ std::string_view closestMatch(std::string_view text, std::span<const std::string
     std::string_view best;
     std::size_t least = 2 * kMaxQuotedBytes;
     for (const std::string_view candidate : candidates) {
-        // Skip candidates that are much longer than the text: the distance is at least the difference of the lengths,
-        // and a file may have thousands of long names.
+        // Skip a candidate that is too long to be closer than `best`: the distance is at least the difference of the
+        // lengths. This saves time, because a file may have thousands of long names.
         if (candidate.size() > text.size() + least / 2) continue;
         // Among candidates at the same distance, prefer one of the same length: "25-cell" more likely means 24-cell
         // than 5-cell.

@@ -42,9 +42,9 @@ std::string shortestDecimal(double value);
 /// absolute value is less than 1e-5 or at least 1e15.
 std::string roundedDecimal(double value);
 
-/// Returns what a message says about a number outside its bounds, such as "from −2 to 2 circumradii, not 3" for the
-/// unit " circumradii". Rounds the three numbers as roundedDecimal() does. But if the rounded number equals a rounded
-/// bound, writes all three as shortestDecimal() does.
+/// Returns the part of an error message about a `value` outside the bounds `least` and `most`, such as "from −2 to 2
+/// circumradii, not 3" for the unit " circumradii". Rounds the three numbers as roundedDecimal() does. However, if the
+/// value would look equal to a bound, writes all three numbers with all digits, as shortestDecimal() does.
 std::string outsideBoundsText(double least, double most, std::string_view unit, double value);
 
 }  // namespace oval4d::text

@@ -8,8 +8,8 @@
 
 namespace oval4d::text {
 
-/// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c"; no empty part after a comma at the end.
-/// The parts refer to the memory of `text`.
+/// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c". A comma at the end of the text does not
+/// begin a further, empty part. The parts refer to the memory of `text`.
 std::vector<std::string_view> splitAtCommas(std::string_view text);
 
 /// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
