@@ -19,7 +19,7 @@ struct FileError {
     throw FileError{line, std::move(reason), false, column};
 }
 
-/// Returns the position, if it is known, and then the reason: "line 2, column 3: …".
+/// Returns the error as a text for the user, such as "line 2, column 3: …"; only the reason if the line is not known.
 inline std::string message(const FileError& error) {
     if (error.line == 0) return error.reason;
     std::string text = "line " + std::to_string(error.line);

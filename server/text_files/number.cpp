@@ -49,7 +49,8 @@ bool isBelowOne(std::string_view number) {
     return exponent <= -places;
 }
 
-// Returns why a word with a comma, such as "0,5" or "1,", is not a number if the decimal mark is a point.
+// Returns ParsedCoordinate::fault for a word with a comma, such as "0,5" or "1,", in a text whose decimal mark is the
+// point.
 std::string faultOf(std::string_view word) {
     CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())

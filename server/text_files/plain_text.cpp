@@ -44,8 +44,9 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text files that are refused. Their signatures are compared with the start of the text in lowercase. The
-/// first signature must be the longest, because its length is the number of characters that plainText() compares.
+/// Kinds of text files that are refused. plainText() converts the start of the text to lower case, and compares it with
+/// these signatures. The first signature must be the longest one, because its length determines how many characters
+/// plainText() converts.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},

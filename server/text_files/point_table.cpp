@@ -16,14 +16,14 @@ namespace oval4d::text_files {
 namespace {
 
 constexpr std::string_view kCoordinates = "xyzw";
-constexpr std::size_t kRadiusIndex = 4;  // the index of the radius, after those of the coordinates
+constexpr std::size_t kRadiusIndex = 4;  // the index of the radius; x, y, z and w have the indices 0 to 3
 constexpr std::size_t kMaxTitles = 10;   // the maximum number of lines of text above the header or the first row
 
 // The position of each coordinate and of the radius among the columns of a row.
 struct ColumnLayout {
     std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
     std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
-    bool radiusMayMiss = false;   // whether rows may lack the radius, which is then the last column
+    bool radiusMayMiss = false;   // whether rows may lack the radius, because it is the last column
     std::string otherColumns;     // names of the columns that are not read, in quotes
     std::string_view radiusName;  // the name of the radius as the header writes it
 
@@ -56,7 +56,8 @@ void removeUnits(std::vector<std::string_view>& names) {
     names.resize(kept);
 }
 
-// Reads the names of columns. Returns an empty optional if they name fewer than two coordinates.
+// Returns the layout of a table whose columns have these names; an empty optional if fewer than two of them are names
+// of coordinates.
 std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
     ColumnLayout layout;
     layout.count = names.size();
@@ -86,7 +87,7 @@ std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
 
 // Reads the names of columns in a line. Tries several separators, because the separator of the names may differ from
 // that of the rows. Returns the first layout for which `accepts` returns true; an empty optional if there is none.
-// Changes `row`.
+// Overwrites `row`.
 std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
                                        const std::function<bool(const ColumnLayout&)>& accepts) {
     for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
@@ -97,7 +98,7 @@ std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat&
     return {};
 }
 
-// Returns the part of a comment that may be names of columns: in "columns: (x, y, z, w)", that is "x, y, z, w".
+// Returns the part of a comment that may list the names of the columns: "x, y, z, w" for "columns: (x, y, z, w)".
 std::string_view namesOfComment(std::string_view comment) {
     if (const std::size_t colon = comment.find_last_of(":="); colon != std::string_view::npos)
         comment = text::trimmed(comment.substr(colon + 1));
@@ -110,8 +111,8 @@ std::string_view namesOfComment(std::string_view comment) {
     return inBrackets ? comment.substr(1, comment.size() - 2) : comment;
 }
 
-// Returns whether a line states the separator for Excel, as "sep=;" does, or "sep=" and a tab. The rows show the
-// separator, too.
+// Returns whether a line tells Excel the separator, as "sep=;" does, or "sep=" followed by a tab. Such a line can be
+// skipped, because formatOf() infers the separator from the rows.
 bool isSeparatorStatement(std::string_view line) {
     line = text::trimmed(line);
     return line.size() <= 5 && text::normalizedName(line.substr(0, 4)) == "sep=";
@@ -124,7 +125,7 @@ class PointReader {
         : lines_(text), format_(formatOf(lines_)), options_(options), add_(add) {}
 
     std::vector<std::string> read() {
-        bool first = true;  // whether neither a header nor a row was read yet
+        bool first = true;  // whether no header and no row has been read yet
         std::size_t titles = 0;
         std::vector<TableLine> comments;
         while (const auto line = lines_.next()) {
@@ -145,8 +146,9 @@ class PointReader {
     }
 
   private:
-    // Reads the header from a line that only titles precede, or, if the line is the first row, from the comments above
-    // it. Returns true if the line is a header or a title, and false if it is a row of numbers.
+    // Reads the header, if there is one. `line` must be the first line of the table, apart from titles and comments. If
+    // `line` is a row of numbers, looks for the header in `comments`, which precede it, and returns false. Otherwise,
+    // reads `line` as the header or, if it names no columns, as a title, and returns true.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -158,7 +160,7 @@ class PointReader {
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
         auto layout = findLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
         if (!layout) layout = findLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
-        if (!layout && likeNumbers) return false;  // readRow() then reports a word that is not a number
+        if (!layout && likeNumbers) return false;  // a faulty row: readRow() reports the word that is not a number
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
@@ -173,9 +175,8 @@ class PointReader {
         return true;
     }
 
-    // Uses the last comment that has a name for each column of the first row as the header. If there is no such
-    // comment, warns of a comment that names the coordinates in another order than x, y, z, w. `row_` must be the first
-    // row.
+    // Uses as the header the last comment that names every column of the first row. If there is no such comment, warns
+    // of the first comment that names the coordinates in another order than x, y, z, w. `row_` must be the first row.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const ColumnLayout& layout) {
@@ -208,7 +209,7 @@ class PointReader {
         if (!layout_.otherColumns.empty()) warnings_.push_back("these columns were left out: " + layout_.otherColumns);
     }
 
-    // Returns whether a column of the rows is a coordinate or a radius.
+    // Returns whether a column, counted from 0, contains a coordinate or the radius, so that its content matters.
     bool isRead(std::size_t column) const {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
@@ -239,7 +240,7 @@ class PointReader {
                                      std::to_string(firstSize_));
     }
 
-    // Sets `row_` to the columns of a row.
+    // Sets `row_` to the columns of the row in `line`.
     void splitRow(const TableLine& line) {
         std::string_view content = line.content;
         const std::size_t last = content.find_last_not_of(" \t");

@@ -47,9 +47,9 @@ TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
     return result;
 }
 
-// Splits a line into words at blanks and tabs. Returns an empty optional if commas may separate its columns: if there
-// are fewer than four words, or if a word has two commas or a comma at an end. Otherwise, returns whether a word has a
-// decimal comma. Changes `row`.
+// Splits a line into words at blanks and tabs. Returns an empty optional if commas may separate the columns: if there
+// are fewer than four words, or if a word has two commas, or a comma at its beginning or end. Otherwise, returns
+// whether a word has a decimal comma. Overwrites `row`.
 std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -82,7 +82,7 @@ bool isRow(std::string_view line, std::size_t least) {
 }
 
 // Returns the line with a letter in place of each text in quotes that is not a number, because such a text may contain
-// separators. The result may refer to `memory`.
+// separators. The result refers to `line` or `memory`.
 std::string_view withoutTexts(std::string_view line, std::string& memory) {
     std::size_t open = line.find('"');
     if (open == std::string_view::npos) return line;
@@ -104,7 +104,8 @@ std::string_view withoutTexts(std::string_view line, std::string& memory) {
     return memory;
 }
 
-// Returns the format that fits all lines that are rows according to isRow(); an empty optional if there are none.
+// Returns the format that fits all lines for which isRow(line, least) is true; an empty optional if there are no such
+// lines.
 std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
     bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
     TableRow row;
@@ -114,8 +115,8 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         if (!isRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
-        tabs = tabs || between.filled >= kMinColumns;  // with fewer columns, tabs may be used like blanks
-        if (between.numbers >= kMinColumns) {          // then tabs are the separator; others are part of texts
+        tabs = tabs || between.filled >= kMinColumns;  // in rows of fewer columns, tabs may stand for blanks
+        if (between.numbers >= kMinColumns) {          // only the tabs separate; other marks are parts of texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }
@@ -143,8 +144,8 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    // A row may begin with a text. Such a row must have as many numbers as a point, because a line with fewer numbers
-    // may be a title. Only if no line is a row by this rule, half as many numbers are enough.
+    // A row may begin with a text. Such a row must have at least as many numbers as a point has coordinates, because a
+    // line with fewer numbers may be a title. Half as many numbers are enough only if no line is a row by this rule.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }

@@ -10,7 +10,8 @@
 
 namespace oval4d::text_files {
 
-/// A line of a text file, divided at its first #, or at a % with which it begins.
+/// A line of a text file, divided at the mark with which its comment begins: a % at the beginning of the line, or else
+/// the first #.
 struct TableLine {
     std::size_t number = 0;    ///< the number of the line in the file, counted from 1
     std::string_view content;  ///< the text before the mark, including blanks at its ends
@@ -31,7 +32,7 @@ class TableLines {
     std::size_t number_ = 1;
 };
 
-/// How the columns of a table are separated, and its numbers written.
+/// How the columns of a table are separated, and which decimal mark its numbers have.
 struct TableFormat {
     char separator = ' ';  ///< ';', '\t', ',', or ' ' for any number of blanks
     DecimalMark mark = DecimalMark::point;
@@ -47,7 +48,7 @@ struct TableRow {
     bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 
-/// Sets `row` to the columns of a line.
+/// Sets `row` to the columns of a line. `separator` is as in TableFormat.
 void split(std::string_view line, char separator, TableRow& row);
 
 }  // namespace oval4d::text_files

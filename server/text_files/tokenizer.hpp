@@ -16,7 +16,7 @@ class Tokenizer {
   public:
     explicit Tokenizer(std::string_view text) : text_(text) {}
 
-    /// Returns the line of the word read last, counted from 1.
+    /// Returns the number of the line of the word read last, counted from 1.
     std::size_t line() const { return line_; }
 
     /// Returns the next word, on this or a later line; empty at the end of the text.
