@@ -25,7 +25,7 @@ const exports::Format& formatOf(const ExportOutputOptions& options) {
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
 }
 
-/// Returns the names in a table of choices, without aliases, as in "solid|skeleton".
+/// Returns the names in a table of choices, without the aliases, separated by "|": "solid|skeleton".
 template <typename Choices>
 std::string alternativesOf(const Choices& choices) {
     std::string out;

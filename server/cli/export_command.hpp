@@ -1,6 +1,6 @@
 #pragma once
-// The subcommand `oval4d export`: writes a file for other programs, such as a solid body of a slice or a drawing,
-// without a server. The option --of chooses the content (see exports::ExportContents).
+// The subcommand `oval4d export`: writes a file for other programs, such as a solid body of a slice or a drawing. It
+// needs no running server. The option --of chooses the content (see exports::ExportContents).
 
 #include <string>
 
@@ -16,11 +16,13 @@ struct ExportOutputOptions {
     std::string format;                ///< name of the file format; if empty, the extension of `output` determines it
 };
 
-/// Adds the options in `options` to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the
-/// options that describe the state and the content of the file.
+/// Adds the options --output and --format to `app`, the parser of the subcommand, which stores their values in
+/// `options`. After parsing, `app.remaining()` contains the options that describe the state and the content of the
+/// file.
 void addExportOptions(CLI::App& app, ExportOutputOptions& options);
 
-/// Writes the file that the parsed command line describes. Throws std::runtime_error with a message for the user.
+/// Writes the file that the parsed command line describes. If this fails, throws std::runtime_error with a message for
+/// the user.
 void exportFile(const CLI::App& app, const ExportOutputOptions& options);
 
 }  // namespace oval4d

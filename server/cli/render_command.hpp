@@ -1,5 +1,5 @@
 #pragma once
-// The subcommand `oval4d render`: writes one picture, without a server.
+// The subcommand `oval4d render`: writes one picture as a PNG file. It needs no running server.
 
 #include <string>
 
@@ -19,11 +19,12 @@ struct RenderOptions {
     int width = 1280, height = 720;    ///< pixels
 };
 
-/// Adds the options in `options` to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the
-/// options that describe the state.
+/// Adds the options --output, --width and --height to `app`, the parser of the subcommand, which stores their values in
+/// `options`. After parsing, `app.remaining()` contains the options that describe the state.
 void addRenderOptions(CLI::App& app, RenderOptions& options);
 
-/// Writes the picture that the parsed command line describes. Throws std::runtime_error with a message for the user.
+/// Writes the picture that the parsed command line describes. If this fails, throws std::runtime_error with a message
+/// for the user.
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin);
 
 }  // namespace oval4d

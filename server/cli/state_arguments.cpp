@@ -41,8 +41,8 @@ session::QueryParameters queryOf(const std::vector<std::string>& words) {
 
 namespace {
 
-/// Removes an entry from a query, and returns its value; an empty optional if there is no such entry. Throws
-/// std::runtime_error if there are several.
+/// Removes the parameter `name` from the query, and returns its value; an empty optional if the query does not contain
+/// it. Throws std::runtime_error if the query contains it more than once.
 std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
     const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
     if (found == query.end()) return {};
@@ -62,8 +62,9 @@ bool isZarr(const std::filesystem::path& folder) {
                                [&](std::string_view file) { return std::filesystem::exists(folder / file); });
 }
 
-/// Reads the object in a file, a Zarr folder, or a folder with a series of files. An array may be larger than the main
-/// memory. Removes from the query the options that say how to read an object of this kind.
+/// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps the files of an array, which may
+/// be larger than the main memory. Removes from the query the options that say how to read an object of the kind found,
+/// such as "axes" for an array or "center" for a polytope.
 Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
@@ -110,8 +111,8 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     return session::readObject(load, session::Limits{});
 }
 
-/// Returns the state in a picture that oval4d has made, or in a JSON file; an empty optional if the file is of another
-/// kind.
+/// Returns the state in a file that is a picture made by oval4d, or a state as JSON; an empty optional if the file is
+/// of another kind. Throws std::runtime_error if the state is invalid.
 std::optional<session::State> readState(const std::string& path, session::ObjectLoader& loader) {
     if (std::filesystem::is_directory(path)) return {};
     const auto file = fields::FileContents::map(std::filesystem::path(path));
@@ -140,7 +141,8 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
     return state;
 }
 
-/// An option that says how a file is read, and the kind of files that it is for.
+/// An option that only applies to files of one kind, and says how to read them. `files` names this kind for an error
+/// message. Not listed are "box" and "values", which also apply to formulas.
 struct ReadingOption {
     std::string_view name;
     std::string_view files;

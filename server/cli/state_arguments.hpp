@@ -13,17 +13,18 @@
 
 namespace oval4d {
 
-/// Converts the arguments "--name value" and "--name=value" to a query, in the order given. Throws std::runtime_error
-/// if an argument does not begin with "--" or lacks a value.
+/// Converts arguments of the forms "--name value" and "--name=value" to a query: pairs of a name and a value, in the
+/// order of the arguments. Throws std::runtime_error if an argument does not begin with "--" or lacks a value.
 session::QueryParameters queryOf(const std::vector<std::string>& words);
 
 /// Returns the state that the query describes. The query parameter "load" is the path of what to show: a file with an
-/// object, a Zarr folder, a folder with a series of files (see fields::readSeries()), a `state` message, or a picture
-/// made by oval4d. The rest of the query changes the state in the message or picture or, if there is none, the initial
-/// state. If the file is an array, "axes", "box", "variable", "values" and "values_variable" say how to read it; if it
-/// is a polytope, a surface or a list of points, "center" is the point about which it turns. Prints warnings about the
-/// file to standard error. `others` are the names of the caller's own options, for the list of allowed options in the
-/// error message about an unknown option. Throws std::runtime_error with a message for the user.
+/// object, a Zarr folder, a folder with a series of files (see fields::readSeries()), a file with a `state` message, or
+/// a picture made by oval4d. The other parameters change the state in the message or picture. If "load" is the path of
+/// an object, they change the initial state with this object; without "load", they change the initial state. If the
+/// path is that of an array, "axes", "box", "variable", "values" and "values_variable" say how to read the array; if it
+/// is that of a polytope, a surface or a list of points, "center" is the point about which the object turns. Prints
+/// warnings about the file to standard error. `others` are the names of further options that the subcommand allows; the
+/// error message about an unknown option lists them, too. Throws std::runtime_error with a message for the user.
 session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
