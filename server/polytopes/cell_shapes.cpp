@@ -25,11 +25,11 @@ bool areAllEqual(const std::vector<double>& lengths) {
     return areEqual(least, greatest);
 }
 
-// The numbers of a cell's elements.
+// Counts of a cell's 2-faces and vertices.
 struct ElementTally {
-    std::map<std::size_t, std::uint32_t> faces;               // the number of faces with each number of sides
-    std::map<std::uint32_t, std::uint32_t> degrees;           // the number of edges at each vertex
-    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // the number of vertices with each number of edges
+    std::map<std::size_t, std::uint32_t> faces;      // number of sides → number of 2-faces with this number of sides
+    std::map<std::uint32_t, std::uint32_t> degrees;  // vertex → number of edges of the cell at this vertex
+    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // number of edges → number of vertices with it
 
     ElementTally(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {
@@ -42,7 +42,8 @@ struct ElementTally {
         const auto found = faces.find(sides);
         return found == faces.end() ? 0 : found->second;
     }
-    // Returns whether the cell has n vertices of `degree`, m vertices of `otherDegree`, and no others.
+    // Returns whether the cell has exactly n vertices with `degree` edges, m vertices with `otherDegree` edges, and no
+    // other vertices.
     bool has(std::uint32_t n, std::uint32_t degree, std::uint32_t m, std::uint32_t otherDegree) const {
         std::map<std::uint32_t, std::uint32_t> wanted;
         wanted[degree] += n;
@@ -115,8 +116,8 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
     return radii;
 }
 
-// Returns whether two 2-faces of a cell may be the bases of an antiprism: they have no vertex in common, all their
-// edges have one length, and all other edges of the cell have one length, which may differ from the first.
+// Returns whether two 2-faces of a cell may be the bases of an antiprism: they must have no vertex in common, all their
+// edges must be equally long, and all other edges of the cell must be equally long.
 bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
@@ -155,8 +156,9 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     return {};
 }
 
-// Returns the name of a cell with these numbers of elements if it is a bipyramid or a trapezohedron, else an empty
-// string. Bipyramids and trapezohedra have two apexes; the other vertices lie around the axis through the apexes.
+// Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. Recognizes the cell by its
+// number of 2-faces, `faces`, and by `tally` alone. Bipyramids and trapezohedra have two apexes; the other vertices lie
+// around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());
@@ -172,7 +174,7 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
 
 // Returns whether the distances of the cell's vertices from their mean have the same ratios as the distances of the
 // solid's vertices from its center. Equal numbers of elements are not sufficient to recognize a Catalan solid, because
-// other polyhedra, among them other Catalan solids, may have the same numbers.
+// other polyhedra, among them other Catalan solids, may have the same numbers of elements.
 bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own = radiiOf(p, tally);

@@ -16,8 +16,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to the polytope's extent
-constexpr double kRegularityTolerance = 0.01;       // for lengths in one cell, relative to the greatest
+constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to extentOf()
+constexpr double kRegularityTolerance = 0.01;       // for lengths in one cell, relative to the greatest one
 
 // The least, the root-mean-square and the greatest of some lengths.
 struct LengthStatistics {
@@ -44,9 +44,9 @@ struct CellInvariants {
     }
 };
 
-// Measures cells, in time linear in the size of the polytope for all cells together. measure() marks the vertices of a
-// cell with a number that no other cell has. So the mark of a vertex shows, without a search, whether measure() has
-// already visited the vertex in this cell.
+// Measures cells. Measuring all cells of a polytope takes time linear in its size: measure() marks the vertices of each
+// cell with another number, so the mark of a vertex shows, without a search, whether the vertex has already been
+// visited in the current cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
@@ -79,7 +79,8 @@ class CellMeasurer {
     std::uint64_t mark_ = 0;
 };
 
-// Returns {n/d} for a loop of n vertices with the turning number d. Does not check whether the polygon is regular.
+// Returns the polygon {n/d} for a loop of n vertices that makes d full turns. Does not check whether the polygon is
+// regular.
 RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};

@@ -10,8 +10,8 @@
 namespace oval4d::polytopes {
 
 /// The maximum number of types that cellTypesByShape() distinguishes. If the cells have more shapes, the function
-/// classifies them only by their numbers of vertices and 2-faces. If these numbers also give more types than the
-/// maximum, all cells get the same type.
+/// classifies them only by their numbers of vertices and 2-faces. If this also gives more types than the maximum, all
+/// cells get the same type.
 inline constexpr std::size_t kMaxCellTypes = 64;
 
 /// Returns a type number for each cell; cells of the same shape have the same number. Two cells count as having the
@@ -21,9 +21,9 @@ inline constexpr std::size_t kMaxCellTypes = 64;
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& polytope);
 
 /// Refines a classification of the cells by color refinement, and returns the new type number of each cell. `types`
-/// holds the initial type numbers. Two cells of a type get different types if the types of their neighbors (the cells
-/// that share a 2-face with them) differ; this is repeated until nothing changes. If a symmetry of the polytope
-/// preserves `types`, it also preserves the result.
+/// holds the initial type numbers. In each round, two cells of the same type get different types if the types of their
+/// neighbors (the cells that share a 2-face with them) differ. The rounds end when no cell gets another type. If a
+/// symmetry of the polytope preserves `types`, it also preserves the result.
 std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& polytope, std::vector<std::uint32_t> types);
 
 /// Sets polytope.typeOfCell and polytope.cellTypes. `labels` holds an arbitrary number for each cell; cells of the same

@@ -12,7 +12,8 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to extentOf()
-// The angles around an edge or vertex add up to 2π or to at least 4π. This number distinguishes the two cases.
+// The angles around an edge or a vertex add up to 2π, one full turn, or to at least 4π. This limit, in radians,
+// distinguishes the two cases.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
 
 // Returns the component of v perpendicular to a unit vector.
@@ -72,8 +73,9 @@ class ConvexityTest {
         return true;
     }
 
-    // Returns the point nearest to the origin in the flat (affine subspace) of this dimension through points_. Returns
-    // std::nullopt if the points span a lower dimension or the flat contains the origin. Overwrites points_.
+    // Returns the point nearest to the origin in the flat through points_, which is an affine subspace of this
+    // dimension. Returns std::nullopt if the points span only a flat of lower dimension, or if the flat contains the
+    // origin. Overwrites points_.
     std::optional<glm::dvec4> footOf(int dimension) {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
@@ -91,9 +93,9 @@ class ConvexityTest {
         return foot;
     }
 
-    // Returns whether each cell is convex, by the test of isConvex() within the hyperplane of the cell: no edge is
-    // reentrant, and the 2-faces around each vertex make one full turn about the axis from the mean of the cell's
-    // corners to the vertex.
+    // Returns whether each cell is convex. The test of a cell is that of isConvex(), with one dimension less: no edge
+    // of the cell may be reentrant, and the 2-faces around each vertex must make one full turn about the axis from the
+    // mean of the cell's corners to this vertex.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -151,9 +153,9 @@ class ConvexityTest {
         });
     }
 
-    // Returns whether the cells around every edge make one full turn. In the plane perpendicular to the vectors from
-    // center_ to the ends of the edge, each of these cells projects to a sector; its sides are the projections of the
-    // cell's two 2-faces at the edge. The angles of the sectors must add up to 2π.
+    // Returns whether the cells around every edge make one full turn. The test projects these cells onto the plane that
+    // is perpendicular to the vectors from center_ to the ends of the edge. The projection of a cell fills a sector
+    // between the projections of its two 2-faces at the edge. The angles of the sectors must add up to 2π.
     bool coversOnce() const {
         const std::size_t edges = p_.edges.size();
         std::vector<double> turn(edges, 0.0), first(edges);

@@ -85,9 +85,9 @@ class Orienter {
         incidences[incidences[0] == kNone ? 0 : 1] = incidence;
     }
 
-    // Orients one connected component of the boundary, beginning with the incidence `first`. The outward orientation is
-    // the one with negative signed hypervolume. With this orientation, the face loops of slices are counterclockwise,
-    // seen from outside the slice.
+    // Orients one connected component of the boundary, beginning with the incidence `first`. Chooses the orientation
+    // with negative signed hypervolume, which is the outward one. With it, the face loops of slices are
+    // counterclockwise, seen from outside the slice.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
@@ -159,8 +159,8 @@ class Orienter {
         return true;
     }
 
-    // Propagates signs across edges to all 2-faces of a cell that are connected to a 2-face with a sign. The incidences
-    // of the cell are `begin` … `end` − 1. Entries 2i and 2i + 1 of `directedEdges` belong to the same edge.
+    // Gives a sign to every 2-face of a cell that is connected, across edges, to a 2-face that already has a sign. The
+    // incidences of the cell are `begin` … `end` − 1. Entries 2i and 2i + 1 of `directedEdges` belong to the same edge.
     void propagateSigns(const std::vector<DirectedEdge>& directedEdges, std::uint32_t begin, std::uint32_t end) {
         auto& signs = p_.cellSigns;
         std::vector<std::vector<std::size_t>> directedEdgesOf(end - begin);
@@ -222,10 +222,10 @@ void checkIndices(const geometry::JaggedArray& lists, std::size_t below, FaultLo
     }
 }
 
-// Builds edgeFaces. At each of its edges, a cell has two 2-faces, whose loops, oriented outward from the cell, traverse
-// the edge in opposite directions. The cyclic order results from going through the cell from one of the two 2-faces to
-// the other, then through the next cell, and so on. If the 2-faces around an edge form several cycles, the cycles are
-// stored one after another.
+// Builds Polytope::edgeFaces, where the 2-faces around each edge are in cyclic order. At each of its edges, a cell has
+// two 2-faces, whose loops, oriented outward from the cell, traverse the edge in opposite directions. The cyclic order
+// results from going through the cell from one of the two 2-faces to the other, then through the next cell, and so on.
+// If the 2-faces around an edge form several cycles, the cycles are stored one after another.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);

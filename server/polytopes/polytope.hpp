@@ -19,7 +19,7 @@ namespace oval4d::polytopes {
 using geometry::CellType;
 
 /// A 4-D polytope: a cell complex that is the boundary of a body, or of several. makePolytope() builds it. Threads and
-/// sessions share it as a const object. If it was built from a name, its center is the origin.
+/// sessions share a polytope by pointers to const. The center of a polytope that is built from a name is the origin.
 struct Polytope : geometry::CellComplex {
     /// The 2-faces around each edge, in cyclic order: 2-face f is stored as 2 f + 1 if its vertex loop traverses the
     /// edge from the edge's first vertex to its second, else as 2 f. The cell between an entry s and the next entry of

@@ -101,7 +101,8 @@ const std::vector<CatalogueEntry>& entries() {
     return kEntries;
 }
 
-// Returns the entries by name, alias, diagram and Schläfli symbol, each converted by text::normalizedName().
+// Returns a map to the entries. The keys of an entry are its name, aliases, diagram and Schläfli symbol, each converted
+// by text::normalizedName().
 const std::unordered_map<std::string, const CatalogueEntry*>& index() {
     static const auto kIndex = [] {
         std::unordered_map<std::string, const CatalogueEntry*> byName;
@@ -122,8 +123,8 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a text of `length` letters may be a misspelling of a name at this edit distance: whether there is at
-// most one mistake for every three letters.
+// Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance` from it:
+// whether it has at most one mistake for every three letters.
 bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
 // Returns the names with the least edit distance from `text`, at most one for each entry; an empty list if no name is
@@ -166,8 +167,8 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
     return {};
 }
 
-// Returns the result of designNamed() for `text`, a name within another name. If the result is an error without a
-// message, sets its message.
+// Returns the result of designNamed() for `text`, which is the name of a polytope within the name of another one. If
+// the result is an error without a message, adds a message.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {

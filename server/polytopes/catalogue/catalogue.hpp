@@ -33,7 +33,7 @@ struct CatalogueEntry {
 /// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
-/// The maximum size of a canonical name, which is limited because names are stored and shown.
+/// The maximum size in bytes of a canonical name (Design::name). It is limited because names are stored and shown.
 inline constexpr std::size_t kMaxNameBytes = 256;
 
 /// Returns the entry with this name, alias, diagram or Schläfli symbol, or the entry of the polytope that the text
@@ -48,17 +48,17 @@ const CatalogueEntry* findEntry(std::string_view text);
 /// (convex_hull.hpp), or if its canonical name has more than kMaxNameBytes.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
-/// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). Among equal
-/// distances, prefers names whose length is nearest to that of `text`. Returns an empty text if the distance is more
-/// than a third of the length of `text`.
+/// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). If several
+/// names have this distance, prefers one whose length is nearest to that of `text`. Returns an empty text if the
+/// distance is more than a third of the length of `text`.
 std::string_view nearestName(std::string_view text);
 
 /// Returns the names and aliases to which nearestName() gives equal preference: at most three, and at most one for each
 /// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names. Cuts each name after kMaxNameBytes, and converts it by
-/// text::normalizedName().
+/// Returns the edit distance (Levenshtein) of two names. Before it compares them, cuts both to kMaxNameBytes, and
+/// converts them by text::normalizedName().
 std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

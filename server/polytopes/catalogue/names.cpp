@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows such a
-// word; after "dual", "of" may be omitted.
+// Returns the words with which constructions begin, such as "dual", "prism" and "hull". In the name of a construction,
+// "of" follows such a word, as in "hull of X and Y"; after "dual", "of" may be omitted.
 const std::vector<std::string_view>& constructionWords() {
     static const std::vector<std::string_view> all = [] {
         std::vector<std::string_view> found;
@@ -39,8 +39,8 @@ std::size_t constructionsIn(const std::vector<std::string>& words) {
     return count;
 }
 
-// Returns whether the words contain "of circumradius", but not within a hull or an intersection. Only the two polytopes
-// of a hull or an intersection may have a circumradius.
+// Returns whether the words contain "of circumradius", but neither "hull" nor "intersection" before it. Only the names
+// of the two polytopes of a hull or an intersection may state a circumradius.
 bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
         if (words[i] == "hull" || words[i] == "intersection") return false;

@@ -47,8 +47,8 @@ class PolytopeCache {
         std::weak_ptr<const Polytope> polytope;
     };
 
-    // Returns the polytope of this design, which must not be the 5-cell, if the cache finds it, else nullptr. Unlike
-    // find(), does not mark the polytope as used.
+    // Returns the polytope of this design if the cache finds it, else nullptr. The design must not be that of the
+    // 5-cell, which is not in the cache. Unlike find(), does not mark the polytope as used.
     Shared peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<Slot> slotOf(const std::string& name);

@@ -31,7 +31,7 @@ struct Operand {
     Design design;
     std::optional<double> circumradius;  // as stated in the name; empty for the default (see combinationNamed())
 
-    // Returns the name of the operand, from which operandNamed() makes the same operand again.
+    // Returns a name of the operand. operandNamed() turns this name into an equal operand.
     std::string name() const {
         std::string result = design.name;
         if (circumradius) result += " of circumradius " + text::shortestDecimal(*circumradius);
@@ -41,8 +41,8 @@ struct Operand {
 
 using Words = std::vector<std::string>;
 
-// Returns the index of the "and" between the two operands; std::nullopt if there is none. Skips the "and" of each
-// combination that is nested in the first operand.
+// Returns the index of the "and" between the two operands; std::nullopt if there is none. Skips an "and" that belongs
+// to a combination within the first operand.
 std::optional<std::size_t> findAnd(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -55,7 +55,7 @@ std::optional<std::size_t> findAnd(const Words& words) {
 std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
     Operand operand;
     std::size_t end = words.size();
-    // text::wordsOf() divides a number such as 5e-1 at its hyphen.
+    // A number such as 5e-1 is two words, because text::wordsOf() divides it at the hyphen.
     const std::size_t numberWords = end > 1 && words[end - 2].ends_with('e') ? 2 : 1;
     const std::size_t suffix = 2 + numberWords;
     if (end > suffix && words[end - suffix] == "of" && words[end - suffix + 1] == "circumradius") {

@@ -18,8 +18,8 @@ using text_files::FileError;
 namespace {
 
 // The assumed rounding error of the points, relative to their largest distance from the origin. It is much larger than
-// the rounding error of a double, because a construction multiplies the rounding errors of the polytopes that it uses
-// by a small factor, and constructions may be nested.
+// the rounding error of a double, because each construction increases the rounding errors of the polytopes that it
+// uses, and constructions may be nested.
 constexpr double kRounding = 1e-12;
 
 Hull hullOf(std::span<const glm::dvec4> points) {

@@ -17,8 +17,9 @@ namespace oval4d::polytopes {
 /// The maximum total number of points of all convex hulls that are computed to build one polytope.
 inline constexpr std::uint64_t kMaxHullPoints = 20'000;
 
-/// The maximum number of sides of a 2-face of a polytope from which a hull is constructed. In polygons with more sides,
-/// the vertices deviate so little from the lines through their neighbors that rounding errors become significant.
+/// The maximum number of sides of a 2-face, in a polytope from which a construction computes the points of a hull. In a
+/// polygon with more sides, each vertex lies so close to the line through its two neighbors that rounding errors
+/// matter.
 inline constexpr std::size_t kMaxHullSides = 1000;
 
 /// The maximum number of cells of a hull.
@@ -43,9 +44,9 @@ Polytope centeredHull(std::string name, std::span<const glm::dvec4> points);
 /// Returns the polytope, moved such that the mean of its vertices is the origin.
 Polytope centered(Polytope polytope);
 
-/// Builds a polytope from which the caller constructs another one by a convex hull. Throws std::invalid_argument if the
-/// polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides. Also throws the exceptions of
-/// build().
+/// Builds a polytope from which the caller computes the points of the convex hull for another polytope. Throws
+/// std::invalid_argument if the polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides.
+/// Also throws the exceptions of build().
 Polytope buildRequiringConvex(const Design& design);
 
 }  // namespace oval4d::polytopes

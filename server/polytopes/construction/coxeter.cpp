@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kPhi = std::numbers::phi;
 
-// A diagram that is a chain with the branches p, q and r, and its mirrors, placed such that its polytopes have the
-// coordinates in common use.
+// The branches p, q and r of a diagram that is a chain, and mirrors that meet at the angles of this diagram. The
+// mirrors are placed such that the polytopes of the diagram have the coordinates in common use.
 struct DiagramWithMirrors {
     std::array<Branch, 3> branches;
     Mirrors mirrors;
@@ -35,7 +35,8 @@ Mirrors normalized(Mirrors mirrors) {
 
 const std::array<DiagramWithMirrors, 4>& placedFamilies() {
     static const std::array<DiagramWithMirrors, 4> kPlaced = [] {
-        // The vertices of the 5-cell of Kageyama's paper. Mirror i swaps the vertices i and i + 1.
+        // The vertices of the 5-cell in Kageyama's paper, which README.md names. The reflection in mirror i swaps
+        // vertex i and vertex i + 1.
         const double y = 1 / std::sqrt(3.0);
         const double z = -1 / std::sqrt(6.0);
         const double w = -1 / std::sqrt(10.0);
@@ -57,8 +58,8 @@ const std::array<DiagramWithMirrors, 4>& placedFamilies() {
     return kPlaced;
 }
 
-// Returns mirrors that meet at the diagram's angles. The angles determine the Gram matrix of the mirrors' normals; the
-// normals are the rows of its Cholesky factor.
+// Returns mirrors that meet at the diagram's angles. The angles determine the Gram matrix of the unit normals of the
+// mirrors; the rows of the Cholesky factor of this matrix are such normals.
 Mirrors placedByAngles(const Diagram& diagram) {
     Mirrors mirrors{};
     for (int i = 0; i < kMirrors; ++i) {
@@ -111,8 +112,8 @@ class SetOrbits {
     geometry::JaggedArray lists;
     ReflectionImages images;
 
-    /// Adds the orbit of `seed` and returns the number of the seed; std::nullopt if an earlier orbit contains the seed.
-    /// `memberImages` has the images of the members of the sets under the reflections.
+    /// Adds the orbit of `seed` to `lists`, and returns the index of `seed` there; std::nullopt if an orbit added
+    /// before contains `seed`. `memberImages` holds the images, under the reflections, of all members of sets.
     std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed,
                                           const ReflectionImages& memberImages) {
         const auto first = static_cast<std::uint32_t>(lists.size());
@@ -149,9 +150,10 @@ class SetOrbits {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> known_;
 };
 
-// Returns the vertex loop of the polygon that mirrors a and b generate from the generating vertex p (vertex 0). Its
-// vertices are the images of p and of a·p under the powers of the rotation ab. If only one of the two mirrors is
-// ringed, p and a·p have the same images.
+// Returns the vertex loop of the polygon that mirrors a and b generate from the generating vertex p (vertex 0). Let a·p
+// be the reflection of p in mirror a, and ab the rotation that is the product of both reflections. The vertices of the
+// polygon are the images of p and of a·p under the powers of ab. If only one of the two mirrors is ringed, p and a·p
+// have the same images.
 std::vector<std::uint32_t> polygon(const ReflectionImages& images, std::uint32_t a, std::uint32_t b) {
     const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
     if (image(0, a) == 0) std::swap(a, b);

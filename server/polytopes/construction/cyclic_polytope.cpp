@@ -29,8 +29,8 @@ namespace {
 // Returns the number of cells of the cyclic polytope with n vertices.
 constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
 
-// The number of cells grows with the square of the number of vertices, so the general limit of vertices would allow
-// billions of cells. This limit allows as many cells as a hull may have (kMaxHullCells).
+// The maximum follows from the number of cells, which grows with the square of the number of vertices: there are no
+// more cells than a hull may have (kMaxHullCells).
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);

@@ -66,8 +66,8 @@ class SnubPrism : public Recipe {
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // Twice rotations(), because the prism has a mirror between its bases; four times rotations() for an antiprism,
-    // because the antiprism also has symmetries that are not rotations.
+    // The order is twice rotations(), because the prism has a mirror between its bases. Over an antiprism, it is four
+    // times rotations(), because the antiprism itself has as many other symmetries as rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
         // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is
@@ -90,8 +90,8 @@ class SnubPrism : public Recipe {
 
 std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
 
-// Returns the designs that have a name of their own, by canonical diagram. A design with several diagrams has an entry
-// for each of them.
+// Returns the designs that have a name of their own, with the canonical diagram as the key. A design with several
+// diagrams has an entry for each of them.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;

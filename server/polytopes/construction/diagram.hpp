@@ -50,17 +50,17 @@ Diagram permuted(const Diagram& diagram, const Permutation& from);
 /// symmetry of the polytope.
 std::vector<Permutation> automorphismsOf(const Diagram& diagram);
 
-/// Returns the canonical form of a diagram, which is the same for all diagrams that differ only in the order of their
-/// mirrors.
+/// Returns the canonical form of a diagram. Diagrams that differ only in the order of their mirrors have the same
+/// canonical form.
 Diagram canonical(const Diagram& diagram);
 
 /// Returns the connected components of the mirrors in `set` (by default, of the whole diagram), in ascending order of
 /// their smallest mirror numbers.
 std::vector<MirrorSet> componentsOf(const Diagram& diagram, MirrorSet set = 0xf);
 
-/// Returns whether every connected component of `set` contains a ringed mirror. If so, the images of the generating
-/// vertex under the group of these n mirrors are the vertices of an n-dimensional element of the polytope. Otherwise,
-/// these images span less than n dimensions.
+/// Returns whether every connected component of `set` contains a ringed mirror. Let n be the number of mirrors in
+/// `set`. If the result is true, the images of the generating vertex under the group of these mirrors are the vertices
+/// of an n-dimensional element of the polytope. If it is false, these images span fewer than n dimensions.
 bool generatesElement(const Diagram& diagram, MirrorSet set);
 
 /// Returns the order of the Coxeter group that the mirrors of `set` generate; 0 if the group is not finite. Also

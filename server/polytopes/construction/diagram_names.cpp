@@ -121,8 +121,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // Skips operations that leave the first node without a ring, except rectification and bitruncation. The
-            // result of a skipped operation has another name, as an operation on the dual.
+            // Skip operations that leave the first node without a ring, except rectification and bitruncation. Their
+            // results are usually named as operations on the dual instead.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

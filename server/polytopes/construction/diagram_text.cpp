@@ -209,8 +209,9 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
             builder.add(builder.nodes - first < kMirrors && holds(*rings, builder.nodes - first));
             builder.join(builder.nodes - 2, builder.nodes - 1, *branch);
         }
-        // A prefix can ring only the nodes 0 to 3, which every symbol of four or more nodes has. (A shift by 32 or more
-        // would be undefined.)
+        // Check that the symbol has all nodes that its prefix rings. A prefix can ring only the nodes 0 to 3, so a
+        // symbol of four or more nodes needs no check. It must not be checked, because a shift by 32 or more is
+        // undefined.
         if (const int own = builder.nodes - first; own < kMirrors && (*rings >> static_cast<unsigned>(own)) != 0) {
             return NameError::impossible(
                 "the numbers before { must be node numbers, from 0 to the last node of the symbol");

@@ -30,7 +30,7 @@ struct NameError {
 /// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; after "*b", the next
 /// branch starts at the second node, as in "x3o3o *b3o". Returns an error if the text has another form, if there are
 /// not four nodes, if the group is not finite, if a component has no ringed node, or if a branch with an even
-/// denominator joins two ringed nodes; its polygons would cover themselves twice.
+/// denominator joins two ringed nodes, because the polygons of such a branch would cover themselves twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",

@@ -115,9 +115,10 @@ Polytope buildSnub24Cell(std::string name) {
 }
 
 Polytope buildGrandAntiprism(std::string name) {
-    // Two neighboring vertices and the center span the plane of a decagon of edges; the second decagon lies in the
-    // completely orthogonal plane. `part` is the length of the projection of a vertex to the plane of the first
-    // decagon, in circumradii: 1 for a vertex of the first decagon, 0 for a vertex of the second.
+    // Two neighboring vertices and the center span the plane of the first decagon, whose sides are edges of the
+    // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the length of the projection of a
+    // vertex to the plane of the first decagon, in circumradii: 1 for a vertex of the first decagon, 0 for a vertex of
+    // the second.
     const Polytope whole = sixHundredCell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];
@@ -159,13 +160,13 @@ class Diminished600CellRecipe : public Recipe {
 
 }  // namespace
 
-// Cells: 600 − 24 · 20 tetrahedra and 24 icosahedra.
+// The 144 cells are 600 − 24 · 20 tetrahedra and 24 icosahedra.
 Design snub24Cell() {
     return {"snub 24-cell", std::make_shared<Diminished600CellRecipe>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o",
                                                                       "s{3,4,3}", buildSnub24Cell)};
 }
 
-// Cells: 20 antiprisms and 300 tetrahedra.
+// The 320 cells are 20 antiprisms and 300 tetrahedra.
 Design grandAntiprism() {
     return {"grand antiprism", std::make_shared<Diminished600CellRecipe>(ElementCounts{100, 500, 720, 320}, 400, "", "",
                                                                          buildGrandAntiprism)};

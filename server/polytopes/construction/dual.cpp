@@ -19,9 +19,9 @@ namespace {
 
 /// Returns the point nearest to the origin in the hyperplane of a cell.
 glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
-    // Starts at a vertex and removes the components along three orthonormal directions in the hyperplane. The
-    // Gram–Schmidt process finds the directions from differences of vertices; for accuracy, each direction is that of
-    // the longest remainder.
+    // Start at a vertex, and remove the components along three orthonormal directions in the hyperplane. The
+    // Gram–Schmidt process computes these directions from the differences of vertices; for accuracy, it always takes
+    // the longest remainder as the next direction.
     std::vector<glm::dvec4> points;
     for (const std::uint32_t f : polytope.cells[cell]) {
         for (const std::uint32_t v : polytope.faces[f]) points.push_back(polytope.vertices[v]);

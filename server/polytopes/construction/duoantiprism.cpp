@@ -27,19 +27,21 @@ namespace {
 // Returns point `index` of 2n points at equal distances on a circle around the origin. Every other point is a vertex of
 // a regular n-gon of edge length 2.
 //
-// The resulting radii of the two circles make the edges of a duoantiprism as equal as possible. With any radii, let a
-// and b be the edge lengths of the p-gons and the q-gons, and c the length of the other edges. The two ends of such an
-// edge have neighboring points on the first circle, and neighboring points on the second. Therefore c² = (a /
-// 2cos(π/2p))² + (b / 2cos(π/2q))². The coefficients of a² and b² are at most 1/2, and both are 1/2 only for p = q = 2.
-// Hence all lengths can be equal only for p = q = 2; otherwise c is less than the larger of a and b, and max(a, b) /
-// min(a, b, c) is least for a = b.
+// A duoantiprism has its vertices on two such circles, with n = p and n = q. Their radii make its edges as equal as
+// possible. Proof: for any radii, let a and b be the edge lengths of the p-gons and the q-gons, and c the length of the
+// other edges. The two ends of an edge of length c project to neighboring points on either circle.
+//
+// Therefore c² = (a / 2cos(π/2p))² + (b / 2cos(π/2q))². The coefficients of a² and b² are at most 1/2, and both are 1/2
+// only for p = q = 2. Hence all lengths can be equal only for p = q = 2; otherwise c is less than the larger of a and
+// b, and max(a, b) / min(a, b, c) is least for a = b.
 glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     const double angle = std::numbers::pi / n;
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
 }
 
-/// A duoantiprism other than the 16-cell. The vertices of the duoprism are the pairs (i, j) of one of 2p points on a
-/// circle in the xy plane and one of 2q points on a circle in the zw plane; those with an even sum i + j remain.
+/// A duoantiprism other than the 16-cell. A vertex of the duoprism of a 2p-gon and a 2q-gon is a pair (i, j): point i
+/// of 2p points on a circle in the xy plane, and point j of 2q points on a circle in the zw plane. The vertices of the
+/// duoantiprism are those with an even sum i + j.
 class Duoantiprism : public Recipe {
   public:
     /// p must be at least 2, and q at least 3 and not less than p.
@@ -51,8 +53,8 @@ class Duoantiprism : public Recipe {
         return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
     }
     // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of the first
-    // group and one of the second; half of these pairs map the remaining vertices to each other. If p = q, there are as
-    // many symmetries that exchange the two planes.
+    // group and one of the second; half of these pairs map the vertices of the duoantiprism to each other. If p = q,
+    // there are equally many further symmetries, which exchange the two planes.
     std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {

@@ -24,7 +24,7 @@ using DesignOrError = std::variant<Design, NameError>;
 using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
 /// A text that may name a polytope, split into lower-case words (at least one), and the function that looks up names of
-/// other polytopes within the text. The referenced objects must outlive it.
+/// other polytopes within the text. Both must outlive this object.
 struct NameWords {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;
@@ -35,7 +35,8 @@ struct NameWords {
     std::vector<std::string> withoutLast() const { return {words.begin(), words.end() - 1}; }
 };
 
-/// A notation. The first three texts are Markdown, of which tests/lint --fix makes a row of protocol/README.md.
+/// A notation. `polytopes`, `examples` and `edges` are Markdown texts; `tests/lint --fix` copies them to a row of a
+/// table in protocol/README.md.
 struct Notation {
     std::string_view polytopes;  ///< which polytopes have names in the notation, such as "a duoprism"
     std::string_view examples;   ///< names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
@@ -61,8 +62,8 @@ extern const Notation kCyclicPolytopeNotation;             // defined in cyclic_
 extern const Notation kPrismNotation;                      // defined in prism_names.cpp
 extern const Notation kOperationNotation;                  // defined in diagram_names.cpp
 
-/// All notations, in the order in which they are tried. The first one that returns a design, or an error with a
-/// message, gives the result.
+/// All notations, in the order in which they are tried. The result is that of the first notation that returns a design,
+/// or an error other than NameError::Reason::unknown without a message.
 inline constexpr auto kNotations = std::to_array<const Notation*>({
     &kDualNotation,
     &kOverPolyhedronNotation,

@@ -52,8 +52,8 @@ class PrismOrPyramid : public Recipe {
         SolidMesh base = meshOf(solid_);
         if (over_ == PrismOrPyramidKind::prism) {
             // The base is the dual of a uniform polyhedron, because overPolyhedron() makes prisms over uniform
-            // polyhedra by uniformPrismOver(). The symmetry group of such a dual is transitive on faces, so all faces
-            // are in one orbit.
+            // polyhedra by uniformPrismOver(). The symmetries of such a dual map each of its faces to each other face,
+            // so all faces are in one orbit.
             const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }

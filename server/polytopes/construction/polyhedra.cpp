@@ -60,9 +60,9 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
     {{5, 2}, "pentagrammic", "pentagram"},
 });
 
-// Returns the shape of the base of a prism. In the prism's diagram, the first three mirrors are the mirrors of the
-// base. The faces of the base are counted as the elements that pairs of these mirrors generate. The circumradius of the
-// base is the distance of the generating vertex from the center of the base.
+// Returns the shape of the base of a prism. The first three mirrors of the prism's diagram are those of the base. Each
+// pair of these mirrors that generates an element of the prism generates faces of the base; group orders give their
+// number. The circumradius of the base is the distance of the generating vertex from the center of the base.
 PolyhedronSignature shapeOf(const Diagram& prism) {
     PolyhedronSignature shape;
     const MirrorSet solid = 0x7;

@@ -63,7 +63,7 @@ std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
         const std::string own(base.linearNotation);
         if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismOf(base);
     }
-    if (wanted == "s3s3sx" || wanted == "xs3s3s") return prismOf(namedPolyhedra()[4]);  // its base is the icosahedron
+    if (wanted == "s3s3sx" || wanted == "xs3s3s") return prismOf(namedPolyhedra()[4]);  // s3s3s is the icosahedron
     for (const auto& [before, after] : {std::pair{"s2s", "sx"}, {"xs2s", "s"}}) {
         const std::string_view start(before);
         const std::string_view end(after);

@@ -10,8 +10,8 @@ namespace oval4d::polytopes {
 
 struct Polytope;
 
-/// Builds one polytope on request; also returns properties of the polytope, which it computes without building it.
-/// There is a derived class for each family of polytopes.
+/// Builds one polytope on request. Also returns properties of the polytope, without building the polytope. There is a
+/// derived class for each family of polytopes.
 class Recipe {
   public:
     virtual ~Recipe() = default;

@@ -15,8 +15,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// The unit normals of three mirrors that meet at the angles π/p, π/q and π/2, and the rotations of order p and q: the
-// products of the reflections in the first two and in the last two mirrors.
+// The unit normals of three mirrors that meet at the angles π/p, π/q and π/2, and two rotations: rotationP, of order p,
+// is the product of the reflections in the first two mirrors; rotationQ, of order q, is that of the reflections in the
+// last two.
 struct TriangleGroupGenerators {
     std::array<glm::dvec3, 3> mirrorNormals;
     glm::dmat3 rotationP, rotationQ;

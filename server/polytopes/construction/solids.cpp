@@ -63,7 +63,7 @@ Solid canonical(Solid solid) {
     return other == nullptr ? solid : Solid{other};
 }
 
-// A family of solids over polygons, with the last word of their names.
+// A family of solids over polygons: the last word of their names, and the values of Solid::antiprism and Solid::dual.
 struct PolygonFamily {
     std::string_view word;
     bool antiprism, dual;
@@ -114,14 +114,15 @@ SolidMesh baseOf(const NamedPolyhedron& polyhedron) {
     return base;
 }
 
-// Returns the dual of a convex polyhedron, with the same circumradius. The vertices of the dual are the poles of the
-// planes of the base's faces; each face of the dual is the loop of the base's faces around a vertex.
+// Returns the dual of a convex polyhedron, with the same circumradius. The vertices of the dual are multiples of the
+// poles of the planes of the base's faces (the pole of the plane n · x = 1 is n); each face of the dual is the loop of
+// the base's faces around a vertex.
 SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // Makes all loops counterclockwise, seen from outside. Each directed edge is then a part of exactly one loop. For
-    // each directed edge, `corners` holds the face with this loop, and the vertex that precedes the edge in the loop.
+    // Make all loops counterclockwise, seen from outside. Each directed edge then occurs in exactly one loop. For each
+    // directed edge, `corners` holds the face to which this loop belongs, and the vertex before the edge in the loop.
     struct FaceCorner {
         std::uint32_t face, before;
     };

@@ -49,11 +49,10 @@ struct SolidMesh {
     geometry::JaggedArray faces;       ///< the vertex loop of each face; the directions of the loops are arbitrary
 };
 
-/// Builds the solid. Its edge length or circumradius is as stated at Solid.
+/// Builds the solid with the edge length or circumradius that the comment of Solid states.
 SolidMesh meshOf(const Solid& solid);
 
-/// Returns the design of the uniform prism over a solid. The caller must ensure that solid.dual is false; the function
-/// does not read it.
+/// Returns the design of the uniform prism over a solid. The caller must ensure that solid.dual is false.
 Design uniformPrismOver(const Solid& solid);
 
 }  // namespace oval4d::polytopes

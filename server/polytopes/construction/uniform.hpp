@@ -6,7 +6,7 @@
 
 namespace oval4d::polytopes {
 
-/// A uniform polychoron (4-D polytope) with its names and diagrams.
+/// The names and diagrams of a uniform polychoron (4-D polytope).
 struct UniformPolychoron {
     std::string_view family;  ///< one of "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4"
     std::string_view name;    ///< such as "truncated tesseract"

@@ -13,11 +13,11 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kErrorBounds = 2;  // the tolerance is the error bound of the point plus that of the hull
+constexpr double kErrorBounds = 2;  // the tolerance is two equal error bounds: of the point, and of the hull
 constexpr int kMaxIterations = 64;  // a safeguard: usually, a few iterations suffice
 
-// A vertex of the current simplex, which contains the nearest point found so far, and the barycentric weight of the
-// vertex in this point.
+// A vertex of the current simplex, and its weight. The weights of all vertices are the barycentric coordinates of the
+// nearest point found so far, which lies in the simplex.
 struct WeightedVertex {
     glm::dvec4 position;
     double weight;
@@ -61,8 +61,9 @@ glm::dvec4 weightedSum(const std::vector<WeightedVertex>& vertices) {
     return sum;
 }
 
-// Sets the weights to those of the simplex's point nearest to the origin, and removes the vertices whose weight becomes
-// 0. Returns false if the vertices become affinely dependent.
+// Moves the weighted sum of the vertices to the point of their simplex that is nearest to the origin: sets the weights
+// to the barycentric coordinates of this point, and removes the vertices whose weight becomes 0. Returns false if the
+// vertices become affinely dependent.
 bool moveToNearest(std::vector<WeightedVertex>& vertices) {
     std::array<double, 5> goal{};
     while (nearestWeights(vertices, goal)) {

@@ -76,8 +76,8 @@ class Merger {
         Triangle corners;
     };
 
-    // Finds a sign for each simplex such that all are oriented coherently. The sign +1 means the orientation given by
-    // the ascending order of the vertices.
+    // Sets signs_ such that all simplices, with these signs, are oriented coherently. The sign +1 means the orientation
+    // given by the ascending order of the vertices.
     void orient() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;
@@ -119,8 +119,8 @@ class Merger {
     }
 
     // Returns the simplices that can be reached from `seed` through accepted neighbors, and sets their mark_ to
-    // latestMark_. The arguments of `accepts` are a neighbor and the one vertex of this neighbor that does not belong
-    // to the current simplex.
+    // latestMark_. accepts(t, v) returns whether simplex t may join the group; v is the one vertex of t that does not
+    // belong to the simplex from which t is reached.
     template <typename Accepts>
     std::vector<std::uint32_t> grow(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
@@ -163,8 +163,8 @@ class Merger {
         if (group.size() > 1) group = {seed};
     }
 
-    // Returns the simplices, in ascending order, whose removal may make the group convex; an empty list if the group is
-    // convex. Sorts the group.
+    // Returns the simplices of the group, without the seed and in ascending order, whose removal may make the group
+    // convex; an empty list if the group is convex. Sorts the group.
     std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const Hyperplane& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
@@ -230,9 +230,10 @@ class Merger {
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
         struct HeightAboveNeighbor {
-            glm::dvec3 normal;  // the outward normal of the triangle `from` (see heightFrom)
-            // For the corner of `to` that is not on the common edge: its height above the plane of `from` (outward is
-            // positive), the uncertainty of the height, and the distance of the corner from the line of the edge.
+            glm::dvec3 normal;  // the outward unit normal of the triangle `from`, an argument of heightFrom()
+            // For the corner of the triangle `to` that is not on the common edge: its height above the plane of `from`
+            // (outward is positive), the uncertainty of this height, and the distance of the corner from the line
+            // through the edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto heightFrom = [&](const BoundaryTriangle& from, const BoundaryTriangle& to) {

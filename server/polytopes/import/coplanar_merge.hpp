@@ -17,12 +17,12 @@ namespace oval4d::polytopes {
 /// A facet (a tetrahedron) of a four-dimensional convex hull whose facets are all simplices.
 struct SimplexFacet {
     std::array<std::uint32_t, 4> vertices;   ///< indices of points, in ascending order
-    std::array<std::uint32_t, 4> neighbors;  ///< neighbor i shares the 2-face opposite vertex i
+    std::array<std::uint32_t, 4> neighbors;  ///< indices of facets; neighbor i shares the 2-face opposite vertex i
 };
 
 /// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
-    geometry::JaggedArray faces, cells;  ///< vertex loops, and lists of 2-faces, as for makePolytope()
+    geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
     /// The number of pairs of neighboring cells that were not merged, but would lie in one hyperplane if the error
     /// bounds were three times as large. It is uncertain whether such cells are really separate.
     std::size_t ambiguousCellPairs = 0;
@@ -30,8 +30,8 @@ struct MergedHull {
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the error bounds of the points
 /// (HullFrame::errorBound()), and merges the triangles between two cells into one 2-face. If a merged cell would not be
-/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary; then the resulting
-/// cells form a closed boundary, too. `points` are in the coordinates of `frame`.
+/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary. The resulting cells
+/// also form a closed boundary. `points` are in the coordinates of `frame`.
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

@@ -46,8 +46,8 @@ class Flat {
     /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
     const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
 
-    /// Returns the coordinates of the flat's point nearest to p, along the axes of the flat and relative to its first
-    /// corner.
+    /// Projects p onto the flat. Returns the coordinates of the projection along the axes of the flat; the first corner
+    /// is the origin of these coordinates.
     std::array<double, Dimension> project(const glm::dvec4& p) const {
         glm::dvec4 rest = p - origin_;
         std::array<double, Dimension> along;
@@ -74,7 +74,8 @@ class Flat {
     }
 
     /// Returns whether p lies in the flat, within `factor` times the sum of two error bounds: that of p
-    /// (HullFrame::errorBound()) and that of the flat, extrapolated to p.
+    /// (HullFrame::errorBound()) and that of the flat at p, which is cornerErrorFactor() times as large, but at most 16
+    /// times.
     bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
         glm::dvec4 rest = p - origin_;
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
@@ -121,11 +122,12 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
     return chosen;
 }
 
-/// Grows a group of simplices that lie in one flat. At first, `flat` is the flat through the corners `own` of one of
-/// the simplices. A larger simplex determines a flat more precisely. Therefore, if vertices of the group span a larger
-/// simplex whose flat still contains `own`, replaces `flat` by the flat of this simplex and grows the group again;
-/// repeats this a few times. grow(flat) returns the group in a flat, and verticesOf(group) returns the vertices of a
-/// group. Returns the final group; `flat` is then its flat.
+/// Grows a group of simplices (triangles or tetrahedra) that lie in one flat. The caller must set `flat` to the flat
+/// through the corners `own` of one of the simplices. A larger simplex determines a flat more precisely. Therefore, if
+/// vertices of the group span a larger simplex whose flat also contains `own`, replaces `flat` by the flat of this
+/// simplex, and grows the group again. Repeats this up to four times. grow(flat) returns the group in a flat, and
+/// verticesOf(group) returns the vertices of a group. Returns the final group, and leaves the flat of this group in
+/// `flat`.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>
 std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
                                         std::span<const glm::dvec4> points, const HullFrame& frame) {

@@ -42,17 +42,17 @@ constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equatio
 // next round multiplies the tolerance by kTighter, down to kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// A set of points that are moved into one hyperplane, and the hyperplane that fits the points best, which contains the
-// mean of the points. The vertices of each cell of more than four vertices are such a set. The vertices of a 2-face are
-// such a set, too, if the hyperplanes of its two cells are nearly parallel, because such hyperplanes do not determine
-// the plane of the 2-face. The hyperplane of a 2-face is perpendicular to the hyperplane of `cell`, one of its two
-// cells.
+// A set of vertices to be moved into one hyperplane, and the hyperplane that fits them best, which contains their mean.
+// There are two kinds of such sets: the vertices of a cell, if there are more than four; and the vertices of a 2-face,
+// if there are more than three and the hyperplanes of its two cells are nearly parallel. Such hyperplanes do not
+// determine the plane of the 2-face. Therefore the 2-face is also moved into a third hyperplane, which is perpendicular
+// to the hyperplane of `cell`, one of the two cells.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`
     glm::dvec4 middle{0}, normal{0};
-    double radius = 0;     // the largest distance of a point from the middle
-    double deviation = 0;  // the largest distance of a point from the hyperplane
+    double radius = 0;     // the largest distance of a vertex from `middle`
+    double deviation = 0;  // the largest distance of a vertex from the hyperplane
 };
 
 // The changes in one round of Newton's method: `moves` holds the move of each vertex; for each flat, `tilts` holds the
@@ -209,7 +209,8 @@ class Flattener {
     }
 
     // Fits the hyperplane of a FittedFlat to the points of the flat: first to a few points that are far apart, then to
-    // all points by least squares. The least-squares step changes little, so its rounding errors are small.
+    // all points by least squares. The second fit changes the hyperplane only a little, so it adds only small rounding
+    // errors.
     void fit(std::uint32_t i) {
         FittedFlat& flat = flats_[i];
         const auto corners = corners_[i];
@@ -269,7 +270,8 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the product of the Jacobian and `change`: the change of each of the distances_ to the first order.
+    // Sets `out` to the product of the Jacobian and `change`. Element k is, to the first order, the change of
+    // distances_[k].
     void multiplyByJacobian(const Unknowns& change, std::vector<double>& out) const {
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
@@ -328,7 +330,7 @@ class Flattener {
     std::vector<FittedFlat> flats_;
     std::vector<std::uint32_t> flatOfCell_;  // per cell: its flat; kNone for a cell of at most four vertices
     geometry::JaggedArray corners_;          // the vertices of each flat
-    std::vector<glm::dvec4> offsets_;        // per corner: its offset from the middle of the flat, in radii
+    std::vector<glm::dvec4> offsets_;        // per corner: its offset from FittedFlat::middle, divided by the radius
     std::vector<double> distances_;          // per corner: its signed distance from the hyperplane
     std::vector<glm::dvec4> rest_;
     std::uint32_t farthest_ = kNone;  // the flat with the largest deviation

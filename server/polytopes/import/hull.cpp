@@ -29,8 +29,8 @@ namespace {
 
 constexpr int kDimensions = 4;
 constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
-constexpr double kPerturbation = 1e-11;          // its initial amplitude, relative to the extent of the points
-constexpr std::size_t kMaxSimplicesPerCell = 4;  // a hull may have this many times maxCells simplices
+constexpr double kPerturbation = 1e-11;          // the initial amplitude, in the coordinates of HullFrame
+constexpr std::size_t kMaxSimplicesPerCell = 4;  // times maxCells: the maximum number of simplices of a hull
 constexpr int kMaxRounds = 4;                // the maximum number of rounds that remove points that are not vertices
 constexpr std::size_t kMessageBytes = 4096;  // the size of the stream that takes and discards Qhull's messages
 
@@ -211,9 +211,10 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    // Merge points that may differ only by errors. `places` has the merged points.
+    // Merge points that may differ only by errors. `places` holds one point of each merged group, in the coordinates of
+    // `frame`.
     Points places;
-    std::vector<std::uint32_t> numbers;  // per element of `places`: the index of its first point
+    std::vector<std::uint32_t> numbers;  // per element of `places`: its index in `points`
     geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
         if (index.findOrAdd(frame(points[i]), places).second) numbers.push_back(i);

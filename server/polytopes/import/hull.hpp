@@ -14,7 +14,7 @@ namespace oval4d::polytopes {
 /// A convex hull, as computed by convexHull().
 struct Hull {
     std::vector<glm::dvec4> vertices;    ///< the points that are vertices of the hull, in the order of the input
-    geometry::JaggedArray faces, cells;  ///< vertex loops, and lists of 2-faces, as for makePolytope()
+    geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
     std::size_t ambiguousCellPairs = 0;  ///< see MergedHull::ambiguousCellPairs
     glm::dvec4 rounding{0};              ///< the parameter `rounding` of convexHull()
 };

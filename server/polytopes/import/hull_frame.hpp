@@ -9,8 +9,8 @@
 namespace oval4d::polytopes {
 
 /// An affine map to coordinates in which a set of points has an extent of about 1 along each axis. Affine maps preserve
-/// convex hulls. Computed in these coordinates, a hull does not depend on the position, scale, rotation and flatness of
-/// the set of points.
+/// convex hulls. A hull that is computed in these coordinates does not depend on where the points lie, or on how large,
+/// rotated or flat the set of points is.
 ///
 /// The frame also bounds the errors of the points: the distances by which the rounding of their coordinates,
 /// floating-point errors and a random perturbation may have moved them.
@@ -39,7 +39,7 @@ class HullFrame {
     glm::dvec4 origin_{0}, rounding_;
     glm::dmat4 axes_{0};        // the axes of the frame: orthonormal vectors
     glm::dvec4 extents_{1};     // the extents of the points along the axes
-    glm::dvec4 arithmetic_{0};  // the floating-point errors of coordinates in the frame
+    glm::dvec4 arithmetic_{0};  // per axis: the maximum floating-point error of a coordinate
     double perturbation_ = 0;
 };
 

@@ -60,8 +60,9 @@ glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering
     return center;
 }
 
-// Makes the cells flat, and appends warnings of what has changed. Does not warn of moves by at most `rounding`, or by a
-// tiny fraction of the size of the polytope. Returns whether cells or 2-faces were divided.
+// Makes the cells and 2-faces flat by flatten(), and appends to `warnings` what flatten() has changed. Does not warn of
+// moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether cells or 2-faces were
+// divided.
 bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
@@ -139,13 +140,14 @@ ImportedPolytope importOff4(std::string_view text, const std::string& name, cons
 }
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
-// numbers of few decimals, are normally treated as exact. They are treated as rounded if the hull that allows for
+// numbers of few decimals, are normally treated as exact. They are treated as rounded only if the hull that allows for
 // rounding errors has no ambiguous cell pairs (see MergedHull), and at most half as many cells as the hull of the exact
 // points. Both conditions hold for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
     // If `size` is less than this many units of the last digit, rounding by half a unit exceeds the distance by which
-    // makeFlat() may move a vertex. Rounded cells might then remain uneven; therefore the coordinates count as exact.
+    // makeFlat() may move a vertex. Cells with such rounding errors might remain uneven, so the coordinates count as
+    // exact.
     constexpr double kMinUnits = 0.5 / kFlatnessTolerance;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();

@@ -53,10 +53,10 @@ struct ImportedPolytope {
 /// become one cell, and the vertices are moved so that the cells are exactly flat. There is a warning only if a vertex
 /// is moved by much more than this precision.
 ///
-/// `centering` chooses the point of the file that becomes the origin; Polytope::originInFile stores it. Apart from this
-/// shift, vertices that need not be moved keep the coordinates of the file. Memory use is bounded by the
-/// length of the text and by the limits: a short text cannot cause large allocations by stating large numbers of
-/// elements.
+/// `centering` chooses the point, in the coordinates of the file, that becomes the origin; Polytope::originInFile
+/// stores this point. Apart from this shift, vertices that need not be moved keep the coordinates of the file. Memory
+/// use is bounded by the length of the text and by the limits: a short text cannot cause large allocations by stating
+/// large numbers of elements.
 std::variant<ImportedPolytope, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
                                                          const ImportLimits& limits,
                                                          const geometry::Centering& centering = {});

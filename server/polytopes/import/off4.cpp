@@ -139,7 +139,8 @@ struct SizeRange {
 };
 
 // Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number within
-// `sizes`, followed by this number of indices that are less than `below`.
+// `sizes`, followed by that many indices, each less than `below`. Error messages call record i `what` i, and an element
+// of its list `member`.
 void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
                const std::string& what, const SingularAndPlural& member, geometry::JaggedArray& lists,
                std::vector<PolygonSoup::SourcePosition>& positions) {
@@ -180,8 +181,8 @@ using RecordLayouts = std::array<RecordLayout, 3>;
 PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
-    // The greatest sizes bound memory. If there are cells, a loop may pass through a vertex more than once; repair()
-    // splits such a loop there.
+    // The greatest sizes limit the use of memory. If there are cells, a loop may have more corners than there are
+    // vertices, because it may pass through a vertex more than once; repair() splits such a loop there.
     const std::size_t mostCorners = std::size_t{header.vertices} * (header.cells > 0 ? 2 : 1);
     readLists(file, layouts[1], header.faces, header.vertices, {3, mostCorners}, "2-face", {"vertex", "vertices"},
               soup.faces, soup.faceSourcePositions);

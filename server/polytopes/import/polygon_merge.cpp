@@ -62,7 +62,8 @@ std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std:
     return loop;
 }
 
-// Returns whether a loop in a plane turns the same way at all corners, within their error bounds.
+// Returns whether the polygon with this vertex loop, which lies in `plane`, turns the same way at all corners, within
+// the error bounds of the corners.
 bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& plane, std::span<const glm::dvec4> points,
               const HullFrame& frame) {
     std::vector<glm::dvec2> places;

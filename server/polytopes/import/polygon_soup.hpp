@@ -18,11 +18,11 @@ struct PolygonSoup {
     /// The position of an element in the file.
     struct SourcePosition {
         std::size_t line = 0;      ///< the number of the line, counted from 1
-        std::uint32_t number = 0;  ///< its index among the 2-faces, or among the cells, of the file; from 0
+        std::uint32_t number = 0;  ///< the index of the 2-face or cell in the file, counted from 0
     };
 
     std::vector<glm::dvec4> vertices;
-    geometry::JaggedArray faces, cells;  ///< vertex loops and lists of 2-faces, as in Polytope
+    geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
     /// Parallel to `faces` and `cells`, or empty for a polytope that is not from a 4OFF file.
     std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;
 };

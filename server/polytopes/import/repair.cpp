@@ -22,9 +22,9 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// Groups the points: points within `distance` of each other are in one group, and so are points that a chain of such
-// points joins. Returns, for each point, the point with the least index in its group. Sorts the points by their
-// projections onto a line, so that only points with close projections are compared.
+// Groups the points: two points are in one group if they are within `distance` of each other, or if they are joined by
+// a chain of points, each within `distance` of the next. Returns, for each point, the point with the least index in its
+// group. Sorts the points by their projections onto a line, so that only points with close projections are compared.
 std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -34,8 +34,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     for (const auto& p : points) place.push_back(glm::dot(p, along));
     std::sort(order.begin(), order.end(),
               [&](auto a, auto b) { return std::pair(place[a], a) < std::pair(place[b], b); });
-    // A union–find structure. A root is joined only to a root with a lesser index, so the root of a group is its point
-    // with the least index.
+    // A union–find structure. first[v] is the parent of v. A root is joined only to a root with a lesser index, so the
+    // root of a group is the point with the least index in the group.
     std::vector<std::uint32_t> first(points.size());
     std::iota(first.begin(), first.end(), 0U);
     const auto rootOf = [&](std::uint32_t v) {
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     };
     for (std::size_t i = 0; i < order.size(); ++i) {
         const glm::dvec4& point = points[order[i]];
-        // If the previous point is equal, it has already been compared with all that follow.
+        // If the previous point in this order is equal, it has already been compared with all points that follow.
         if (i > 0 && point == points[order[i - 1]]) continue;
         for (std::size_t j = i + 1; j < order.size() && place[order[j]] - place[order[i]] <= distance; ++j) {
             if (glm::distance(point, points[order[j]]) > distance) continue;
@@ -258,7 +258,8 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    // The numbers of merged vertices and of merged 2-faces, which no warning counts as unused.
+    // The numbers of vertices and of 2-faces that were merged into others. dropUnused() removes them, but does not
+    // count them in the warnings about unused ones.
     std::size_t doubled_ = 0, joined_ = 0;
 };
 

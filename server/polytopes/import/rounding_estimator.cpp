@@ -11,7 +11,7 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
-constexpr int kMinSingleExponent = -149;     // the least exponent of two of the last bit of a single-precision number
+constexpr int kMinSingleExponent = -149;     // the last bit of a single-precision number is worth at least 2^−149
 constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding error of a single-precision number
 // The least singleEvidence_ at which the coordinates count as single-precision numbers: other numbers reach it with a
 // probability of at most 2 to the power of −kSingleEvidence.
@@ -20,7 +20,7 @@ constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of t
 
 constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger ones are clamped to it
 
-// The precision of a single number.
+// The precision with which one number is written.
 struct Digits {
     int significant = 0;  // the number of digits from the first nonzero digit to the last digit written
     int last = 0;         // the exponent of ten of the last digit written
@@ -73,9 +73,9 @@ void RoundingEstimator::updateSingleEvidence(int lastPlace, int lastNonzeroPlace
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // The fraction of all decimals of this length that are the nearest ones to single-precision numbers. Zeros at the
-    // end do not count as digits here: a number such as 0.50000000 is both a single-precision number and a short
-    // decimal.
+    // Of all decimals near `value` that end at the place of its last nonzero digit, the fraction `part` is each nearest
+    // to a single-precision number. Zeros at the end of `value` do not count as digits here, because a number such as
+    // 0.50000000 is both a single-precision number and a short decimal.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }

@@ -20,7 +20,8 @@ namespace oval4d::polytopes {
 /// If all coordinates are whole numbers, they never count as rounded to single precision.
 class RoundingEstimator {
   public:
-    /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedCoordinate::text) and as a number.
+    /// Adds a coordinate along `axis`, from 0 to 3. `word` is its text (see text_files::ParsedCoordinate::text),
+    /// `value` is the number.
     void add(std::string_view word, int axis, double value);
 
     /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. If the

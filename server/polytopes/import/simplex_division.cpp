@@ -19,8 +19,9 @@ using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
-// Divides the 2-faces and cells of a soup: first divideFaces(), then divideCells(), which also replaces the lists of
-// the soup by the new ones. Keeps the positions in the file if these are known.
+// Divides the 2-faces and cells of a soup. The caller must call divideFaces() first, then divideCells(), which replaces
+// the 2-faces and cells of the soup by the new ones. If the soup has source positions, each new element gets the source
+// position of an old one.
 class SimplexDivider {
   public:
     explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}
@@ -80,8 +81,8 @@ class SimplexDivider {
         for (const std::uint32_t t : triangles) {
             for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
         }
-        // For each edge that does not contain the apex, the triangle that joins the edge to the apex: at first only
-        // triangles on the cell's surface, later also triangles inside the cell.
+        // `upright` maps an edge without the apex to the triangle that joins this edge to the apex. The first loop adds
+        // the triangles on the surface of the cell, the second loop those inside the cell.
         std::map<VertexPair, std::uint32_t> upright;
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
         for (const std::uint32_t t : triangles) {
