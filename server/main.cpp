@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     startLog(options.logLevel);
-    oval4d::process::Heap heap;
+    oval4d::process::HeapConfiguration heap;
     oval4d::parallel::ForkJoin forkJoin;
     try {
         if (!oval4d::process::forbidNewPrivileges()) spdlog::warn("the system does not support no_new_privs");

@@ -12,7 +12,7 @@ export class Arena {
     private used = 0;
 
     /** Starts a new message, whose arrays need at most `bytes` bytes. Invalidates the arrays of the last message. */
-    begin(bytes: number): void {
+    startMessage(bytes: number): void {
         this.used = 0;
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
     }

@@ -135,7 +135,7 @@ export class Client {
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
-        this.report({ kind: "connecting", ...this.blocked });
+        this.changeStatus({ kind: "connecting", ...this.blocked });
         const url = new URL(
             this.credentials ? `ws/${encodeURIComponent(this.credentials.session)}` : "ws",
             this.options.url,
@@ -144,7 +144,7 @@ export class Client {
         url.search = url.hash = "";
         const socket = new (this.options.webSocket ?? WebSocket)(url.href, kSubprotocol);
         socket.binaryType = "arraybuffer";
-        socket.onopen = () => void this.begin();
+        socket.onopen = () => void this.sayHello();
         socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(event.code, event.reason);
         socket.onerror = () => {}; // the event `close` follows each `error`
@@ -156,11 +156,11 @@ export class Client {
      * Says hello on a new connection. If the server refuses, says hello again with the size that onRefused() returns,
      * if any.
      */
-    private async begin(): Promise<void> {
-        let refusal = await this.firstHello({});
+    private async sayHello(): Promise<void> {
+        let refusal = await this.tryHello({});
         if (refusal?.code === "not_connected") return; // the connection has ended
         const size = refusal && this.options.onRefused?.(refusal);
-        if (size) refusal = await this.firstHello({ viewport: size === "default" ? undefined : size });
+        if (size) refusal = await this.tryHello({ viewport: size === "default" ? undefined : size });
         // The server closes the connection after not_found and bad_token. After other refusals, the client must close
         // it.
         if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
@@ -171,7 +171,7 @@ export class Client {
      * Says hello; resolves to the error if the server refuses. If the server does not answer, the connection counts as
      * lost.
      */
-    private firstHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
+    private tryHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.closed(1006, "the server does not answer"), kWelcomeTimeout * 1000);
         return this.hello(change).then(
@@ -184,7 +184,7 @@ export class Client {
     close(reason = "closed"): void {
         clearTimeout(this.timer);
         this.drop();
-        this.report({ kind: "closed", reason });
+        this.changeStatus({ kind: "closed", reason });
     }
 
     /**
@@ -240,7 +240,7 @@ export class Client {
     }
 
     private receive(data: string | ArrayBuffer): void {
-        this.watch();
+        this.scheduleTest();
         if (typeof data === "string") {
             this.handle(decodeText(data));
             return;
@@ -253,7 +253,7 @@ export class Client {
         } else if (message !== "frame") {
             this.handle(message);
         } else if (this.isAwaiting("frame")) {
-            this.passFrame();
+            this.passHeldFrame();
             this.heldFrame = bytes; // the next message shows whether the frame is an answer or part of the stream
         } else {
             this.options.onFrame?.(bytes);
@@ -273,7 +273,7 @@ export class Client {
             this.heldFile = undefined;
             return;
         }
-        this.passFrame();
+        this.passHeldFrame();
         if (message.type === "welcome") this.welcomed(message);
         if (request) {
             if (message.type === "error") request.reject(new RequestError(message.code, message.message));
@@ -292,7 +292,7 @@ export class Client {
     }
 
     /** Passes the held frame, if any, to `onFrame`: no `done` has followed the frame, so it belongs to the stream. */
-    private passFrame(): void {
+    private passHeldFrame(): void {
         const frame = this.heldFrame;
         this.heldFrame = undefined;
         if (frame) this.options.onFrame?.(frame);
@@ -307,12 +307,12 @@ export class Client {
         this.blocked = {};
         this.welcome = welcome;
         this.credentials = { session: welcome.session, token: welcome.token };
-        if (this.status.kind !== "open") this.report({ kind: "open" });
+        if (this.status.kind !== "open") this.changeStatus({ kind: "open" });
         this.options.onWelcome?.(welcome);
     }
 
     /** Schedules a test of the connection after a time without messages, because no event reports a broken network. */
-    private watch(): void {
+    private scheduleTest(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
         (this.timer as { unref?(): void }).unref?.(); // in Node, so that the timer does not keep a script running
@@ -323,19 +323,19 @@ export class Client {
         if (this.status.kind !== "open") return;
         const { unsentBytes } = this; // counted before the test is added, whose bytes may be sent but never arrive
         this.request({ type: "get", what: "state" }).catch(() => {});
-        this.awaitAnswer(unsentBytes);
+        this.awaitTestAnswer(unsentBytes);
     }
 
     /**
      * Waits for the answer to a test. If fewer than `unsentBytes` bytes are still unsent when the time limit expires,
      * the connection is slow but works; then waits for the same time again.
      */
-    private awaitAnswer(unsentBytes: number): void {
+    private awaitTestAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
         clearTimeout(this.timer);
         this.timer = setTimeout(
             () => {
-                if (this.unsentBytes < unsentBytes) this.awaitAnswer(this.unsentBytes);
+                if (this.unsentBytes < unsentBytes) this.awaitTestAnswer(this.unsentBytes);
                 else this.closed(1006, "the server does not answer");
             },
             (isLong ? kLongTestTimeout : kTestTimeout) * 1000,
@@ -357,7 +357,7 @@ export class Client {
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
         const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
-        this.report({ kind: "waiting", reason, seconds, ...this.blocked });
+        this.changeStatus({ kind: "waiting", reason, seconds, ...this.blocked });
         if (!opened && closeReason === "") void this.findWhetherBlocked();
     }
 
@@ -379,11 +379,11 @@ export class Client {
         this.blocked = answer?.ok ? { isBlocked: true } : {};
         if (status.isBlocked === this.blocked.isBlocked) return;
         if (status.kind === "connecting") {
-            this.report({ kind: "connecting", ...this.blocked });
+            this.changeStatus({ kind: "connecting", ...this.blocked });
             return;
         }
         const seconds = Math.max(0, status.seconds - (Date.now() - begin) / 1000);
-        this.report({ kind: "waiting", reason: status.reason, seconds, ...this.blocked });
+        this.changeStatus({ kind: "waiting", reason: status.reason, seconds, ...this.blocked });
     }
 
     private drop(): void {
@@ -402,7 +402,7 @@ export class Client {
         }
     }
 
-    private report(status: Status): void {
+    private changeStatus(status: Status): void {
         this.status = status;
         this.options.onStatus?.(status);
     }

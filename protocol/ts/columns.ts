@@ -76,15 +76,15 @@ export interface PartColumns extends ElementColumns {
 /** Returns an array of `count` integers, which may be uninitialized. */
 export type IntegerAllocator = (count: number) => Uint32Array;
 
-type Range = [begin: number, end: number];
+type IndexRange = [begin: number, end: number];
 
 /**
  * Returns consecutive ranges of these sizes, the first of which begins at index 0. Throws RangeError if a size is not a
  * whole number from 0, or if the last range ends beyond `length`.
  */
-function ranges(sizes: Integers, length: number): Range[] {
+function ranges(sizes: Integers, length: number): IndexRange[] {
     let end = 0;
-    const all: Range[] = [];
+    const all: IndexRange[] = [];
     for (const size of sizes) {
         if (!Number.isInteger(size) || size < 0 || end + size > length) {
             throw new RangeError(`${size} elements from number ${end} on are not in an array of ${length}`);
@@ -128,7 +128,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
     let corner = 0;
-    const takeFaces = ([first, last]: Range): Slice["faces"] => {
+    const takeFaces = ([first, last]: IndexRange): Slice["faces"] => {
         const begin = allocate(last - first + 1);
         begin[0] = 0;
         for (let face = first; face < last; ++face) begin[face - first + 1] = begin[face - first]! + sides[face]!;
@@ -156,7 +156,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
  * Converts the columns of the slices to one object per slice, whose arrays are views of `columns` or come from
  * `allocate`.
  */
-export function rowsOf(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
+export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
     const filled = columns.fill && fillsOf(columns.fill, widener(allocate));
     const surfaces = columns.surface && surfacesOf(columns.surface, widener(allocate));
@@ -180,7 +180,7 @@ export function rowsOf(columns: SliceColumns, allocate: IntegerAllocator): Slice
     });
 }
 
-/** Converts the columns of the projection's parts to one object per part. `allocate` is as in rowsOf(). */
+/** Converts the columns of the projection's parts to one object per part. `allocate` is as in slicesFromColumns(). */
 export function partsOf(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }

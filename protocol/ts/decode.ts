@@ -4,7 +4,7 @@
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, TypedArrayConstructor } from "./arena.js";
-import { partsOf, rowsOf, type SliceColumns, type PartColumns } from "./columns.js";
+import { partsOf, slicesFromColumns, type SliceColumns, type PartColumns } from "./columns.js";
 import type { Encoding } from "./messages.js";
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
 import type { Message } from "./types.js";
@@ -234,14 +234,14 @@ function readBjdata(bytes: Uint8Array): unknown {
  * A kind of binary message: its first byte is in the range `firstByte`, and its second byte is `secondByte` if two bytes
  * tell the kind. `read` decodes slices; other kinds lack it.
  */
-interface BinaryKind {
+interface BinaryMessageKind {
     firstByte: [least: number, greatest: number];
     secondByte?: number;
     read?: (bytes: Uint8Array) => unknown;
 }
 
 /** The kinds of binary messages, as protocol/README.md lists them (see "Binary messages"). */
-export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, BinaryKind> = {
+export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, BinaryMessageKind> = {
     file: { firstByte: [0x21, 0x7e] },
     frame: { firstByte: [0x89, 0x89] },
     cbor: { firstByte: [0xa0, 0xbf], read: readCbor },
@@ -274,7 +274,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
 }
 
 function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
-    within?.begin(6 * bytes.length); // enough for arrays that are copied, or converted from 1-byte to 4-byte integers
+    within?.startMessage(6 * bytes.length); // enough for arrays that are copied, or converted from 1-byte to 4-byte integers
     arena = within;
     try {
         return flattened(read(bytes) as Message);
@@ -353,7 +353,7 @@ function flattened(message: Message): Message {
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
-        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : rowsOf(slices, allocateIntegers),
+        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : slicesFromColumns(slices, allocateIntegers),
         ...(projection && {
             projection: {
                 ...projection,

@@ -548,7 +548,7 @@ export interface SetRequest {
     /**
      * For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array (initially) means no fog. A change of the object empties it.
      */
-    fog?: FogPoint[];
+    fog?: FogControlPoint[];
     field?: FieldDefinition;
     projection?: Projection;
     /**
@@ -586,7 +586,7 @@ export interface CellKind {
      */
     color?: number;
 }
-export interface FogPoint {
+export interface FogControlPoint {
     value: number;
     opacity: number;
     color?: number;
@@ -1208,7 +1208,7 @@ export interface State {
     /**
      * For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array (initially) means no fog. A change of the object empties it.
      */
-    fog?: FogPoint[];
+    fog?: FogControlPoint[];
     projection: Projection;
     /**
      * The w of the eye of the perspective projection, in circumradii.

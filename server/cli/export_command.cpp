@@ -65,7 +65,7 @@ void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
     session::QueryParameters query = queryOf(app.remaining());
     const auto request =
         valueOrThrow(pipeline::extractExportRequest(query, formatOf(options), commandLineLimits().slices));
-    const auto state = stateOf(query, session::kFileParameters);
+    const auto state = loadState(query, session::kFileParameters);
     const auto file = valueOrThrow(pipeline::exportState(state, request, commandLineLimits()));
     for (const std::string& warning : file.warnings) std::cerr << "oval4d: " << warning << '\n';
     writeOutput(options.output, file.bytes);

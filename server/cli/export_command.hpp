@@ -1,6 +1,6 @@
 #pragma once
 // The subcommand `oval4d export`: writes a file for other programs, such as a solid body of a slice or a drawing. It
-// needs no running server. The option --of chooses the content (see exports::ExportContents).
+// needs no running server. The option --of chooses the content (see exports::ExportContentsKind).
 
 #include <string>
 

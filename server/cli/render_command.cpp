@@ -22,7 +22,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
     const auto viewport = valueOrThrow(pipeline::checkViewport({options.width, options.height}, {}));
-    const auto state = stateOf(queryOf(app.remaining()), session::kPictureParameters);
+    const auto state = loadState(queryOf(app.remaining()), session::kPictureParameters);
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin,
                                 {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;

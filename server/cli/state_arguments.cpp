@@ -106,7 +106,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw std::runtime_error("cannot read " + path);
-    session::LoadObject load{name, std::string(session::detectFormat(text)), text};
+    session::LoadObject load{name, std::string(session::detectTextFormat(text)), text};
     if (const auto center = take(query, "center")) load.center = valueOrThrow(session::parseCenter(*center));
     return session::readObject(load, session::Limits{});
 }
@@ -167,7 +167,7 @@ void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
 
 }  // namespace
 
-session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others) {
+session::State loadState(session::QueryParameters query, std::span<const std::string_view> others) {
     std::vector<std::string_view> known(others.begin(), others.end());
     known.emplace_back("load");
     for (const ReadingOption& option : kReadingOptions) known.push_back(option.name);

@@ -25,7 +25,7 @@ session::QueryParameters queryOf(const std::vector<std::string>& words);
 /// is that of a polytope, a surface or a list of points, "center" is the point about which the object turns. Prints
 /// warnings about the file to standard error. `others` are the names of further options that the subcommand allows; the
 /// error message about an unknown option lists them, too. Throws std::runtime_error with a message for the user.
-session::State stateOf(session::QueryParameters query, std::span<const std::string_view> others);
+session::State loadState(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
 template <typename T>

@@ -13,10 +13,10 @@ namespace {
 
 double gapFor(double size) { return std::max(size / 12, 2.0); }
 
-Box boxOf(const SliceBodies& group) {
-    Box box;
+BoundingBox boxOf(const SliceBodies& group) {
+    BoundingBox box;
     for (const PlacedMesh& solid : group.bodies) {
-        const Box own = exports::boxOf(solid.mesh);
+        const BoundingBox own = exports::boxOf(solid.mesh);
         box.include(own.min + solid.at);
         box.include(own.max + solid.at);
     }
@@ -37,7 +37,7 @@ void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Roundin
         double x = 0;
         double depth = 0;
         for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
-            const Box box = boxOf(groups[i]);
+            const BoundingBox box = boxOf(groups[i]);
             move(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
             x += box.size().x + gap;
             depth = std::max(depth, box.size().y);
@@ -52,7 +52,7 @@ void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, 
     std::vector<double> radii;
     for (const SliceBodies& group : groups) {
         places.push_back(scene.placements[group.slice].position * perWorld);
-        const Box box = boxOf(group);
+        const BoundingBox box = boxOf(group);
         radii.push_back(std::max(glm::length(box.min), glm::length(box.max)));
     }
     double grow = 1;

@@ -55,7 +55,7 @@ class Budget {
     bool mustStop() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
     /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call this
     /// function often, because nothing else interrupts them.
-    void checkTime() const {
+    void checkTimeAndStop() const {
         if (stop_.stop_requested())
             throw ExportRefused{
                 {ExportRefusal::Cause::too_long, "the export was canceled because the server is stopping"}};
@@ -80,7 +80,7 @@ class Budget {
     }
     /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if
     /// ExportLimits::grantTotalBytes refuses this number of bytes.
-    void checkBytes(std::size_t count) const {
+    void checkFileSize(std::size_t count) const {
         if (count > limits_.bytes) {
             throw ExportRefused{{ExportRefusal::Cause::too_large,
                                  "the file would exceed the allowed " + std::to_string(limits_.bytes) + " bytes"}};
@@ -88,7 +88,7 @@ class Budget {
         requireMemory(count);
     }
     /// Returns ExportLimits::triangles.
-    std::size_t triangles() const { return limits_.triangles; }
+    std::size_t triangleLimit() const { return limits_.triangles; }
     /// Returns ExportLimits::time.
     std::chrono::duration<double> time() const { return limits_.time; }
     /// Returns the token by which a stop is requested.

@@ -46,17 +46,17 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.contents == ExportContents::oval
+          grid_(request.size, request.contents == ExportContentsKind::oval
                                   ? coordinateBound(slices_.planes.count, request.size)
                                   : 2 * request.size) {
-        if (request.contents == ExportContents::projection) request_.body = BodyKind::skeleton;
-        if (request.contents == ExportContents::highlight) element_ = scene.look.highlight;
+        if (request.contents == ExportContentsKind::projection) request_.body = BodyKind::skeleton;
+        if (request.contents == ExportContentsKind::highlight) element_ = scene.look.highlight;
         hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == BodyKind::solid && !element_;
     }
 
     ExportedFile run() {
         std::string bytes = write();
-        budget_.checkBytes(bytes.size());
+        budget_.checkFileSize(bytes.size());
         return {std::move(bytes), std::move(warnings_)};
     }
 
@@ -74,12 +74,12 @@ class Exporter {
 
     Drawing draw() const {
         switch (request_.contents) {
-            case ExportContents::projection:
+            case ExportContentsKind::projection:
                 return drawProjection(scene_);
-            case ExportContents::matrix:
+            case ExportContentsKind::matrix:
                 return drawMatrix(scene_, origin());
-            case ExportContents::oval:
-            case ExportContents::focus:
+            case ExportContentsKind::oval:
+            case ExportContentsKind::focus:
                 return drawSlices(scene_, object_, budget_);
             default:
                 return drawCoordinates(scene_, object_, orientation_);
@@ -99,7 +99,7 @@ class Exporter {
         std::size_t triangles = 0;
         if (request_.body == BodyKind::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
-            budget_.checkTime();
+            budget_.checkTimeAndStop();
             std::vector<PlacedMesh> solids;
             if (hasSurfaces_) {
                 solids = surfaceBodies(i);
@@ -124,7 +124,7 @@ class Exporter {
         if (request_.label != LabelPlacement::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
-        } else if (request_.contents == ExportContents::oval) {
+        } else if (request_.contents == ExportContentsKind::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<PlacedMesh> solids;
@@ -153,7 +153,7 @@ class Exporter {
         std::vector<PlacedMesh> solids;
         for (std::size_t level = levels.size(); level-- > 0;) {
             std::string name = nameOf(i);
-            if (levels.size() > 1) append(name += ", level ", scene_.look.field.levels[levels[level].index]);
+            if (levels.size() > 1) appendDecimal(name += ", level ", scene_.look.field.levels[levels[level].index]);
             Mesh mesh = fieldBodyOf(scene_, i, level, scale_, grid_, budget_);
             if (!mesh.triangles.empty())
                 solids.push_back({std::move(name), std::move(mesh), levels[level].color, glm::dvec3(0)});
@@ -169,13 +169,13 @@ class Exporter {
         }
         std::size_t done = 0;
         for (SliceBodies& group : groups) {
-            budget_.checkTime();
+            budget_.checkTimeAndStop();
             const LabelText text(scene_.title, wOf(group.slice));
             if (request_.label == LabelPlacement::engraved) {
                 done += text.engrave(group.bodies.front().mesh, request_.size, grid_) ? 1 : 0;
                 continue;
             }
-            const Box box = boxOf(group.bodies.front().mesh);
+            const BoundingBox box = boxOf(group.bodies.front().mesh);
             const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
             group.bodies.push_back({group.bodies.front().name + " (label)", text.labelBody(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
@@ -198,7 +198,7 @@ class Exporter {
     void prepareSkeleton() {
         radii_ = skeletonRadii(scene_, scale_);
         const double coarse = estimateTriangles(slices_, scale_, radii_);
-        const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
+        const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangleLimit()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTrianglesAndMemory(static_cast<std::size_t>(coarse / (cube * cube)));
         const double largest = kCoarseCube * radii_.bar;
@@ -213,7 +213,8 @@ class Exporter {
     std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
     std::string wOf(int i) const {
         if (element_) return nameOfElement();
-        return request_.contents == ExportContents::projection ? "projection" : labelOfW(slices_.planes, i, origin().w);
+        return request_.contents == ExportContentsKind::projection ? "projection"
+                                                                   : labelOfW(slices_.planes, i, origin().w);
     }
     std::string nameOfElement() const {
         return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
@@ -226,7 +227,7 @@ class Exporter {
     void refuseOtherContents() const {
         if (request_.format->canContain(request_.contents)) return;
         std::vector<std::string_view> own, formatsWithIt;
-        for (const ExportContents contents : request_.format->contents)
+        for (const ExportContentsKind contents : request_.format->contents)
             own.push_back(text::nameOf(kExportContents, contents));
         for (const Format& format : formats()) {
             if (format.canContain(request_.contents)) formatsWithIt.emplace_back(format.name);
@@ -262,7 +263,7 @@ class Exporter {
     /// it is if it is far from its origin.
     void refuseTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
-        Box box;
+        BoundingBox box;
         for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
         const glm::dvec3 size = box.size();
         const double largest = std::max({size.x, size.y, size.z});

@@ -8,7 +8,7 @@
 namespace oval4d::exports {
 
 /// What a file contains. protocol/export_formats.json says which of these the files of a format can contain.
-enum class ExportContents : std::uint8_t {
+enum class ExportContentsKind : std::uint8_t {
     focus,        ///< only the focus slice
     oval,         ///< all slices
     highlight,    ///< the highlighted element alone
@@ -20,13 +20,13 @@ enum class ExportContents : std::uint8_t {
 };
 
 inline constexpr auto kExportContents =
-    std::to_array<text::Choice<ExportContents>>({{"focus", ExportContents::focus},
-                                                 {"oval", ExportContents::oval},
-                                                 {"highlight", ExportContents::highlight},
-                                                 {"critical", ExportContents::critical},
-                                                 {"object", ExportContents::object},
-                                                 {"coordinates", ExportContents::coordinates},
-                                                 {"projection", ExportContents::projection},
-                                                 {"matrix", ExportContents::matrix}});
+    std::to_array<text::NamedValue<ExportContentsKind>>({{"focus", ExportContentsKind::focus},
+                                                         {"oval", ExportContentsKind::oval},
+                                                         {"highlight", ExportContentsKind::highlight},
+                                                         {"critical", ExportContentsKind::critical},
+                                                         {"object", ExportContentsKind::object},
+                                                         {"coordinates", ExportContentsKind::coordinates},
+                                                         {"projection", ExportContentsKind::projection},
+                                                         {"matrix", ExportContentsKind::matrix}});
 
 }  // namespace oval4d::exports

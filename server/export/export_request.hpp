@@ -20,10 +20,10 @@ enum class BodyKind : std::uint8_t { solid, skeleton };
 enum class LabelPlacement : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kBodies =
-    std::to_array<text::Choice<BodyKind>>({{"solid", BodyKind::solid},
-                                           {"skeleton", BodyKind::skeleton},
-                                           {"frame", BodyKind::skeleton}});  // "frame" is a former name
-inline constexpr auto kLabels = std::to_array<text::Choice<LabelPlacement>>(
+    std::to_array<text::NamedValue<BodyKind>>({{"solid", BodyKind::solid},
+                                               {"skeleton", BodyKind::skeleton},
+                                               {"frame", BodyKind::skeleton}});  // "frame" is a former name
+inline constexpr auto kLabels = std::to_array<text::NamedValue<LabelPlacement>>(
     {{"none", LabelPlacement::none}, {"engraved", LabelPlacement::engraved}, {"separate", LabelPlacement::separate}});
 
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
@@ -34,14 +34,14 @@ inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
 /// bodies and to drawings.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
-    ExportContents contents = ExportContents::focus;
+    ExportContentsKind contents = ExportContentsKind::focus;
     BodyKind body = BodyKind::solid;
     /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, the larger of its width and
     /// height.
     double size = 60;
     LabelPlacement label = LabelPlacement::none;
-    /// For ExportContents::oval: slices that replace those of the session. At most one of `chosenW` and `fittedSlices`
-    /// is given.
+    /// For ExportContentsKind::oval: slices that replace those of the session. At most one of `chosenW` and
+    /// `fittedSlices` is given.
     /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see
     ///   ObjectInfo::originInFile), and in this order.
     /// - `fittedSlices`: the number of equal parts into which the object's extent along w is divided; there is a slice
@@ -54,7 +54,7 @@ struct ExportRequest {
 };
 
 /// Returns the default options for a format, which is a row of formats().
-inline ExportRequest requestFor(const Format& format) {
+inline ExportRequest defaultRequestFor(const Format& format) {
     ExportRequest request{.format = &format, .contents = format.contents.front()};
     if (format.writeDrawing != nullptr) request.size = kDrawingSize;
     return request;

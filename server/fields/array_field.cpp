@@ -7,7 +7,7 @@
 
 namespace oval4d::fields {
 
-Result<Field> fieldFromArray(std::string name, const ReadField& array) {
+Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
     auto function = array.function();
     if (!function) return function.error();
     const SampleStatistics& samples = (*function)->statistics();
@@ -43,7 +43,7 @@ Result<Field> fieldFromArray(std::string name, const ReadField& array) {
     }
 }
 
-std::optional<Error> setSecondArray(Field& field, const ReadField& array, std::string variable) {
+std::optional<Error> setSecondArray(Field& field, const FieldArray& array, std::string variable) {
     const auto sizes = [](const Shape& shape) {
         std::string text;
         for (const std::size_t samples : shape) text += (text.empty() ? "" : " × ") + std::to_string(samples);

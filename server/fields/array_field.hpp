@@ -13,12 +13,12 @@ namespace oval4d::fields {
 /// ArrayFunction::statistics()); values above the level are inside. As an object, the field is as long along w as along
 /// the longest of the axes x, y and z, because a unit of time and a unit of length cannot be compared. Along an axis
 /// with one sample, the field is half as long. Error: `bad_field` if the box is not valid, or if no sample has a value.
-Result<Field> fieldFromArray(std::string name, const ReadField& array);
+Result<Field> fieldFromArray(std::string name, const FieldArray& array);
 
 /// Adds a second array to `field`, which must be a field of an array (Field::array is not null). The values of the
 /// second array can color the surfaces of the field. `variable` is the name of the second array in its file. Error:
 /// `bad_field` if the shape or the box of the second array differs from that of the field's array, or if no sample of
 /// the second array has a value.
-std::optional<Error> setSecondArray(Field& field, const ReadField& array, std::string variable);
+std::optional<Error> setSecondArray(Field& field, const FieldArray& array, std::string variable);
 
 }  // namespace oval4d::fields

@@ -19,7 +19,7 @@ struct Box {
 };
 
 /// Bounds of the values of a function in a region. If the function has no value at any point of the region, min > max.
-struct Bounds {
+struct ValueBounds {
     double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
     bool hasValueEverywhere = true;  ///< false if the function may have no value (NaN) somewhere in the region
 
@@ -67,12 +67,12 @@ class ScalarFunction {
                                       const GradientBatch& gradients) const = 0;
 
     /// Returns bounds that contain every value that evaluate() can return in `region`. The bounds need not be tight.
-    virtual Bounds boundsIn(const Box& region) const = 0;
+    virtual ValueBounds boundsIn(const Box& region) const = 0;
 
     /// Returns the function to sample on lattices with these steps: this function, or a coarser version of it that is
     /// faster to evaluate and lives as long as this object. `steps` are the vectors between neighboring points of the
     /// lattices, in the function's coordinates. A coarser version may lack details that are smaller than the steps.
-    virtual const ScalarFunction& forSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
+    virtual const ScalarFunction& versionForSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
 
     /// Releases memory that the next evaluations can restore quickly, such as pages of a mapped file that are also in
     /// the system's cache.

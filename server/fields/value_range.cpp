@@ -56,9 +56,9 @@ const ValueRange& TypicalRangeOnBox::get() const {
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kUnitPoints);
-        // For an array that is too large for memory, forSteps() returns an array in memory with a selection of the
-        // samples.
-        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});
+        // For an array that is too large for memory, versionForSteps() returns an array in memory with a selection of
+        // the samples.
+        const ScalarFunction& function = function_->versionForSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
             writeQuasirandomPoints(batch * kUnitPoints, points);

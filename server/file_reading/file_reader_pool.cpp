@@ -33,14 +33,14 @@ FileReaderPool::FileReaderPool(FileReaderOptions options)
 FileReaderPool::~FileReaderPool() {
     replacing_.request_stop();
     replacing_.join();
-    for (const Process& process : waiting_) process->kill();  // waiting processes have no file to finish
+    for (const ChildProcessPtr& process : waiting_) process->kill();  // waiting processes have no file to finish
 }
 
-FileReaderPool::Process FileReaderPool::acquire() {
+FileReaderPool::ChildProcessPtr FileReaderPool::acquire() {
     {
         const std::lock_guard lock(mutex_);
         if (!waiting_.empty()) {
-            Process process = std::move(waiting_.back());
+            ChildProcessPtr process = std::move(waiting_.back());
             waiting_.pop_back();
             return process;
         }
@@ -49,7 +49,7 @@ FileReaderPool::Process FileReaderPool::acquire() {
                                                                 options_.timeout, false, options_.onLoss, kNiceness});
 }
 
-void FileReaderPool::retire(Process used) {
+void FileReaderPool::retire(ChildProcessPtr used) {
     const std::lock_guard lock(mutex_);
     used_.push_back(std::move(used));
     lastUsed_ = Clock::now();
@@ -69,8 +69,8 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         } else {
             wake_.wait_until(lock, stop, lastUsed_ + idle, isUsed);
         }
-        std::vector<Process> used = std::exchange(used_, {});
-        std::vector<Process> surplus;
+        std::vector<ChildProcessPtr> used = std::exchange(used_, {});
+        std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
         // acquire() may have created further processes while none was waiting, so there may now be more than needed.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
@@ -78,7 +78,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
             used.pop_back();
         }
         lock.unlock();
-        for (const Process& process : used) {
+        for (const ChildProcessPtr& process : used) {
             process->kill();
             try {
                 if (!stop.stop_requested()) process->start();
@@ -86,18 +86,19 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
                 spdlog::warn("cannot start a process in advance to read files fault=\"{}\"", fault.what());
             }
         }
-        for (const Process& process : surplus) process->kill();
+        for (const ChildProcessPtr& process : surplus) process->kill();
         lock.lock();
-        for (Process& process : used) waiting_.push_back(std::move(process));
+        for (ChildProcessPtr& process : used) waiting_.push_back(std::move(process));
     }
 }
 
 namespace {
 
 // The conversation about one file with a reader process. The process may be controlled by whoever made the file.
-class Conversation {
+class FileReadConversation {
   public:
-    Conversation(const session::LoadObject& load, const FileAllocator& allocate) : load_(load), allocate_(allocate) {}
+    FileReadConversation(const session::LoadObject& load, const FileAllocator& allocate)
+        : load_(load), allocate_(allocate) {}
 
     TransferResult run(const Channel& channel, const std::string& file, std::size_t maxBytes, WaitLimit limit) {
         TransferResult transfer = channel.send(MessageType::file, file, descriptorOf(load_.file), limit);
@@ -175,20 +176,20 @@ Result<session::ObjectWithWarnings> FileReaderPool::read(const session::LoadObje
     std::string file;
     encodeReadRequest(load, limits, static_cast<bool>(allocate), file);
     const std::size_t maxBytes = maxOutcomeBytes(load, limits);
-    std::optional<Conversation> conversation;
+    std::optional<FileReadConversation> conversation;
     {
         struct Lease {
             FileReaderPool& readers;
-            Process process;
+            ChildProcessPtr process;
             ~Lease() { readers.retire(std::move(process)); }
         } const lease{*this, acquire()};
         try {
-            lease.process->converse(
+            lease.process->converseWithRetry(
                 [&](const Channel& channel, const WaitLimit& limit) {
                     return conversation.emplace(load, allocate).run(channel, file, maxBytes, limit);
                 },
                 stop);
-        } catch (const process::ProcessLost& lost) {
+        } catch (const process::ProcessLostError& lost) {
             if (!lost.hung()) throw;
             return Error{ErrorCode::too_large, "reading this file takes longer than " +
                                                    text::shortestDecimal(options_.timeout.count()) +

@@ -61,19 +61,19 @@ class FileReaderPool {
 
   private:
     using Clock = std::chrono::steady_clock;
-    using Process = std::unique_ptr<process::ChildProcess>;
+    using ChildProcessPtr = std::unique_ptr<process::ChildProcess>;
 
-    Process acquire();
-    void retire(Process used);  // passes a process that has read its file to the thread that replaces it
+    ChildProcessPtr acquire();
+    void retire(ChildProcessPtr used);  // passes a process that has read its file to the thread that replaces it
     void replaceUsed(const std::stop_token& stop);
 
     const FileReaderOptions options_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     // The next three members are guarded by mutex_.
-    std::vector<Process> waiting_, used_;  // processes that wait for a file; processes to be replaced
-    Clock::time_point lastUsed_;           // when the reading of a file last ended
-    std::jthread replacing_;               // runs replaceUsed(); declared last, because it uses the other members
+    std::vector<ChildProcessPtr> waiting_, used_;  // processes that wait for a file; processes to be replaced
+    Clock::time_point lastUsed_;                   // when the reading of a file last ended
+    std::jthread replacing_;  // runs replaceUsed(); declared last, because it uses the other members
 };
 
 }  // namespace oval4d::file_reading

@@ -136,7 +136,7 @@ void runFileReader(int socket, const process::Confinement& confinement) {
     process::initializeChild();
     const Channel channel(socket);
     try {
-        process::confine(process::Role::parse_file, confinement);
+        process::confine(process::SandboxRole::parse_file, confinement);
     } catch (const std::exception& fault) {
         channel.send(MessageType::failed, fault.what());
         return;

@@ -18,21 +18,21 @@ namespace oval4d::geometry {
 /// The hash stores only the first point of each cell. Therefore points that are not equal should be farther apart than
 /// 2 · `grid`, the diagonal of a cell. If two unequal points lie in one cell, findOrAdd() does not find the second one
 /// when it is added again, and appends it again.
-class PointIndex {
+class EqualPointFinder {
   public:
-    explicit PointIndex(double grid) : grid_(grid) {}
+    explicit EqualPointFinder(double grid) : grid_(grid) {}
 
     /// Finds a point in `points` that equals p; appends p if there is no such point. Returns the index of the point,
     /// and true if p was appended. All calls must pass the same vector `points`.
     std::pair<std::uint32_t, bool> findOrAdd(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
-            const auto known = cells_.find(key(p, corner));
+            const auto known = cells_.find(cellHash(p, corner));
             if (known != cells_.end() && glm::distance(points[known->second], p) < grid_ / 4)
                 return {known->second, false};
         }
         const auto number = static_cast<std::uint32_t>(points.size());
         points.push_back(p);
-        cells_.emplace(key(p, 0xffU), number);
+        cells_.emplace(cellHash(p, 0xffU), number);
         return {number, true};
     }
 
@@ -41,7 +41,7 @@ class PointIndex {
     // contains p after p is moved by grid / 4 along every axis: in the positive direction of axis i if bit i of
     // `corner` is set, else in the negative direction. The cells of the corners 0 … 15 include every cell that may
     // contain a point equal to p.
-    std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
+    std::uint64_t cellHash(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {
             const double nudge = corner == 0xffU ? 0 : (corner >> static_cast<unsigned>(i) & 1U) != 0 ? 0.25 : -0.25;

@@ -13,11 +13,11 @@ struct Range {
     constexpr bool contains(double value) const { return value >= least && value <= most; }
 
     /// Returns the numbers whose absolute value is at most `most`.
-    static constexpr Range upTo(double most) { return {-most, most}; }
+    static constexpr Range absoluteUpTo(double most) { return {-most, most}; }
     /// Returns the positive numbers that are at most `most`.
     static constexpr Range positiveUpTo(double most) { return {std::numeric_limits<double>::min(), most}; }
     /// Returns the finite numbers.
-    static constexpr Range finite() { return upTo(std::numeric_limits<double>::max()); }
+    static constexpr Range finite() { return absoluteUpTo(std::numeric_limits<double>::max()); }
 };
 
 }  // namespace oval4d::geometry

@@ -45,7 +45,7 @@ void visitStoredMembers(serialization::ReadOrWritten<ReferenceFrame> auto& frame
     auto& [pace, follow, boost] = frame;
     visit.member(0, pace, ReferenceFrame::kPaceRange);
     visit.member(1, follow, ReferenceFrame::kFollowRange);
-    visit.member(2, boost, Range::upTo(ReferenceFrame::kMaxBoost));
+    visit.member(2, boost, Range::absoluteUpTo(ReferenceFrame::kMaxBoost));
 }
 
 /// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.

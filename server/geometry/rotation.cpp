@@ -163,7 +163,7 @@ Rotation Rotation::power(double fraction) const {
     return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};
 }
 
-double Rotation::angle() const {
+double Rotation::largerAngle() const {
     const auto halfAngle = [](const glm::dquat& q) { return std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), q.w); };
     const double sum = halfAngle(left_) + halfAngle(right_);
     return std::min(sum, 2 * std::numbers::pi - sum);

@@ -94,7 +94,7 @@ class Rotation {
     /// every `fraction`, even 0, gives v ↦ −v.
     Rotation power(double fraction) const;
     /// Returns the larger of the absolute values of the angles in the two invariant planes, in radians: from 0 to π.
-    double angle() const;
+    double largerAngle() const;
     /// Returns the turn with the smallest angles that gives this rotation. It has no angle in a plane whose angle
     /// differs from 0 only by rounding errors; for the identity, it has no angles. Several turns give the rotation v ↦
     /// −v; returns one of them.

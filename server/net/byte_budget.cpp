@@ -13,9 +13,9 @@ ByteBudget::Reservation& ByteBudget::Reservation::operator=(Reservation&& other)
     return *this;
 }
 
-ByteBudget::Reservation::~Reservation() { resize(0); }
+ByteBudget::Reservation::~Reservation() { forceResize(0); }
 
-void ByteBudget::Reservation::resize(std::size_t bytes) {
+void ByteBudget::Reservation::forceResize(std::size_t bytes) {
     if (account_) account_->change(std::exchange(size_, bytes), bytes);
 }
 

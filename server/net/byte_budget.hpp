@@ -27,7 +27,7 @@ class ByteBudget {
         std::size_t size() const { return size_; }
         /// Changes the size to `bytes` without checking the limits, because the bytes are already in use. Does nothing
         /// to a default-constructed or moved-from reservation.
-        void resize(std::size_t bytes);
+        void forceResize(std::size_t bytes);
         /// Enlarges the reservation to `bytes`. Returns false, and changes nothing, if that would exceed a limit. The
         /// caller must ensure that `bytes` is at least size(), and that the reservation is neither default-constructed
         /// nor moved-from.
@@ -41,7 +41,7 @@ class ByteBudget {
     };
 
     /// Counts the bytes held for one client. They may exceed `limit` only through Account::forceReserve() and
-    /// Reservation::resize().
+    /// Reservation::forceResize().
     class Account : public std::enable_shared_from_this<Account> {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}

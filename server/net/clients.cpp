@@ -80,7 +80,7 @@ std::chrono::duration<double> AddressAccount::countBytes(std::size_t bytes, Cloc
     return messageBytes_.timeUntilRepaid(now);
 }
 
-bool AddressAccount::hasFullRateLimits(Clock::time_point now) const {
+bool AddressAccount::hasRecoveredRateLimits(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
     return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
 }
@@ -128,7 +128,7 @@ AddressAccountPtr Clients::findOrCreate(const address& any) {
 
 void Clients::forgetIdle(TokenBucket::Clock::time_point now) {
     std::erase_if(clients_, [now](const auto& entry) {
-        return entry.second.use_count() == 1 && entry.second->hasFullRateLimits(now);
+        return entry.second.use_count() == 1 && entry.second->hasRecoveredRateLimits(now);
     });
     sweepAt_ = std::min(std::max(kFirstSweep, 2 * clients_.size()), kMaxClients);
 }

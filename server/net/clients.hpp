@@ -31,8 +31,8 @@ struct ClientLimits {
 };
 
 /// The account of a client, that is, of everybody at one IPv4 address, or in one IPv6 /64 network (the size that
-/// providers assign to one customer). Holds the client's rate limits, its byte account, and its lanes in the worker
-/// pools (see parallel::FairQueue). Every function may be called from any thread.
+/// providers assign to one customer). Holds the client's rate limits, its byte account, and its job queues in the
+/// worker pools (see parallel::FairQueue). Every function may be called from any thread.
 class AddressAccount {
   public:
     using Clock = TokenBucket::Clock;
@@ -62,30 +62,32 @@ class AddressAccount {
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
     /// These functions return the client's flows (see parallel::FairQueue): pictureFlow() in the pool of picture
-    /// workers, exportFlow() in the pool of export workers. Each session of the client creates its own lane in each
-    /// flow.
+    /// workers, exportFlow() in the pool of export workers. Each session of the client creates its own job queue in
+    /// each flow.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
-    /// These functions return the client's lane for jobs that belong to no session: pictureLane() in the pool of
-    /// picture workers, exportLane() in the pool of export workers.
-    const parallel::WorkerPool::LanePtr& pictureLane() const { return pictureLane_; }
-    const parallel::WorkerPool::LanePtr& exportLane() const { return exportLane_; }
-    /// Returns the client's lane in the pool of load workers (see Services::loadWorkers).
-    const parallel::WorkerPool::LanePtr& loadLane() const { return loadLane_; }
+    /// These functions return the client's job queue for jobs that belong to no session: pictureJobQueue() in the pool
+    /// of picture workers, exportJobQueue() in the pool of export workers.
+    const parallel::WorkerPool::JobQueuePtr& pictureJobQueue() const { return pictureJobQueue_; }
+    const parallel::WorkerPool::JobQueuePtr& exportJobQueue() const { return exportJobQueue_; }
+    /// Returns the client's job queue in the pool of load workers (see Services::loadWorkers).
+    const parallel::WorkerPool::JobQueuePtr& loadJobQueue() const { return loadJobQueue_; }
 
     /// Returns whether all rate limits have fully recovered. If they have, this account may be deleted: a new account
     /// would treat the client in the same way.
-    bool hasFullRateLimits(Clock::time_point now) const;
+    bool hasRecoveredRateLimits(Clock::time_point now) const;
 
   private:
     const std::string name_;
     const std::shared_ptr<ByteBudget::Account> bytes_;
     const parallel::WorkerPool::ClientFlowPtr pictureFlow_ = std::make_shared<parallel::WorkerPool::ClientFlow>();
-    const parallel::WorkerPool::LanePtr pictureLane_ = std::make_shared<parallel::WorkerPool::Lane>(pictureFlow_);
+    const parallel::WorkerPool::JobQueuePtr pictureJobQueue_ =
+        std::make_shared<parallel::WorkerPool::JobQueue>(pictureFlow_);
     const parallel::WorkerPool::ClientFlowPtr exportFlow_ =
         std::make_shared<parallel::WorkerPool::ClientFlow>();  // in the pool of export workers
-    const parallel::WorkerPool::LanePtr exportLane_ = std::make_shared<parallel::WorkerPool::Lane>(exportFlow_);
-    const parallel::WorkerPool::LanePtr loadLane_ = std::make_shared<parallel::WorkerPool::Lane>(
+    const parallel::WorkerPool::JobQueuePtr exportJobQueue_ =
+        std::make_shared<parallel::WorkerPool::JobQueue>(exportFlow_);
+    const parallel::WorkerPool::JobQueuePtr loadJobQueue_ = std::make_shared<parallel::WorkerPool::JobQueue>(
         std::make_shared<parallel::WorkerPool::ClientFlow>());  // in the pool of load workers
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_

@@ -80,8 +80,8 @@ ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const AddressAccoun
     return end;
 }
 
-ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const AddressAccount& client, std::size_t registered,
-                                                                bool isProxy) {
+ConnectionRegistry::AdmissionDecision ConnectionRegistry::makeRoomFor(const AddressAccount& client,
+                                                                      std::size_t registered, bool isProxy) {
     AdmissionDecision admission = AdmissionDecision::admitted;
     std::vector<EndHandler> ends;
     const auto evict = [&](const AddressAccount* from, AdmissionDecision otherwise) {

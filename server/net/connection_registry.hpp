@@ -55,7 +55,7 @@ class ConnectionRegistry {
     /// the client with the most connections. If that client has no idle connection left, returns the limit that is
     /// reached. `registered`: the number of registrations that the new connection itself already has (0 or 1); they are
     /// not counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
-    AdmissionDecision admit(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
+    AdmissionDecision makeRoomFor(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.
     std::size_t size() const;

@@ -137,7 +137,7 @@ DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheF
 std::vector<std::string> DataFolder::names() const {
     if (auto known = knownNames()) return *std::move(known);
     const Clock::time_point began = Clock::now();
-    std::vector<std::string> found = list();
+    std::vector<std::string> found = readNames();
     const std::lock_guard lock(namesMutex_);
     names_ = found;
     listed_ = began;
@@ -151,7 +151,7 @@ std::optional<std::vector<std::string>> DataFolder::knownNames() const {
     return names_;
 }
 
-std::vector<std::string> DataFolder::list() const {
+std::vector<std::string> DataFolder::readNames() const {
     std::vector<std::string> found;
     std::error_code fault;
     for (fs::directory_iterator entry(folder_, fault), end; !fault && entry != end; entry.increment(fault)) {
@@ -233,7 +233,7 @@ const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
 
 /// Drops the least recently used field that no session uses; if `onDisk` is true, considers only the fields with a file
 /// in the field cache. Returns whether it has dropped a field. Requires that mutex_ is held.
-bool DataFolder::dropUnused(bool onDisk) {
+bool DataFolder::dropOneUnused(bool onDisk) {
     const auto isUnused = [&](const CachedField& field) {
         return std::get<slicing::FieldPtr>(field.loaded.object).use_count() == 1 && (field.onDisk || !onDisk);
     };
@@ -245,14 +245,14 @@ bool DataFolder::dropUnused(bool onDisk) {
 }
 
 /// Makes a file of this size in the field cache. If there is no room, first drops unused fields that have a file in the
-/// field cache. Errors: those of FieldCacheFiles::make(); `too_many` if there is not enough room even after all unused
-/// fields are dropped.
-Result<FieldCacheFiles::FilePtr> DataFolder::allocate(std::size_t bytes) {
+/// field cache. Errors: those of FieldCacheFiles::allocateFile(); `too_many` if there is not enough room even after all
+/// unused fields are dropped.
+Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
-        auto file = fieldCacheFiles_.make(bytes);
+        auto file = fieldCacheFiles_.allocateFile(bytes);
         if (!file || *file) return file;
-        if (!dropUnused(true)) {
+        if (!dropOneUnused(true)) {
             return Error{
                 ErrorCode::too_many,
                 "the fields that sessions use leave no room on the disk for this one (--field-cache); try again "
@@ -270,7 +270,7 @@ Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::O
     if (size > maxBytes_)
         return Error{ErrorCode::too_large, "this field takes more memory than the fields of the data folder may (" +
                                                std::to_string(maxBytes_) + " bytes, --data-cache)"};
-    while (bytes_ + size > maxBytes_ && dropUnused(false)) continue;
+    while (bytes_ + size > maxBytes_ && dropOneUnused(false)) continue;
     if (bytes_ + size > maxBytes_)
         return Error{ErrorCode::too_many,
                      "the fields of the data folder that sessions use leave no room for this one "
@@ -320,7 +320,7 @@ Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadO
     try {
         loaded = reader(file, limits, [&](std::size_t bytes) {
             onDisk = true;
-            return allocate(bytes);
+            return makeCacheFile(bytes);
         });
     } catch (const std::runtime_error&) {
         if (currentVersion(opened) == opened.version) throw;
@@ -333,6 +333,6 @@ Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadO
     return keep(key, std::move(*marked), onDisk);
 }
 
-std::size_t DataFolder::bytes() const { return bytes_; }
+std::size_t DataFolder::bytesInMemory() const { return bytes_; }
 
 }  // namespace oval4d::net

@@ -56,7 +56,7 @@ class DataFolder {
                                              const Reader& reader);
 
     /// Returns the memory, in bytes, of all fields from the folder.
-    std::size_t bytes() const;
+    std::size_t bytesInMemory() const;
 
     /// The maximum number of names that names() returns, and of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
@@ -82,13 +82,13 @@ class DataFolder {
         bool onDisk = false;  // whether the field has a file in the field cache
     };
 
-    std::vector<std::string> list() const;
+    std::vector<std::string> readNames() const;
     Result<OpenedEntry> open(const std::string& name) const;
     static std::string currentVersion(const OpenedEntry& opened);
     Result<session::ObjectWithWarnings> readAndKeep(const session::LoadObject& load, const session::Limits& limits,
                                                     OpenedEntry opened, const Reader& reader, const std::string& key);
-    Result<FieldCacheFiles::FilePtr> allocate(std::size_t bytes);
-    bool dropUnused(bool onDisk);
+    Result<FieldCacheFiles::FilePtr> makeCacheFile(std::size_t bytes);
+    bool dropOneUnused(bool onDisk);
     Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
     const session::ObjectWithWarnings* find(const std::string& key);
 
@@ -99,7 +99,7 @@ class DataFolder {
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
     // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk.
-    // Therefore knownNames() and bytes(), which threads that serve sockets call, do not lock the mutex.
+    // Therefore knownNames() and bytesInMemory(), which threads that serve sockets call, do not lock the mutex.
     std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first
     std::atomic<std::size_t> bytes_{0};  // total memory of the fields in `recent_`, in bytes

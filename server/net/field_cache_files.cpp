@@ -32,7 +32,7 @@ int allocate(int file, std::size_t bytes) {
 FieldCacheFiles::FieldCacheFiles(const std::string& folder, std::size_t bytes)
     : folder_(folder.empty() ? "/var/tmp" : folder), maxBytes_(bytes) {}
 
-Result<FieldCacheFiles::FilePtr> FieldCacheFiles::make(std::size_t bytes) {
+Result<FieldCacheFiles::FilePtr> FieldCacheFiles::allocateFile(std::size_t bytes) {
     if (bytes > maxBytes_) {
         return Error{ErrorCode::too_large, "the samples of this field take " + std::to_string(bytes) +
                                                " bytes on the disk, but the server has " + std::to_string(maxBytes_) +

@@ -26,10 +26,10 @@ class FieldCacheFiles {
     /// it cannot fail for lack of space. Returns a null pointer if this size is within the limit, but the total size of
     /// all files would exceed it. This object must outlive the file. Errors: `too_large` if the file is larger than the
     /// limit; `internal` if it cannot be made; `too_many` if the disk is full.
-    Result<FilePtr> make(std::size_t bytes);
+    Result<FilePtr> allocateFile(std::size_t bytes);
 
     /// Returns the size of all files, in bytes.
-    std::size_t bytes() const { return bytes_; }
+    std::size_t diskBytes() const { return bytes_; }
 
   private:
     const std::filesystem::path folder_;

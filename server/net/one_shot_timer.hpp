@@ -25,7 +25,7 @@ class OneShotTimer {
     /// already scheduled. The timer skips the call if the owner has been destroyed by then. `expired`: a member
     /// function of the owner, or a function object.
     template <typename Owner, std::invocable<Owner&> Expired>
-    void start(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {
+    void startUnlessRunning(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {
         if (running_) return;
         running_ = true;
         timer_.expires_at(when);

@@ -27,7 +27,7 @@ std::optional<double> quotaIn(const fs::path& group) {
 
 }  // namespace
 
-std::size_t processorCount(const fs::path& root) {
+std::size_t usableProcessorCount(const fs::path& root) {
     double most = std::max(1U, std::thread::hardware_concurrency());
     std::ifstream groups(root / "proc/self/cgroup");  // lines such as "0::/path" (v2) or "4:cpu,cpuacct:/path" (v1)
     for (std::string line; std::getline(groups, line);) {

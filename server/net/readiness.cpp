@@ -7,7 +7,7 @@
 
 namespace oval4d::net {
 
-void Readiness::warmUp(pipeline::Pipeline& pipeline) {
+void Readiness::warmUpOrMarkBroken(pipeline::Pipeline& pipeline) {
     try {
         const session::State state = session::initialState();
         std::vector<std::uint8_t> png;

@@ -18,7 +18,7 @@ class Readiness {
     /// Draws a first picture. Each worker must call this once, with its own pipeline, before its other jobs. If the
     /// picture cannot be drawn, logs the error and marks the server as broken: the server never becomes ready, although
     /// it still sends slices, which clients draw.
-    void warmUp(pipeline::Pipeline& pipeline);
+    void warmUpOrMarkBroken(pipeline::Pipeline& pipeline);
 
     /// Returns whether every worker has drawn its first picture and the server is not stopping.
     bool ready() const { return missing_ == 0 && !stopping_; }

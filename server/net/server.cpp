@@ -116,7 +116,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& op
 /// The server: owns all services and runs them until a signal stops it.
 class Server {
   public:
-    Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
+    Server(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap);
     void run();
 
   private:
@@ -154,17 +154,17 @@ class Server {
     Routes routes_;
 };
 
-Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
+Server::Server(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
       fieldCacheFiles_(options_.fieldCacheFolder, options_.fieldCache),
       connections_(options_.maxConnections, options_.client.connections),
       acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
-      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processorCount()),
+      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : usableProcessorCount()),
       childEnvironment_(childEnvironment(options_, workers_, sandboxWarning_)),
       readiness_(workers_),
-      sharedRasterizer_(processorCount(),
+      sharedRasterizer_(usableProcessorCount(),
                         {{options_.picture.fillSteps, options_.polytopeCache},
                          options_.drawTimeout,
                          [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
@@ -176,15 +176,16 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       polytopes_(options_.polytopeCache),
       data_(options_.data, options_.dataCache, fieldCacheFiles_),
       critical_(options_.criticalCache),
-      pictureWorkers_({.threads = workers_,
-                       .limits = options_.jobs,
-                       .pictures = options_.picture,
-                       .makeRasterizer =
-                           [this](std::stop_token stop) {
-                               return std::make_unique<raster::WorkerRasterizer>(sharedRasterizer_, std::move(stop));
-                           },
-                       .onThreadStart = [this](pipeline::Pipeline& pipeline) { readiness_.warmUp(pipeline); }},
-                      forkJoin, heap),
+      pictureWorkers_(
+          {.threads = workers_,
+           .limits = options_.jobs,
+           .pictures = options_.picture,
+           .makeRasterizer =
+               [this](std::stop_token stop) {
+                   return std::make_unique<raster::WorkerRasterizer>(sharedRasterizer_, std::move(stop));
+               },
+           .onThreadStart = [this](pipeline::Pipeline& pipeline) { readiness_.warmUpOrMarkBroken(pipeline); }},
+          forkJoin, heap),
       exportWorkers_({.threads = static_cast<std::size_t>(options_.exportWorkers),
                       .limits = options_.jobs,
                       .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
@@ -304,7 +305,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 }  // namespace
 
-void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap) {
+void runServer(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap) {
     if (options.open && !options.token.empty())
         throw std::invalid_argument(
             "--open (OVAL4D_OPEN) lets everyone in without a token, so --token (OVAL4D_TOKEN) would protect nothing; "

@@ -25,7 +25,7 @@ class TransferDeadline {
     void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
     /// Returns the time within which the next fragment must be transferred; 1 ms if the client is already too slow.
-    Clock::duration timeout() const {
+    Clock::duration nextFragmentTimeout() const {
         const Seconds lived = Clock::now() - start_;
         const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;
         return std::chrono::duration_cast<Clock::duration>(std::clamp(left, Seconds(0.001), grace_));

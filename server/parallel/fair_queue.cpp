@@ -11,8 +11,8 @@ using Seconds = FairQueue::Seconds;
 constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
 constexpr double kDecay = 0.75;  // each new measurement multiplies the weights of earlier ones by this factor
-// In EstimateCorrection::factor(), the prior `general` has the same weight as measured jobs whose estimates add up to
-// this time.
+// In EstimateCorrection::correctionFactor(), the prior `general` has the same weight as measured jobs whose estimates
+// add up to this time.
 constexpr Seconds kPriorWeight{0.02};
 // Before a correction is learned from the measured time of a job, this time is reduced to at most this multiple of the
 // job's cost, because other programs sometimes delay a job.
@@ -21,7 +21,7 @@ constexpr double kMaxCorrection = 8;  // a correction multiplies or divides an e
 
 }  // namespace
 
-double FairQueue::EstimateCorrection::factor(double general) const {
+double FairQueue::EstimateCorrection::correctionFactor(double general) const {
     return std::clamp((measured_ + general * kPriorWeight) / (estimated_ + kPriorWeight), 1 / kMaxCorrection,
                       kMaxCorrection);
 }
@@ -34,119 +34,123 @@ void FairQueue::EstimateCorrection::learn(Seconds estimate, Seconds took) {
 FairQueue::FairQueue(std::size_t threads, Limits limits)
     : maxLongRunning_(threads > 1 ? threads - std::max<std::size_t>(1, threads / 4) : 1), limits_(limits) {}
 
-Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
-    const double ofClient = lane.client_->correction_.factor(correction_.factor(1));
-    return std::max(kMinCost, lane.correction_.factor(ofClient) * estimate);
+Seconds FairQueue::correctedCost(const JobQueue& jobQueue, Seconds estimate) const {
+    const double ofClient = jobQueue.client_->correction_.correctionFactor(correction_.correctionFactor(1));
+    return std::max(kMinCost, jobQueue.correction_.correctionFactor(ofClient) * estimate);
 }
 
 /// Returns the cost of a job as `scheduler_` counts it for the job's class (all short jobs, or all long ones): the cost
 /// divided by the weight of the class, which is its number of active clients.
-Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
+Seconds FairQueue::costChargedToClass(JobLength length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
 
-bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now) {
-    ClientFlow& client = *lane->client_;
+bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clock::time_point now) {
+    ClientFlow& client = *jobQueue->client_;
     if (waiting_ >= limits_.total || client.waiting_ >= limits_.perClient) return false;
     ++waiting_;
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
-    const Seconds cost = correctedCost(*lane, estimate);
+    const Seconds cost = correctedCost(*jobQueue, estimate);
     const JobLength length =
-        cost > kLongJobThreshold * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
-    lane->jobs_.push_back({std::move(job), estimate, cost, length});
-    updateActiveLanes(lane, length, now);
-    if (lane->jobs_.size() == 1) scheduleLane(lane);
+        cost > kLongJobThreshold * std::clamp(correction_.correctionFactor(1), 1.0, 2.0) ? long_job : short_job;
+    jobQueue->jobs_.push_back({std::move(job), estimate, cost, length});
+    updateRecentShortQueues(jobQueue, length, now);
+    if (jobQueue->jobs_.size() == 1) scheduleJobQueue(jobQueue);
     return true;
 }
 
-std::optional<FairQueue::DueJob> FairQueue::pop(Clock::time_point now) {
+std::optional<FairQueue::DueJob> FairQueue::popStartableJob(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
-    JobClass& jobClass = classes_[length];
+    ClassScheduler& jobClass = classes_[length];
     if (jobClass.clients.empty()) return std::nullopt;
     const ClientFlowPtr client = jobClass.clients.next();
-    const LanePtr lane = client->lanes_[length].next();
-    QueuedJob first = std::move(lane->jobs_.front());
-    lane->jobs_.pop_front();
+    const JobQueuePtr jobQueue = client->jobQueues_[length].next();
+    QueuedJob first = std::move(jobQueue->jobs_.front());
+    jobQueue->jobs_.pop_front();
     --waiting_;
     --client->waiting_;
     if (length == long_job) ++longRunning_;
-    scheduler_.recordStart(jobClass.state, classCost(length, first.cost));
+    scheduler_.recordStart(jobClass.state, costChargedToClass(length, first.cost));
     jobClass.clients.recordStart(client->states_[length], first.cost);
-    client->lanes_[length].recordStart(lane->states_[length], first.cost);
-    client->lanes_[length].remove(lane->states_[length]);
+    client->jobQueues_[length].recordStart(jobQueue->states_[length], first.cost);
+    client->jobQueues_[length].remove(jobQueue->states_[length]);
     scheduleClient(client, length);
-    if (!lane->jobs_.empty()) scheduleLane(lane);
-    return DueJob{std::move(first.job), lane, first.estimate, first.cost, length};
+    if (!jobQueue->jobs_.empty()) scheduleJobQueue(jobQueue);
+    return DueJob{std::move(first.job), jobQueue, first.estimate, first.cost, length};
 }
 
-void FairQueue::finished(const DueJob& started, Seconds took) {
-    Lane& lane = *started.lane;
-    ClientFlow& client = *lane.client_;
+void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
+    JobQueue& jobQueue = *started.jobQueue;
+    ClientFlow& client = *jobQueue.client_;
     const JobLength length = started.length;
     if (length == long_job) --longRunning_;
-    for (EstimateCorrection* each : {&lane.correction_, &client.correction_, &correction_})
+    for (EstimateCorrection* each : {&jobQueue.correction_, &client.correction_, &correction_})
         each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
     const Seconds more = took - started.cost;
-    scheduler_.recordEnd(classes_[length].state, classCost(length, more));
+    scheduler_.recordEnd(classes_[length].state, costChargedToClass(length, more));
     classes_[length].clients.recordEnd(client.states_[length], more);
-    client.lanes_[length].recordEnd(lane.states_[length], more);
-    if (lane.states_[length].entry) {
-        scheduleLane(started.lane);
+    client.jobQueues_[length].recordEnd(jobQueue.states_[length], more);
+    if (jobQueue.states_[length].entry) {
+        scheduleJobQueue(started.jobQueue);
     } else {
-        scheduleClient(lane.client_, length);
+        scheduleClient(jobQueue.client_, length);
     }
 }
 
 Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
-    return client.lanes_[length].next()->jobs_.front().cost;
+    return client.jobQueues_[length].next()->jobs_.front().cost;
 }
 
-/// Updates the positions of a lane, of its client and of the class of the lane's first job in the queues of their
-/// schedulers. Must be called when the lane's first job or virtual finish time has changed. The lane must not be empty.
-void FairQueue::scheduleLane(const LanePtr& lane) {
-    const QueuedJob& first = lane->jobs_.front();
-    lane->client_->lanes_[first.length].enqueueFlow(lane->states_[first.length], lane, first.cost);
-    scheduleClient(lane->client_, first.length);
+/// Updates the positions of a job queue, of its client and of the class of the job queue's first job in the queues of
+/// their schedulers. Must be called when the job queue's first job or virtual finish time has changed. The job queue
+/// must not be empty.
+void FairQueue::scheduleJobQueue(const JobQueuePtr& jobQueue) {
+    const QueuedJob& first = jobQueue->jobs_.front();
+    jobQueue->client_->jobQueues_[first.length].enqueueOrUpdateFlow(jobQueue->states_[first.length], jobQueue,
+                                                                    first.cost);
+    scheduleClient(jobQueue->client_, first.length);
 }
 
 /// Updates the positions of a client and of the class of jobs of this length in the queues of their schedulers; removes
 /// from its queue each of the two that has no waiting job of this length. Must be called when the client's next job of
 /// this length, or the client's virtual finish time, has changed.
 void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
-    JobClass& jobClass = classes_[length];
-    if (client->lanes_[length].empty()) {
+    ClassScheduler& jobClass = classes_[length];
+    if (client->jobQueues_[length].empty()) {
         jobClass.clients.remove(client->states_[length]);
     } else {
-        jobClass.clients.enqueueFlow(client->states_[length], client, nextCost(*client, length));
+        jobClass.clients.enqueueOrUpdateFlow(client->states_[length], client, nextCost(*client, length));
     }
     if (jobClass.clients.empty()) {
         scheduler_.remove(jobClass.state);
     } else {
-        scheduler_.enqueueFlow(jobClass.state, length, classCost(length, nextCost(*jobClass.clients.next(), length)));
+        scheduler_.enqueueOrUpdateFlow(jobClass.state, length,
+                                       costChargedToClass(length, nextCost(*jobClass.clients.next(), length)));
     }
 }
 
-/// Records that the lane queues a job of this length. Puts the lane at the end of `recentShortLanes_`, unless it has
-/// queued a long job within the last kActivePeriod. While `recentShortLanes_` is not empty, no long job starts on a
-/// reserved thread, so that these threads stay free for the short jobs of the lanes in `recentShortLanes_`.
-void FairQueue::updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now) {
-    pruneRecentShortLanes(now);
-    if (length == long_job) lane->lastLong_ = now;
-    if (lane->lastLong_ && now - *lane->lastLong_ <= kActivePeriod) return;
-    if (const auto before =
-            std::exchange(lane->activity_, recentShortLanes_.emplace(recentShortLanes_.end(), now, lane))) {
-        recentShortLanes_.erase(*before);
+/// Records that the job queue queues a job of this length. Puts the job queue at the end of `recentShortJobQueues_`,
+/// unless it has queued a long job within the last kActivePeriod. While `recentShortJobQueues_` is not empty, no long
+/// job starts on a reserved thread, so that these threads stay free for the short jobs of the job queues in
+/// `recentShortJobQueues_`.
+void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobLength length, Clock::time_point now) {
+    pruneRecentShortJobQueues(now);
+    if (length == long_job) jobQueue->lastLong_ = now;
+    if (jobQueue->lastLong_ && now - *jobQueue->lastLong_ <= kActivePeriod) return;
+    if (const auto before = std::exchange(jobQueue->activity_,
+                                          recentShortJobQueues_.emplace(recentShortJobQueues_.end(), now, jobQueue))) {
+        recentShortJobQueues_.erase(*before);
     }
 }
 
-void FairQueue::pruneRecentShortLanes(Clock::time_point now) {
-    for (; !recentShortLanes_.empty(); recentShortLanes_.pop_front()) {
-        const auto& [last, weak] = recentShortLanes_.front();
-        const LanePtr lane = weak.lock();
-        if (lane && now - last <= kActivePeriod) return;
-        if (lane) lane->activity_.reset();
+void FairQueue::pruneRecentShortJobQueues(Clock::time_point now) {
+    for (; !recentShortJobQueues_.empty(); recentShortJobQueues_.pop_front()) {
+        const auto& [last, weak] = recentShortJobQueues_.front();
+        const JobQueuePtr jobQueue = weak.lock();
+        if (jobQueue && now - last <= kActivePeriod) return;
+        if (jobQueue) jobQueue->activity_.reset();
     }
 }
 
@@ -154,9 +158,9 @@ void FairQueue::pruneRecentShortLanes(Clock::time_point now) {
 /// not start on a reserved one.
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
-    pruneRecentShortLanes(now);
+    pruneRecentShortJobQueues(now);
     const FairScheduler<ClientFlowPtr>& clients = classes_[long_job].clients;
-    return !recentShortLanes_.empty() ||
+    return !recentShortJobQueues_.empty() ||
            (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJobThreshold);
 }
 
@@ -169,12 +173,12 @@ std::deque<FairQueue::Job> FairQueue::clear() {
     while (!scheduler_.empty()) {
         const JobLength length = scheduler_.next();
         const ClientFlowPtr client = classes_[length].clients.next();
-        const LanePtr lane = client->lanes_[length].next();
-        client->waiting_ -= lane->jobs_.size();
-        waiting_ -= lane->jobs_.size();
-        for (QueuedJob& each : lane->jobs_) dropped.push_back(std::move(each.job));
-        lane->jobs_.clear();
-        client->lanes_[length].remove(lane->states_[length]);
+        const JobQueuePtr jobQueue = client->jobQueues_[length].next();
+        client->waiting_ -= jobQueue->jobs_.size();
+        waiting_ -= jobQueue->jobs_.size();
+        for (QueuedJob& each : jobQueue->jobs_) dropped.push_back(std::move(each.job));
+        jobQueue->jobs_.clear();
+        client->jobQueues_[length].remove(jobQueue->states_[length]);
         scheduleClient(client, length);
     }
     return dropped;

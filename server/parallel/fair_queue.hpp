@@ -51,7 +51,7 @@ class FairScheduler {
     std::size_t activeFlows() const { return activeFlows_; }
 
     /// Queues a flow whose next job has this cost. If the flow is already queued, updates its position in the queue.
-    void enqueueFlow(FlowState& state, Flow flow, Seconds nextCost) {
+    void enqueueOrUpdateFlow(FlowState& state, Flow flow, Seconds nextCost) {
         if (state.entry) {
             queue_.erase(*state.entry);
         } else {
@@ -68,8 +68,8 @@ class FairScheduler {
         queue_.erase(*entry);
         if (state.running == 0) --activeFlows_;
     }
-    /// Records that the next job of a queued flow starts. The caller must then call enqueueFlow() if the flow has
-    /// another waiting job, else remove().
+    /// Records that the next job of a queued flow starts. The caller must then call enqueueOrUpdateFlow() if the flow
+    /// has another waiting job, else remove().
     void recordStart(FlowState& state, Seconds cost) {
         virtualTime_ = std::max(virtualTime_, state.finish) + cost / activeFlows_;
         // Even if estimates were wrong, the finish time of the flow may fall behind the virtual time by at most the
@@ -79,8 +79,8 @@ class FairScheduler {
         ++state.running;
     }
     /// Records that a job of the flow ended. `excess`: the measured running time minus the cost of the job. If the flow
-    /// is queued, the caller must then call `enqueueFlow` again, because the virtual finish time of its next job has
-    /// changed.
+    /// is queued, the caller must then call `enqueueOrUpdateFlow` again, because the virtual finish time of its next
+    /// job has changed.
     void recordEnd(FlowState& state, Seconds excess) {
         state.finish += excess;
         maxFinish_ = std::max(maxFinish_, state.finish);
@@ -93,18 +93,18 @@ class FairScheduler {
     Seconds virtualTime_{0}, maxFinish_{0};  // V, and the largest F of all flows (see FairScheduler)
 };
 
-/// A queue of jobs with hierarchical weighted fair queueing. Each job is in a lane, for example the lane of a session,
-/// and each lane belongs to a client. The clients share the time of the threads equally, and the lanes of a client
-/// share the client's time equally.
+/// Schedules jobs by hierarchical weighted fair queueing. Each job is in a job queue, for example that of a session,
+/// and each job queue belongs to a client. The clients share the time of the threads equally, and the job queues of a
+/// client share the client's time equally.
 ///
 /// The cost of a job is an estimate until the job ends; then the measured time replaces the estimate. Measured times
-/// also correct the estimates of later jobs in the same lane, in new lanes of the same client, and in the lanes of new
-/// clients.
+/// also correct the estimates of later jobs in the same job queue, in new job queues of the same client, and in the job
+/// queues of new clients.
 ///
 /// Jobs are not preempted, so long jobs could occupy all threads while short jobs wait. Therefore some threads are
 /// reserved: a quarter of them, rounded down, but at least one. If there is only one thread, it is not reserved. A
 /// reserved thread never starts a very long job (see kVeryLongJobThreshold). It does not start a long job (see
-/// kLongJobThreshold) either while a lane with short jobs is active (see kActivePeriod).
+/// kLongJobThreshold) either while a job queue with short jobs is active (see kActivePeriod).
 ///
 /// Short jobs and long jobs are two classes. Within each class, clients are scheduled fairly. The two classes share the
 /// time of the threads in proportion to the numbers of their active clients.
@@ -116,12 +116,12 @@ class FairQueue {
     using Seconds = std::chrono::duration<double>;
     using Clock = std::chrono::steady_clock;
     class ClientFlow;
-    class Lane;
+    class JobQueue;
     enum JobLength : std::size_t { short_job, long_job };
     template <typename T>
     using PerClass = std::array<T, 2>;  // indexed by JobLength
     using ClientFlowPtr = std::shared_ptr<ClientFlow>;
-    using LanePtr = std::shared_ptr<Lane>;
+    using JobQueuePtr = std::shared_ptr<JobQueue>;
 
     /// The maximum numbers of waiting jobs, of all clients together and of one client.
     struct Limits {
@@ -131,17 +131,18 @@ class FairQueue {
     /// A job that costs more than this is long; any other job is short. If jobs in general take longer than estimated,
     /// the threshold rises in proportion, to at most twice this value.
     static constexpr Seconds kLongJobThreshold{0.015};
-    /// A job that costs more than this is very long: it never starts on a reserved thread, even if no lane with short
-    /// jobs is active.
+    /// A job that costs more than this is very long: it never starts on a reserved thread, even if no job queue with
+    /// short jobs is active.
     static constexpr Seconds kVeryLongJobThreshold{0.25};
-    /// A lane is active for this time after a short job was queued in it, unless the lane is destroyed. However, if a
-    /// long job was queued in the lane less than this time ago, the short job does not make it active.
+    /// A job queue is active for this time after a short job was queued in it, unless the job queue is destroyed.
+    /// However, if a long job was queued in the job queue less than this time ago, the short job does not make it
+    /// active.
     static constexpr std::chrono::seconds kActivePeriod{10};
 
-    /// A job that pop() returned. The caller must run it at once and then call finished().
+    /// A job that popStartableJob() returned. The caller must run it at once and then call recordJobEnd().
     struct DueJob {
         Job job;
-        LanePtr lane;
+        JobQueuePtr jobQueue;
         Seconds estimate, cost;  ///< the estimate given to push(), and the corrected estimate
         JobLength length;
     };
@@ -152,17 +153,17 @@ class FairQueue {
     FairQueue(const FairQueue&) = delete;
     FairQueue& operator=(const FairQueue&) = delete;
 
-    /// Queues a job at the end of its lane. `estimate`: the time that the job is expected to take. Returns false, and
-    /// does not queue the job, if a limit is reached.
-    [[nodiscard]] bool push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now);
+    /// Queues a job at the end of its job queue. `estimate`: the time that the job is expected to take. Returns false,
+    /// and does not queue the job, if a limit is reached.
+    [[nodiscard]] bool push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clock::time_point now);
 
     /// Removes and returns the job to start now. Returns std::nullopt if no job is waiting, or if only long jobs are
     /// waiting and they must wait longer: all threads that are not reserved run long jobs, and the next long job may
     /// not start on a reserved thread.
-    std::optional<DueJob> pop(Clock::time_point now);
+    std::optional<DueJob> popStartableJob(Clock::time_point now);
 
     /// Records that the job ended. `took`: the measured running time.
-    void finished(const DueJob& started, Seconds took);
+    void recordJobEnd(const DueJob& started, Seconds took);
 
     /// Removes and returns all waiting jobs, so that the caller can choose when to destroy them.
     std::deque<Job> clear();
@@ -178,7 +179,7 @@ class FairQueue {
       public:
         // Returns the factor by which to multiply estimates. `general`: the prior, which is the factor learned from a
         // larger group of jobs; it dominates while few jobs have been measured.
-        double factor(double general) const;
+        double correctionFactor(double general) const;
         void learn(Seconds estimate, Seconds took);
 
       private:
@@ -193,54 +194,56 @@ class FairQueue {
 
     // The class of all short jobs, or of all long jobs: the scheduler of its clients, and the state of the class as a
     // flow of `scheduler_`.
-    struct JobClass {
+    struct ClassScheduler {
         FairScheduler<ClientFlowPtr> clients;
         FairScheduler<JobLength>::FlowState state;
     };
 
-    using RecentLanes = std::list<std::pair<Clock::time_point, std::weak_ptr<Lane>>>;
+    using RecentJobQueues = std::list<std::pair<Clock::time_point, std::weak_ptr<JobQueue>>>;
 
-    Seconds correctedCost(const Lane& lane, Seconds estimate) const;
-    Seconds classCost(JobLength length, Seconds cost) const;
+    Seconds correctedCost(const JobQueue& jobQueue, Seconds estimate) const;
+    Seconds costChargedToClass(JobLength length, Seconds cost) const;
     static Seconds nextCost(const ClientFlow& client, JobLength length);
-    void scheduleLane(const LanePtr& lane);
+    void scheduleJobQueue(const JobQueuePtr& jobQueue);
     void scheduleClient(const ClientFlowPtr& client, JobLength length);
-    void updateActiveLanes(const LanePtr& lane, JobLength length, Clock::time_point now);
+    void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobLength length, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
-    void pruneRecentShortLanes(Clock::time_point now);
+    void pruneRecentShortJobQueues(Clock::time_point now);
 
     const std::size_t maxLongRunning_;  // number of threads that are not reserved
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
-    PerClass<JobClass> classes_;
+    PerClass<ClassScheduler> classes_;
     FairScheduler<JobLength> scheduler_;  // decides which class is served next
     EstimateCorrection correction_;       // learned from the jobs of all clients
-    RecentLanes recentShortLanes_;        // active lanes, each with the time of its last short job; earliest first
+    RecentJobQueues
+        recentShortJobQueues_;  // active job queues, each with the time of its last short job; earliest first
 };
 
 /// A client, for example all connections from one address, which shares the threads with other clients. All of its jobs
 /// must be in the same queue.
 class FairQueue::ClientFlow {
     friend FairQueue;
-    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;  // the client's state as a flow in JobClass::clients
-    PerClass<FairScheduler<LanePtr>> lanes_;                    // the schedulers of the client's lanes
+    PerClass<FairScheduler<ClientFlowPtr>::FlowState>
+        states_;                                      // the client's state as a flow in ClassScheduler::clients
+    PerClass<FairScheduler<JobQueuePtr>> jobQueues_;  // the schedulers of the client's job queues
     std::size_t waiting_ = 0;
     EstimateCorrection correction_;
 };
 
 /// A first-in, first-out queue of a client's jobs, such as those for one session.
-class FairQueue::Lane {
+class FairQueue::JobQueue {
   public:
-    explicit Lane(ClientFlowPtr client) : client_(std::move(client)) {}
+    explicit JobQueue(ClientFlowPtr client) : client_(std::move(client)) {}
 
   private:
     friend FairQueue;
     const ClientFlowPtr client_;
-    PerClass<FairScheduler<LanePtr>::FlowState> states_;
+    PerClass<FairScheduler<JobQueuePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
     EstimateCorrection correction_;
-    std::optional<RecentLanes::iterator>
-        activity_;  // position in FairQueue::recentShortLanes_; empty if the lane is not active
+    std::optional<RecentJobQueues::iterator>
+        activity_;  // position in FairQueue::recentShortJobQueues_; empty if the job queue is not active
     std::optional<Clock::time_point> lastLong_;  // when the last long job was queued; empty if there was none
 };
 

@@ -5,7 +5,7 @@
 namespace oval4d::parallel {
 
 ForkJoin::ForkJoin() {
-    if (processors_ > 1) thread_ = std::thread([this] { run(); });
+    if (processors_ > 1) thread_ = std::thread([this] { runHelperThread(); });
 }
 
 ForkJoin::~ForkJoin() {
@@ -45,7 +45,7 @@ void ForkJoin::invoke(const Job& first, const Job& second) {
     if (others) std::rethrow_exception(others);
 }
 
-void ForkJoin::run() {
+void ForkJoin::runHelperThread() {
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return job_ != nullptr || ending_; });

@@ -39,7 +39,7 @@ class ForkJoin {
     void invoke(const Job& first, const Job& second);
 
   private:
-    void run();
+    void runHelperThread();
 
     const unsigned processors_ = std::thread::hardware_concurrency();
     std::atomic<unsigned> busyProcessors_ = 0;

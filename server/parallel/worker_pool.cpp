@@ -30,11 +30,11 @@ WorkerPool::WorkerPool(Options options) : options_(std::move(options)), queue_(o
 
 WorkerPool::~WorkerPool() { stop(); }
 
-bool WorkerPool::post(Job job, LanePtr lane, Seconds cost) {
+bool WorkerPool::post(Job job, JobQueuePtr jobQueue, Seconds cost) {
     {
         const std::lock_guard lock(mutex_);
         if (stopping_) return true;
-        if (!queue_.push(std::move(job), lane ? lane : common_, cost, options_.now())) return false;
+        if (!queue_.push(std::move(job), jobQueue ? jobQueue : common_, cost, options_.now())) return false;
     }
     wake_.notify_one();
     return true;
@@ -81,9 +81,9 @@ void WorkerPool::run(std::size_t worker) {
     std::unique_lock lock(mutex_);
     bool used = true;
     while (!stopping_) {
-        auto next = queue_.pop(options_.now());
+        auto next = queue_.popStartableJob(options_.now());
         if (!next) {
-            wait(lock, used, worker);
+            waitForJobOrCleanUp(lock, used, worker);
             continue;
         }
         used = true;
@@ -98,7 +98,7 @@ void WorkerPool::run(std::size_t worker) {
         const Seconds took = options_.now() - start;
         lock.lock();
         busyTime_ += took;
-        queue_.finished(*next, took);
+        queue_.recordJobEnd(*next, took);
         if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may start now
     }
 }
@@ -106,7 +106,7 @@ void WorkerPool::run(std::size_t worker) {
 /// Waits until a job may be ready to start. If no job is queued within kIdleDelay, and `used` or cleanUp_ is true, sets
 /// both to false and runs `whenIdle`. `used`: whether the worker has run a job since it last ran `whenIdle`; true if it
 /// has never run `whenIdle`.
-void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
+void WorkerPool::waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
     if (queue_.waiting() > 0) {
         wake_.wait_for(lock, kRecheckInterval);
         return;

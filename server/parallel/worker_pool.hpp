@@ -26,13 +26,13 @@ class QueueFull : public std::runtime_error {
 /// stop() may not run at the same time as stop().
 class WorkerPool {
   public:
-    using Argument = std::size_t;  ///< the type of a job's argument: the index of the worker
-    using Job = FairQueue::Job;    ///< called with the index of the worker
+    using JobArgument = std::size_t;  ///< the type of a job's argument: the index of the worker
+    using Job = FairQueue::Job;       ///< called with the index of the worker
     using Seconds = FairQueue::Seconds;
     using ClientFlow = FairQueue::ClientFlow;
-    using Lane = FairQueue::Lane;
+    using JobQueue = FairQueue::JobQueue;
     using ClientFlowPtr = FairQueue::ClientFlowPtr;
-    using LanePtr = FairQueue::LanePtr;
+    using JobQueuePtr = FairQueue::JobQueuePtr;
     using Limits = FairQueue::Limits;
 
     struct Options {
@@ -51,10 +51,10 @@ class WorkerPool {
     explicit WorkerPool(Options options);
     ~WorkerPool();
 
-    /// Queues a job whose estimated running time is `cost` in `lane`; all jobs whose `lane` is null share one lane. A
-    /// job must not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is full. After
-    /// stop(), drops the job and returns true.
-    [[nodiscard]] bool post(Job job, LanePtr lane, Seconds cost);
+    /// Queues a job whose estimated running time is `cost` in `jobQueue`; all jobs whose `jobQueue` is null share one
+    /// job queue. A job must not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is
+    /// full. After stop(), drops the job and returns true.
+    [[nodiscard]] bool post(Job job, JobQueuePtr jobQueue, Seconds cost);
 
     /// Makes one worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job since its last
     /// call of `whenIdle`.
@@ -77,14 +77,14 @@ class WorkerPool {
 
   private:
     void run(std::size_t worker);
-    void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
+    void waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const Options options_;
-    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // for all jobs without one
+    const JobQueuePtr common_ = std::make_shared<JobQueue>(std::make_shared<ClientFlow>());  // for all jobs without one
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
-    // The next four members are guarded by mutex_, and so are the contents of lanes and clients.
+    // The next four members are guarded by mutex_, and so are the contents of job queues and clients.
     FairQueue queue_;
     Seconds busyTime_{0};
     bool cleanUp_ = false;  // whether cleanUpWhenIdle() has been called, and no worker has called `whenIdle` since

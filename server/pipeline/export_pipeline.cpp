@@ -118,7 +118,7 @@ geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state)
 // equal.
 Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const session::State& state,
                                             int maxSlices) {
-    const bool all = request.contents == exports::ExportContents::oval;
+    const bool all = request.contents == exports::ExportContentsKind::oval;
     if (!request.choosesSlices()) {
         auto planes = state.hyperplanes();
         if (!all) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
@@ -162,7 +162,7 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
 
 // Returns whether an export of a field with this request needs the surfaces of its slices.
 bool readsFieldSurfaces(const exports::ExportRequest& request) {
-    using enum exports::ExportContents;
+    using enum exports::ExportContentsKind;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
     return request.format->writeBodies != nullptr ? request.body == exports::BodyKind::solid
                                                   : request.format->readsSurfaces;
@@ -183,7 +183,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     std::optional<slicing::Element> element;  // the highlighted element, if it is exported alone
-    if (request.contents == exports::ExportContents::highlight && request.format->canContain(request.contents)) {
+    if (request.contents == exports::ExportContentsKind::highlight && request.format->canContain(request.contents)) {
         element = state.look.highlight;
         if (!element) {
             return Error{ErrorCode::no_body,
@@ -192,8 +192,8 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
         }
     }
     const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file looks like the user's picture
-    const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContents::oval ||
-                                            request.contents == exports::ExportContents::focus);
+    const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContentsKind::oval ||
+                                            request.contents == exports::ExportContentsKind::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
     if (isField && readsFieldSurfaces(request)) {
@@ -210,20 +210,20 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
         }
         slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
     }
-    if (request.contents == exports::ExportContents::projection && !drawing) slices = projectionOf(state, slices);
+    if (request.contents == exports::ExportContentsKind::projection && !drawing) slices = projectionOf(state, slices);
     scene::Look look;
     if (hasOwnLook) {
         look = state.look;
         if (drawing) look.background = scene::Background::white;  // because drawings are printed on white paper
-        if (request.contents == exports::ExportContents::matrix) {
+        if (request.contents == exports::ExportContentsKind::matrix) {
             look.view = scene::View::matrix;
-        } else if (request.contents != exports::ExportContents::oval) {
+        } else if (request.contents != exports::ExportContentsKind::oval) {
             look.view = scene::View::single;
         } else if (!showsAllSlices(look.view)) {
             look.view = scene::View::oval;
         }
         if (showsSlices) {
-            const bool isPicture = !drawing && request.contents == exports::ExportContents::oval;
+            const bool isPicture = !drawing && request.contents == exports::ExportContentsKind::oval;
             if (!isPicture) look.projection.kind = scene::ProjectionKind::off;
         } else if (look.projection.kind == scene::ProjectionKind::off) {
             look.projection.kind = scene::ProjectionKind::perspective;
@@ -235,13 +235,13 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (!hasOwnLook) look.parts.faces = isField;  // show the surfaces of fields, but do not fill faces
     scene::Scene scene;
     scene::Composer composer;
-    composer.limitFill(PictureWorkLimits().fillSteps);
+    composer.limitFaceFilling(PictureWorkLimits().fillSteps);
     // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size,
     // with width and height exchanged for a tall view.
-    const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;
+    const bool isSquare = showsSlices && request.contents == exports::ExportContentsKind::focus;
     scene::Viewport viewport;
     if (isSquare) viewport.width = viewport.height;
-    if (isTall(look.view)) std::swap(viewport.width, viewport.height);
+    if (isExportedInPortrait(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
     if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
@@ -261,7 +261,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
 
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices) {
-    exports::ExportRequest request = exports::requestFor(format);
+    exports::ExportRequest request = exports::defaultRequestFor(format);
     session::QueryParameters rest;
     bool hasContents = false;
     for (auto& [name, written] : query) {
@@ -285,7 +285,7 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
         }
         if (!done) return done.error();
     }
-    if (!hasContents && request.choosesSlices()) request.contents = exports::ExportContents::oval;
+    if (!hasContents && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
     query = std::move(rest);
     return request;
 }

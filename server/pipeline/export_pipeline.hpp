@@ -18,7 +18,7 @@ namespace oval4d::pipeline {
 ///   takes too long, or if `stop` is requested,
 /// - `too_many` if ExportLimits::grantTotalBytes refuses memory for the file,
 /// - `bad_message` if the request gives both `at` and `fit`, or gives one of them for contents other than
-///   ExportContents::oval,
+///   ExportContentsKind::oval,
 /// - `out_of_range` if two values of w in `at` are equal, if one of them is farther than session::kMaxOffset
 ///   circumradii from the w of ObjectInfo::originInFile, if `fit` is less than 1, if `at` or `fit` asks for more
 ///   than ExportLimits::slices, or if the size of a body or a drawing is outside its bounds.

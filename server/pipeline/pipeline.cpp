@@ -27,7 +27,7 @@ void Pipeline::slice(const session::State& state, slicing::Quality quality, slic
         slicing::checkSliceEdges(state.object, state.orientation, planes, limits_.sliceEdges);
         const double circumradius = slicing::infoOf(state.object).circumradius;
         slicing::setUniformDetail(circumradius, planes, quality, workspace_.detail);
-        slicing::addUniformFog(circumradius, planes, workspace_.detail);
+        slicing::setUniformFogSteps(circumradius, planes, workspace_.detail);
         workspace_.detail.secondValues = scene::colorsByValue(state.look);
         workspace_.slicer.slice(state.object, state.orientation, planes, state.look.field, workspace_.detail, out);
     });
@@ -37,7 +37,7 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
                            std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
                            std::string& out, slicing::Quality quality) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    workspace_.composer.limitFill(limits_.fillSteps);
+    workspace_.composer.limitFaceFilling(limits_.fillSteps);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                     workspace_.scene);
@@ -50,7 +50,7 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    workspace_.composer.limitFill(0);  // pickElement() does not use the triangles that fill faces
+    workspace_.composer.limitFaceFilling(0);  // pickElement() does not use the triangles that fill faces
     workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                 workspace_.scene);
     return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),

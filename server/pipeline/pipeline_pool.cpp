@@ -4,7 +4,7 @@
 
 namespace oval4d::pipeline {
 
-PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
+PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap)
     : pipelines_(options.threads),
       workers_({.threads = options.threads,
                 .limits = options.limits,
@@ -21,9 +21,9 @@ PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, proces
                     },
                 .forkJoin = &forkJoin}) {}
 
-bool PipelinePool::post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
+bool PipelinePool::post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost) {
     return workers_.post([this, job = std::move(job)](std::size_t worker) { job(*pipelines_[worker]); },
-                         std::move(lane), cost);
+                         std::move(jobQueue), cost);
 }
 
 }  // namespace oval4d::pipeline

@@ -15,7 +15,7 @@ namespace oval4d::pipeline {
 /// it. Thread-safe.
 class PipelinePool {
   public:
-    using Argument = Pipeline&;  ///< the type of the parameter of a job
+    using JobArgument = Pipeline&;  ///< the type of the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
     struct Options {
@@ -29,10 +29,10 @@ class PipelinePool {
 
     /// The pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return it to the operating
     /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
-    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
+    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap);
 
     /// Queues a job; returns false, and drops the job, if the queue is full. See WorkerPool::post().
-    [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);
+    [[nodiscard]] bool post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost);
 
     const parallel::WorkerPool& workers() const { return workers_; }
     parallel::WorkerPool& workers() { return workers_; }

@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to extentOf()
+constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to maxDistanceFromMean()
 constexpr double kRegularityTolerance = 0.01;       // for lengths in one cell, relative to the greatest one
 
 // The least, the root-mean-square and the greatest of some lengths.
@@ -95,7 +95,7 @@ RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop)
 
 // Assigns consecutive numbers to distinct keys, in the order of their first appearance.
 template <typename Key>
-class Numbering {
+class ConsecutiveNumbers {
   public:
     std::uint32_t numberOf(const Key& key) {
         return known_.emplace(key, static_cast<std::uint32_t>(known_.size())).first->second;
@@ -112,18 +112,18 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
     // `polygons` assigns a number to each combination of a cell's vertex count and the side counts of its 2-faces. For
     // each such number, `seen` lists the types found so far, with their metric invariants. `sizes` assigns a number to
     // each combination of a vertex count and a 2-face count.
-    Numbering<std::vector<std::uint32_t>> polygons;
-    Numbering<std::array<std::uint32_t, 2>> sizes;
-    struct Seen {
+    ConsecutiveNumbers<std::vector<std::uint32_t>> polygons;
+    ConsecutiveNumbers<std::array<std::uint32_t, 2>> sizes;
+    struct KnownCellType {
         std::uint32_t type;
         std::array<double, 6> values;
     };
-    std::map<std::uint32_t, std::vector<Seen>> seen;
+    std::map<std::uint32_t, std::vector<KnownCellType>> seen;
     std::vector<std::uint32_t> types(p.cells.size());
     std::vector<std::uint32_t> bySize(p.cells.size());
     std::uint32_t count = 0;
     CellMeasurer measurer(p);
-    const double tolerance = kCongruenceTolerance * extentOf(p);
+    const double tolerance = kCongruenceTolerance * maxDistanceFromMean(p);
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
         const CellInvariants measures = measurer.measure(c);
         bySize[c] = sizes.numberOf({measures.vertices, static_cast<std::uint32_t>(p.cells[c].size())});
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
         std::sort(sides.begin() + 1, sides.end());
         auto& alike = seen[polygons.numberOf(sides)];
         const auto values = measures.values();
-        const auto same = std::find_if(alike.begin(), alike.end(), [&](const Seen& s) {
+        const auto same = std::find_if(alike.begin(), alike.end(), [&](const KnownCellType& s) {
             return std::equal(values.begin(), values.end(), s.values.begin(),
                               [&](double a, double b) { return std::abs(a - b) <= tolerance; });
         });
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
 
 std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& p, std::vector<std::uint32_t> types) {
     for (std::size_t count = 0;;) {
-        Numbering<std::vector<std::uint32_t>> surroundings;
+        ConsecutiveNumbers<std::vector<std::uint32_t>> surroundings;
         std::vector<std::uint32_t> finer(types.size());
         for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
             std::vector<std::uint32_t> key{types[c]};
@@ -165,20 +165,21 @@ std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& p, std::vector<s
 }
 
 void numberCellTypes(Polytope& p, const std::vector<std::uint32_t>& labels) {
-    struct Group {
+    struct CellTypeGroup {
         std::uint32_t first, cells, number;
     };
-    std::map<std::uint32_t, Group> groups;
+    std::map<std::uint32_t, CellTypeGroup> groups;
     for (std::uint32_t c = 0; c < labels.size(); ++c)
-        ++groups.try_emplace(labels[c], Group{c, 0, 0}).first->second.cells;
-    std::vector<Group*> order;
+        ++groups.try_emplace(labels[c], CellTypeGroup{c, 0, 0}).first->second.cells;
+    std::vector<CellTypeGroup*> order;
     for (auto& [ignored, group] : groups) order.push_back(&group);
-    const auto rank = [&](const Group* group) {
+    const auto rank = [&](const CellTypeGroup* group) {
         return std::tuple(group->cells, -static_cast<std::int64_t>(p.cells[group->first].size()), group->first);
     };
-    std::sort(order.begin(), order.end(), [&](const Group* a, const Group* b) { return rank(a) < rank(b); });
+    std::sort(order.begin(), order.end(),
+              [&](const CellTypeGroup* a, const CellTypeGroup* b) { return rank(a) < rank(b); });
     p.cellTypes.clear();
-    for (Group* group : order) {
+    for (CellTypeGroup* group : order) {
         group->number = static_cast<std::uint32_t>(p.cellTypes.size());
         p.cellTypes.push_back({nameOfCell(p, group->first), group->cells});
     }

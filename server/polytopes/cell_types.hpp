@@ -16,8 +16,9 @@ inline constexpr std::size_t kMaxCellTypes = 64;
 
 /// Returns a type number for each cell; cells of the same shape have the same number. Two cells count as having the
 /// same shape if they have equally many vertices, triangles, quadrilaterals and so on, and if six lengths agree to
-/// within 1/500 of the polytope's extent (see extentOf()): the least, the root-mean-square and the greatest edge length
-/// of the cell, and the least, the root-mean-square and the greatest distance of its vertices from their mean.
+/// within 1/500 of the polytope's extent (see maxDistanceFromMean()): the least, the root-mean-square and the greatest
+/// edge length of the cell, and the least, the root-mean-square and the greatest distance of its vertices from their
+/// mean.
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& polytope);
 
 /// Refines a classification of the cells by color refinement, and returns the new type number of each cell. `types`

@@ -11,7 +11,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to extentOf()
+constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to maxDistanceFromMean()
 // The angles around an edge or a vertex add up to 2π, one full turn, or to at least 4π. This limit, in radians,
 // distinguishes the two cases.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
@@ -27,7 +27,7 @@ glm::dvec4 mean(const std::vector<glm::dvec4>& points) {
 
 class ConvexityTest {
   public:
-    explicit ConvexityTest(const Polytope& polytope) : p_(polytope), extent_(extentOf(polytope)) {
+    explicit ConvexityTest(const Polytope& polytope) : p_(polytope), extent_(maxDistanceFromMean(polytope)) {
         for (const glm::dvec4& v : p_.vertices) center_ += v;
         center_ /= static_cast<double>(p_.vertices.size());
     }

@@ -259,7 +259,7 @@ void findFacesAtEdges(Polytope& p) {
 InvalidPolytope::InvalidPolytope(FaultLocation element, std::size_t number, const std::string& fault)
     : std::invalid_argument(nameOf(element, number) + fault), part(element), index(number), detail(fault) {}
 
-double extentOf(const Polytope& polytope) {
+double maxDistanceFromMean(const Polytope& polytope) {
     glm::dvec4 middle(0);
     for (const glm::dvec4& v : polytope.vertices) middle += v;
     middle /= static_cast<double>(polytope.vertices.size());

@@ -33,7 +33,7 @@ struct Polytope : geometry::CellComplex {
 
 /// Returns the largest distance of a vertex from the mean of the vertices. Unlike the circumradius, it is independent
 /// of the position of the polytope.
-double extentOf(const Polytope& polytope);
+double maxDistanceFromMean(const Polytope& polytope);
 
 /// Thrown by makePolytope() for elements that do not form a valid polytope. Says which element is invalid.
 class InvalidPolytope : public std::invalid_argument {

@@ -75,7 +75,7 @@ bool waitForExit(pid_t process, int& status) {
 ChildProcess::ChildProcess(ChildOptions options) : options_(std::move(options)) {}
 
 ChildProcess::~ChildProcess() {
-    if (channel_) end(false);
+    if (channel_) endProcess(false);
 }
 
 void ChildProcess::start() {
@@ -110,12 +110,12 @@ void ChildProcess::start() {
 }
 
 void ChildProcess::kill() {
-    if (channel_) end(true);
+    if (channel_) endProcess(true);
 }
 
 /// Closes the channel and ends the process: kills it immediately if `atOnce`, else after kExitTimeout if it has not
 /// exited by then. Returns its signal or exit status as text.
-std::string ChildProcess::end(bool atOnce) {
+std::string ChildProcess::endProcess(bool atOnce) {
     channel_.reset();
     ready_ = false;
     int status = 0;
@@ -140,7 +140,7 @@ void ChildProcess::awaitReady(TransferResult& transfer, const WaitLimit& limit) 
     ready_ = true;
 }
 
-void ChildProcess::converse(const Conversation& conversation, const std::stop_token& stop) {
+void ChildProcess::converseWithRetry(const ConversationFunction& conversation, const std::stop_token& stop) {
     ProcessLoss loss{};
     for (int losses = 0; losses < 2; ++losses) {
         start();
@@ -152,20 +152,20 @@ void ChildProcess::converse(const Conversation& conversation, const std::stop_to
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
-            end(true);  // kills the process, which could send a late reply into the next conversation
+            endProcess(true);  // kills the process, which could send a late reply into the next conversation
             throw;
         }
         if (transfer == TransferResult::complete) return;
-        const std::string how = end(transfer == TransferResult::timed_out);
+        const std::string how = endProcess(transfer == TransferResult::timed_out);
         if (stop.stop_requested()) throw Canceled();
         loss = transfer == TransferResult::closed
                    ? ProcessLoss{false, "died: " + how}
                    : ProcessLoss{true, "hung: no answer in " + text::shortestDecimal(options_.timeout.count()) + " s"};
         options_.onLoss(loss);
         if (loss.hung && talked && !options_.repeatAfterHang)
-            throw ProcessLost("a process was lost in this conversation, it " + loss.description, true);
+            throw ProcessLostError("a process was lost in this conversation, it " + loss.description, true);
     }
-    throw ProcessLost("two processes were lost in a row, the second " + loss.description, false);
+    throw ProcessLostError("two processes were lost in a row, the second " + loss.description, false);
 }
 
 void initializeChild() {

@@ -39,9 +39,9 @@ struct ChildOptions {
 
 /// Thrown when a conversation fails because the process was lost and the conversation must not be repeated, or because
 /// the process that replaced it was lost, too.
-class ProcessLost : public std::runtime_error {
+class ProcessLostError : public std::runtime_error {
   public:
-    ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
+    ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
     /// Returns true if a process hung during the conversation and ChildOptions::repeatAfterHang is false. Otherwise,
     /// returns false: a process and then its replacement were lost.
     bool hung() const { return hung_; }
@@ -58,7 +58,7 @@ class ChildProcess {
   public:
     /// A conversation: sends messages to the process and receives its replies within the limit. Returns the result of
     /// its last transfer.
-    using Conversation = std::function<TransferResult(const Channel&, const WaitLimit&)>;
+    using ConversationFunction = std::function<TransferResult(const Channel&, const WaitLimit&)>;
 
     explicit ChildProcess(ChildOptions options);
     ~ChildProcess();
@@ -73,16 +73,16 @@ class ChildProcess {
     /// starts a new process and repeats the conversation once, unless the process hung during `conversation` and
     /// `repeatAfterHang` is false. Throws:
     /// - Canceled if a stop is requested,
-    /// - ProcessLost if the new process is lost, too, or if the conversation is not repeated,
+    /// - ProcessLostError if the new process is lost, too, or if the conversation is not repeated,
     /// - std::runtime_error if the process cannot be started, or reports that it failed to start,
     /// - what `conversation` throws, after killing the process.
-    void converse(const Conversation& conversation, const std::stop_token& stop);
+    void converseWithRetry(const ConversationFunction& conversation, const std::stop_token& stop);
 
     /// Kills the process if it is running.
     void kill();
 
   private:
-    std::string end(bool atOnce);
+    std::string endProcess(bool atOnce);
     WaitLimit waitLimit(const std::stop_token& stop) const;
     void awaitReady(TransferResult& transfer, const WaitLimit& limit);
 

@@ -15,7 +15,7 @@ constexpr int kTrimThreshold = 2 * kMapThreshold;
 
 }  // namespace
 
-Heap::Heap() {
+HeapConfiguration::HeapConfiguration() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
     // In a build with a sanitizer, mallopt does not reach glibc's allocator, so the first malloc_trim initializes this
@@ -26,7 +26,7 @@ Heap::Heap() {
 /// malloc_trim does not return the free memory at the end of a thread's arena, however much there is. glibc returns it
 /// when the thread frees a large block and the free memory exceeds the trim threshold. Therefore this function sets the
 /// threshold to 0 for a moment, and frees a large block.
-void Heap::returnFreeMemory() {
+void HeapConfiguration::returnFreeMemory() {
     mallopt(M_TRIM_THRESHOLD, 0);
     void* const volatile large = ::operator new(1U << 17U);
     ::operator delete(large);

@@ -4,11 +4,11 @@ namespace oval4d::process {
 
 /// The heap of this process, which glibc's allocator manages. The constructor configures the allocator: construct one
 /// object in main(), before the program allocates much memory.
-class Heap {
+class HeapConfiguration {
   public:
-    Heap();
-    Heap(const Heap&) = delete;
-    Heap& operator=(const Heap&) = delete;
+    HeapConfiguration();
+    HeapConfiguration(const HeapConfiguration&) = delete;
+    HeapConfiguration& operator=(const HeapConfiguration&) = delete;
 
     /// Returns free memory to the operating system, which takes milliseconds. Thread-safe.
     void returnFreeMemory();

@@ -195,7 +195,7 @@ bool canFilter(std::string& why) {
 }
 
 /// Restricts all threads of this process, from now on, to the system calls that `role` needs.
-void filterSystemCalls(Role role) {
+void filterSystemCalls(SandboxRole role) {
     SeccompFilter filter(SCMP_ACT_ERRNO(EPERM), true);
     filter.add(SCMP_ACT_ALLOW, kCommonCalls);
     for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
@@ -212,7 +212,7 @@ void filterSystemCalls(Role role) {
     // Shared memory without a file would not count as memory of the process, so mmap must not get these two flags
     // together.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
-    if (role == Role::draw) {
+    if (role == SandboxRole::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
         for (const std::uint64_t flag : kNotTogether) filter.add(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(3, flag)});
         filter.add(SCMP_ACT_ALLOW, kThreadCalls);
@@ -250,7 +250,7 @@ bool shouldSandbox(SandboxMode wanted, std::string& why) {
     return false;
 }
 
-void confine(Role role, const Confinement& confinement) {
+void confine(SandboxRole role, const Confinement& confinement) {
     limitResources(confinement);
     if (confinement.filtered) filterSystemCalls(role);
 }

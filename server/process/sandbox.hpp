@@ -26,7 +26,7 @@ bool shouldSandbox(SandboxMode wanted, std::string& why);
 /// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
 /// memory, read the clock, wait, write to standard error (the log), use its channel (kChildSocket), and exit. No child
 /// may open, create, list or change files, use the network, start programs, or access other processes.
-enum class Role : std::uint8_t {
+enum class SandboxRole : std::uint8_t {
     draw,        ///< draws pictures; may also start threads, and execute code that it compiles at run time
     parse_file,  ///< parses files that it receives over its channel; may do nothing more
 };
@@ -46,6 +46,6 @@ struct Confinement {
 /// call that only an intruder would make (to start a program, open a socket or access another process) kills the
 /// process. Also disables core dumps, which would contain clients' data. Throws std::runtime_error if the filter cannot
 /// be set.
-void confine(Role role, const Confinement& confinement);
+void confine(SandboxRole role, const Confinement& confinement);
 
 }  // namespace oval4d::process

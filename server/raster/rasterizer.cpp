@@ -17,11 +17,11 @@ void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport
                            std::span<std::uint8_t> pixels, DrawTimes& times) {
     warmUp();
     Workspace& m = workspace_;
-    m.composer.limitFill(fillSteps_);
+    m.composer.limitFaceFilling(fillSteps_);
     times.slice = measureSeconds([&] {
         const geometry::Hyperplanes planes = state.hyperplanes();
-        m.composer.chooseDetail(state.object, planes, state.slices.focus, state.look, viewport, quality, m.scene,
-                                m.detail);
+        m.composer.layOutAndChooseDetail(state.object, planes, state.slices.focus, state.look, viewport, quality,
+                                         m.scene, m.detail);
         m.slicer.slice(state.object, state.orientation, planes, state.look.field, m.detail, m.slices);
     });
     times.compose = measureSeconds([&] {

@@ -47,7 +47,7 @@ class LocalRasterizer : public Rasterizer {
 
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
     /// slicing::FaceFiller::fill()).
-    void limitFill(std::size_t steps) { fillSteps_ = steps; }
+    void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,

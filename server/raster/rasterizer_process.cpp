@@ -36,8 +36,8 @@ RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& optio
 
 /// Receives messages until one of the type `drawn` or `failed` comes, and keeps its type in answer_ and its body in
 /// body_. Sends the object if the process asks for it.
-TransferResult RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
-                                                const WaitLimit& limit) {
+TransferResult RasterizerProcess::receiveAnswerSendingObject(const session::State& state, const Channel& channel,
+                                                             const WaitLimit& limit) {
     for (bool sent = false;; sent = true) {
         TransferResult transfer = channel.receive(answer_, body_, nullptr, limit, kMaxAnswer);
         if (transfer != TransferResult::complete || answer_ == MessageType::drawn || answer_ == MessageType::failed)
@@ -57,7 +57,7 @@ TransferResult RasterizerProcess::receiveAnswer(const session::State& state, con
 }
 
 void RasterizerProcess::warmUp(const std::stop_token& stop) {
-    process_.converse([](const Channel&, const WaitLimit&) { return TransferResult::complete; }, stop);
+    process_.converseWithRetry([](const Channel&, const WaitLimit&) { return TransferResult::complete; }, stop);
 }
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
@@ -65,10 +65,10 @@ std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& stat
                                                       const std::stop_token& stop) {
     encodeRequest(state, viewport, quality, limits_, request_);
     const auto drawn = pixels.resize(image::byteCount(viewport));
-    process_.converse(
+    process_.converseWithRetry(
         [&](const Channel& channel, const WaitLimit& limit) {
             const TransferResult sent = channel.send(MessageType::draw, request_, pixels.file(), limit);
-            return sent == TransferResult::complete ? receiveAnswer(state, channel, limit) : sent;
+            return sent == TransferResult::complete ? receiveAnswerSendingObject(state, channel, limit) : sent;
         },
         stop);
     if (answer_ == MessageType::failed) throw std::runtime_error(body_);

@@ -33,8 +33,8 @@ struct RasterizerOptions {
 /// repeats the task.
 ///
 /// Only one thread at a time may use an object. warmUp() and draw() throw process::Canceled if a stop is requested
-/// through `stop`, process::ProcessLost if the replacement is lost, too, and std::runtime_error if a process cannot be
-/// started or reports an error.
+/// through `stop`, process::ProcessLostError if the replacement is lost, too, and std::runtime_error if a process
+/// cannot be started or reports an error.
 class RasterizerProcess {
   public:
     /// `threads` is the number of threads of llvmpipe. If it is 0, the main thread of the process does all the drawing.
@@ -54,8 +54,8 @@ class RasterizerProcess {
 
   private:
     // Receives the answer to a request. Sends the object first if the process asks for it.
-    process::TransferResult receiveAnswer(const session::State& state, const process::Channel& channel,
-                                          const process::WaitLimit& limit);
+    process::TransferResult receiveAnswerSendingObject(const session::State& state, const process::Channel& channel,
+                                                       const process::WaitLimit& limit);
 
     const RasterizerLimits limits_;
     process::ChildProcess process_;

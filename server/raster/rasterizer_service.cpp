@@ -66,13 +66,13 @@ class RecentObjects {
 
 class RasterizerService {
   public:
-    RasterizerService(int socket, parallel::ForkJoin& forkJoin, process::Heap& heap)
+    RasterizerService(int socket, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap)
         : channel_(socket), rasterizer_(&forkJoin), heap_(heap) {}
 
     void run(const process::Confinement& confinement) {
         const bool ready = attempt([&] {
             rasterizer_.warmUp();  // before confine(), because it reads the font and other files
-            process::confine(process::Role::draw, confinement);
+            process::confine(process::SandboxRole::draw, confinement);
         });
         if (!ready) return;
         channel_.send(MessageType::ready);
@@ -124,7 +124,7 @@ class RasterizerService {
     }
 
     void draw() {
-        rasterizer_.limitFill(request_.limits.fillSteps);
+        rasterizer_.limitFaceFilling(request_.limits.fillSteps);
         DrawTimes times;
         rasterizer_.draw(request_.state, request_.viewport, request_.quality,
                          pixelFiles_.at(currentFile_)->remap(image::byteCount(request_.viewport)), times);
@@ -144,7 +144,7 @@ class RasterizerService {
 
     Channel channel_;
     LocalRasterizer rasterizer_;
-    process::Heap& heap_;
+    process::HeapConfiguration& heap_;
     RecentObjects recent_;
     DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
@@ -156,7 +156,7 @@ class RasterizerService {
 }  // namespace
 
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
-                     process::Heap& heap) {
+                     process::HeapConfiguration& heap) {
     process::initializeChild();
     RasterizerService(socket, forkJoin, heap).run(confinement);
 }

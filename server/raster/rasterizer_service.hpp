@@ -14,6 +14,6 @@ inline constexpr const char* kRasterizerCommand = "draw";
 /// reason to the other end. If no request comes for a while, frees memory and returns it to the operating system
 /// through `heap`. Throws std::runtime_error if a draw request is damaged or arrives without the memory to draw into.
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
-                     process::Heap& heap);
+                     process::HeapConfiguration& heap);
 
 }  // namespace oval4d::raster

@@ -50,10 +50,10 @@ void WorkerRasterizer::freeMemory() {
 std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const session::State& state,
                                                                     scene::Viewport viewport, slicing::Quality quality,
                                                                     DrawTimes& times) {
-    struct Counted {
+    struct DrawingCounter {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;
-        ~Counted() { --drawing; }
+        ~DrawingCounter() { --drawing; }
     } const counted{shared_.drawing_};
     if (!pixels_) pixels_.emplace();
     const auto now = Clock::now().time_since_epoch();

@@ -38,8 +38,8 @@ struct Projection {
     }
 
     /// Returns the focal length in pixels: a length L perpendicular to the view axis, at distance d from the eye, is
-    /// drawn with L · focalLength() / d pixels.
-    float focalLength() const { return 0.5f * scaleY * height; }
+    /// drawn with L · focalLengthInPixels() / d pixels.
+    float focalLengthInPixels() const { return 0.5f * scaleY * height; }
 };
 
 }  // namespace oval4d::render

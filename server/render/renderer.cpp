@@ -90,8 +90,8 @@ void setClearColor(const scene::Style& style) {
 
 /// If the viewer has moved the camera, clears the part of the picture that belongs to the parallel coordinates, because
 /// slices may then extend into it.
-void clearCoordinates(const scene::Scene& scene) {
-    if (!scene.clearsCoordinates()) return;
+void clearCoordinatesArea(const scene::Scene& scene) {
+    if (!scene.clearsCoordinatesArea()) return;
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, scene.viewport.width,
               static_cast<int>(std::lround(scene.coordinates.top() * scene.viewport.height)));
@@ -127,7 +127,7 @@ struct Renderer::Impl {
     void drawProjection(DepthRange depths);
     void prepareFog(const scene::Scene& scene, DepthRange depths);
     void drawFogBehindFrame(const scene::Scene& scene);
-    void drawFog(const scene::Scene& scene, DepthRange depths);
+    void drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths);
 
     /// The surfaces of the nearer or of the farther slices, for drawing without OpenGL.
     struct NearOrFarSurfaces {
@@ -270,7 +270,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     if (scene.projectionPlacement.shown) drawProjection(depths);
     glDepthMask(GL_FALSE);
     if (hasFog) {
-        drawFog(scene, depths);
+        drawFogAndSurfaces(scene, depths);
     } else {
         surfaceProgram.draw(depths, surfaces, surfaces.translucentIndices());
     }
@@ -295,17 +295,18 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
 // Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
-    for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::FogPart::behind);
+    for (const std::uint32_t slice : surfaces.slicesFarToNear())
+        fogPainter->draw(scene, slice, FogPainter::FogPart::behind);
 }
 
 // Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
-void Renderer::Impl::drawFog(const scene::Scene& scene, DepthRange depths) {
+void Renderer::Impl::drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths) {
     surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
-    for (std::size_t i = 0; i < surfaces.order().size(); ++i) {
+    for (std::size_t i = 0; i < surfaces.slicesFarToNear().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
         surfaceProgram.drawPart(begin, end);
-        fogPainter->draw(scene, surfaces.order()[i], FogPainter::FogPart::in_front);
+        fogPainter->draw(scene, surfaces.slicesFarToNear()[i], FogPainter::FogPart::in_front);
         begin = end;
     }
 }
@@ -393,7 +394,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     addAxes(scene, shapes, overlay);
     addCoordinates(scene, overlay);
     addLabels(scene, overlay);
-    addMatrix(scene, overlay);
+    addMatrixAndFocusLines(scene, overlay);
 
     if (inMemory) {
         impl_->shapeRasterizer.add(shapes, notAdded, shapes.patches().size(), ShapeRasterizer::DepthUse::unused);
@@ -402,7 +403,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     } else {
         impl_->patchDepthProgram.draw(shapes);
     }
-    clearCoordinates(scene);
+    clearCoordinatesArea(scene);
     impl_->coordinatesPlot.draw(scene);
     overlay.draw();
     impl_->context.finish();

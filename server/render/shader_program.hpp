@@ -32,7 +32,7 @@ class ShaderProgram {
     ShaderProgram& operator=(const ShaderProgram&) = delete;
 
     /// Returns the location of a uniform variable, or −1 if there is none with this name.
-    GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
+    GLint uniformLocation(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
     /// Draws triangles in order. Three successive entries of `indices` are the indices of the vertices of a triangle.

@@ -88,7 +88,7 @@ Arrangement columnOf(int count, double reach) {
 
 // Returns a grid with the number of columns at which the slices are largest. `reach`: the radius of a slice with its
 // balls.
-Arrangement gridOf(int count, double reach, const SliceRoom& room) {
+Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     // The square of the projection takes the share kProjectionShare of the width of the room if it is to the left of
     // the grid, or of the height if it is above the grid; but at most the share kProjectionBreadth of the other side.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
@@ -167,7 +167,7 @@ ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
 
 // The switches over the views have no default, so that a view without a case does not compile.
 
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const SliceRoom& room) {
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room) {
     Arrangement made;
     switch (view) {
         case View::oval:
@@ -227,7 +227,7 @@ ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::
             const double u = parameterOf(i, placements.size());
             const glm::dvec3& q = placements[i].position;
             const double depth = space.depth(q);
-            const double r = arrangement.reach * arrangement.reachAt(u) / depth;
+            const double r = arrangement.reach * arrangement.relativeSliceRadiusAt(u) / depth;
             room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
         }
         return room;

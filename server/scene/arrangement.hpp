@@ -16,7 +16,7 @@ namespace oval4d::scene {
 
 /// The room that a picture has for the slices, their labels and the projection. All sizes are a width and a height, in
 /// viewport heights.
-struct SliceRoom {
+struct AvailableSpace {
     glm::dvec2 size{0};
     std::array<glm::dvec2, 2> besideAxes{};  ///< the sizes of the parts to the right of the axes symbol and below it
     bool hasProjection = false;              ///< whether the projection is shown
@@ -81,17 +81,17 @@ struct Arrangement {
         return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0;
     }
     /// Returns an upper bound of the distance from the focus slice to any other slice.
-    double extent() const { return depth + halfWidth + halfHeight; }
+    double maxDistanceFromFocus() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
     /// assumed to lie. In a grid, a row, a column or a single place, this radius is 1. On a parabola, it is the radius
     /// of the slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice
     /// only touch this sphere; the parabola has just enough room for such slices.
-    double reachAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
+    double relativeSliceRadiusAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
 /// Returns how a view arranges `count` slices in a picture with this aspect ratio (width / height). `relativeBall`: the
 /// radius of balls as a fraction of the slice radius. Only a grid depends on `room`.
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const SliceRoom& room);
+Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room);
 
 /// Places the projection of the whole object beside the slices of a view. `count`: the number of slices. `aspect`: the
 /// aspect ratio of the room that the slices and the projection have, without the part of the width that labels beside

@@ -197,8 +197,8 @@ Color noValueColor() {
     return kGray;
 }
 
-void CellPainter::assignColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
-                               const geometry::Rotation& orientation, std::vector<Color>& out) {
+void CellPainter::updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                                   const geometry::Rotation& orientation, std::vector<Color>& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const std::size_t cells = slicing::elementCounts(object)[3];
     const bool changed =
@@ -212,17 +212,17 @@ void CellPainter::assignColors(const slicing::Object& object, Coloring coloring,
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
-        if (changed) findCenters(object);
+        if (changed) setDirectionsToCenters(object);
         colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
-        if (changed) findNormals(object);
+        if (changed) setDirectionsToNormals(object);
         static const ScalePerScheme kScales = scalesFor(lightScale);
         colorByDirection(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }
 
 // Sets directions_ to the cells' centers, scaled so that the farthest one has length 1.
-void CellPainter::findCenters(const slicing::Object& object) {
+void CellPainter::setDirectionsToCenters(const slicing::Object& object) {
     slicing::findCellCenters(object, directions_);
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
@@ -232,7 +232,7 @@ void CellPainter::findCenters(const slicing::Object& object) {
 }
 
 // Sets directions_ to the cells' unit normals, or 0 for cells that enclose no volume.
-void CellPainter::findNormals(const slicing::Object& object) {
+void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
     std::vector<double> offsets;
     slicing::findCellHyperplanes(object, directions_, offsets);
     for (glm::dvec4& normal : directions_) {

@@ -63,12 +63,12 @@ class CellPainter {
     /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
     ///   rotation and the direction toward a light in four dimensions.
     /// - Other values: plainColor().
-    void assignColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
-                      const geometry::Rotation& orientation, std::vector<Color>& out);
+    void updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                          const geometry::Rotation& orientation, std::vector<Color>& out);
 
   private:
-    void findCenters(const slicing::Object& object);
-    void findNormals(const slicing::Object& object);
+    void setDirectionsToCenters(const slicing::Object& object);
+    void setDirectionsToNormals(const slicing::Object& object);
     void colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
 
     std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells were last colored

@@ -37,7 +37,7 @@ double translucent(double own, const Look& look) {
 
 // Sets the title, the circumradius, the look and the viewport of `out`. Sets objectChanged_ if `object` is not the
 // object of the last call.
-void Composer::setObject(const Object& object, const Look& look, Viewport viewport, Scene& out) {
+void Composer::setObjectLookAndViewport(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;
     object_ = info.serial;
@@ -48,15 +48,16 @@ void Composer::setObject(const Object& object, const Look& look, Viewport viewpo
     out.viewport = viewport;
 }
 
-void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& planes, int focus, const Look& look,
-                            Viewport viewport, slicing::Quality quality, Scene& scene, slicing::SurfaceDetail& out) {
+void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyperplanes& planes, int focus,
+                                     const Look& look, Viewport viewport, slicing::Quality quality, Scene& scene,
+                                     slicing::SurfaceDetail& out) {
     out.steps.clear();
     out.fogSteps.clear();
     out.quality = quality;
     out.secondValues = colorsByValue(look);
     const bool hasFog = !look.field.fog.empty();
     if (slicing::fieldIn(object) == nullptr || (!look.parts.faces && !hasFog)) return;
-    setObject(object, look, viewport, scene);
+    setObjectLookAndViewport(object, look, viewport, scene);
     layoutInput_.focusName.clear();
     layOutIfChanged(object, planes, focus, scene);
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
@@ -80,7 +81,7 @@ void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& p
 void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
                        const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
-    setObject(object, look, viewport, out);
+    setObjectLookAndViewport(object, look, viewport, out);
     const bool objectChanged = std::exchange(objectChanged_, false);
     if (objectChanged || filter_ != look.cellTypes) setFilter(object, look.cellTypes);
 
@@ -97,13 +98,13 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeOn(look.background));
     out.visibilities = visibilities_;
     removeHighlightColor(out);
-    cellPainter_.assignColors(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
+    cellPainter_.updateCellColors(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
-    if (out.matrix.shown) cutMatrix(object, orientation, focus, out);
+    if (out.matrix.shown) cutSectionMatrix(object, orientation, focus, out);
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
@@ -113,7 +114,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     for (const slicing::FilledFaces::Face& face : out.fill.faces)
         out.fillCells.push_back(slicing::coloringCell(object, out.visibilities, face.source));
     if (out.showsDensity()) measureDensity(orientation, out);
-    if (out.showsHistogram()) measureValues(object, orientation, out);
+    if (out.showsHistogram()) measureFieldHistograms(object, orientation, out);
 }
 
 // Finds the slice elements that show the highlighted element. Gives a highlighted cell the highlight color.
@@ -216,7 +217,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     }
 }
 
-void Composer::cutMatrix(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
+void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     SectionMatrix& matrix = out.sectionMatrix;
     const int slice = focus - out.slices->planes.first;
     matrix.point = glm::dvec4(out.look.focusPoint, out.slices->planes.w(slice));
@@ -264,7 +265,7 @@ void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out)
     out.plotTones.assign(tones.begin(), tones.end());
 }
 
-void Composer::measureValues(const Object& object, const geometry::Rotation& orientation, Scene& out) {
+void Composer::measureFieldHistograms(const Object& object, const geometry::Rotation& orientation, Scene& out) {
     const slicing::FieldSettings& settings = out.look.field;
     if (densityObject_ != object_ || densityTurn_ != orientation || histogramLevels_ != settings.levels ||
         out.plotTones.empty()) {

@@ -26,7 +26,7 @@ class Composer {
   public:
     /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill().
     /// By default, there is no limit.
-    void limitFill(std::size_t steps) { fillSteps_ = steps; }
+    void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
     /// index n of the focus slice (see SlicePlacement::index). Overwrites `out` and reuses its memory. `out` keeps a
@@ -39,8 +39,9 @@ class Composer {
     /// SurfaceDetail::fogSteps is empty if there is no fog, and both are empty if `object` is not a field. The steps
     /// are 0 for slices that are not drawn or lie behind the eye. If there are any steps, also lays out `scene`, which
     /// must be the Scene that compose() gets next.
-    void chooseDetail(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, const Look& look,
-                      Viewport viewport, slicing::Quality quality, Scene& scene, slicing::SurfaceDetail& out);
+    void layOutAndChooseDetail(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus,
+                               const Look& look, Viewport viewport, slicing::Quality quality, Scene& scene,
+                               slicing::SurfaceDetail& out);
 
   private:
     // All inputs of the layout. While the object turns, only `focusName` can change; most frames therefore reuse the
@@ -57,14 +58,14 @@ class Composer {
 
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
-    void cutMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
+    void cutSectionMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void nameSection(const slicing::Object& object, int focus, Scene& out);
-    void setObject(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
+    void setObjectLookAndViewport(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
     void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
     void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
     void removeHighlightColor(Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
-    void measureValues(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
+    void measureFieldHistograms(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     CellPainter cellPainter_;

@@ -11,12 +11,12 @@
 
 namespace oval4d::scene {
 
-void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme) {
+void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& out, Scheme scheme) {
     out.clear();
     if (points.empty()) return;
     const double least = points.front().value, range = points.back().value - least;
     // Returns the color (r, g, b) and the opacity (a) of a control point, each from 0 to 255.
-    const auto look = [&](const slicing::FogPoint& point) {
+    const auto look = [&](const slicing::FogControlPoint& point) {
         const Color color = point.color.value_or(divergingColor(2 * ((point.value - least) / range) - 1, scheme));
         return glm::dvec4(color >> 16 & 255, color >> 8 & 255, color & 255, 255 * point.opacity);
     };
@@ -25,7 +25,7 @@ void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Sche
     for (std::size_t entry = 1; entry < kFogEntries; ++entry) {
         const double value = least + static_cast<double>(entry - 1) / (kFogEntries - 2) * range;
         while (next + 1 < points.size() && points[next].value < value) ++next;
-        const slicing::FogPoint &from = points[next - 1], &to = points[next];
+        const slicing::FogControlPoint &from = points[next - 1], &to = points[next];
         const double part = std::clamp((value - from.value) / (to.value - from.value), 0.0, 1.0);
         const glm::uvec4 mixed(glm::round(glm::mix(look(from), look(to), part)));
         out.push_back(mixed.a << 24 | mixed.r << 16 | mixed.g << 8 | mixed.b);

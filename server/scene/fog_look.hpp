@@ -26,7 +26,7 @@ inline constexpr std::size_t kFogEntries = 256;
 /// point, entry 255 for the value of the last. A point without a color gets a color of divergingColor(), from blue at
 /// the first point to amber at the last. Between two points, sRGB colors and opacities are interpolated linearly.
 /// Overwrites `out`.
-void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
+void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
 /// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a lattice.
 inline constexpr int kFogBlock = 4;

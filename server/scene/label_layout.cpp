@@ -52,7 +52,7 @@ Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
     Rect out{0, 0, 0, 0};
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         if (!placements_[i].drawn) continue;
-        const Box box = boxAt(i, scale);
+        const Box box = initialLabelBox(i, scale);
         out.left = std::max(out.left, bounds.left * scale - (box.center.x - box.half.x));
         out.right = std::max(out.right, box.center.x + box.half.x - bounds.right * scale);
         out.bottom = std::max(out.bottom, bounds.bottom * scale - (box.center.y - box.half.y));
@@ -94,7 +94,8 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
     }
 }
 
-void LabelLayout::thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved) {
+void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const Box& axes,
+                                          bool isMoved) {
     const auto count = static_cast<std::ptrdiff_t>(placements_.size());
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
     const std::ptrdiff_t step = smallestStep(focus, camera.focalLength());
@@ -142,13 +143,13 @@ glm::dvec2 LabelLayout::halfPlate(const SlicePlacement& placement) const {
     return halfText(placement) + fontSize(placement) * margin;
 }
 
-glm::dvec2 LabelLayout::onPlane(double u) const {
+glm::dvec2 LabelLayout::sliceCenterOnPlane(double u) const {
     const glm::dvec3 p = arrangement_.positionAt(u);
     return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
 }
 
 double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale) const {
-    const double r = arrangement_.reach * arrangement_.reachAt(u);
+    const double r = arrangement_.reach * arrangement_.relativeSliceRadiusAt(u);
     const glm::dvec3 p = arrangement_.positionAt(u);
     const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.up(p)));
     const double e = (a * d + r * std::sqrt(std::max(a * a + d * d - r * r, 0.0))) / (d * d - r * r);
@@ -157,7 +158,7 @@ double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale
 
 glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
     const double u = parameterOf(i, placements_.size());
-    const glm::dvec2 along = onPlane(u + 1e-3) - onPlane(u - 1e-3);
+    const glm::dvec2 along = sliceCenterOnPlane(u + 1e-3) - sliceCenterOnPlane(u - 1e-3);
     glm::dvec2 outward{0, -1};
     if (glm::length(along) > 0)
         outward =
@@ -167,9 +168,10 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
     return outward * (radius + gapOf(placement) + glm::dot(glm::abs(outward), halfText(placement)));
 }
 
-Box LabelLayout::boxAt(std::size_t i, double scale) const {
+Box LabelLayout::initialLabelBox(std::size_t i, double scale) const {
     const double u = parameterOf(i, placements_.size());
-    return {scale * onPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)), halfPlate(placements_[i])};
+    return {scale * sliceCenterOnPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
+            halfPlate(placements_[i])};
 }
 
 glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
@@ -183,7 +185,7 @@ bool LabelLayout::overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Cam
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
         const double u = parameterOf(j, placements_.size());
-        const double radius = arrangement_.reach * arrangement_.reachAt(u) * camera.focalLength() / -p.z;
+        const double radius = arrangement_.reach * arrangement_.relativeSliceRadiusAt(u) * camera.focalLength() / -p.z;
         if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
     }
     return false;
@@ -202,9 +204,9 @@ std::ptrdiff_t LabelLayout::smallestStep(std::ptrdiff_t focus, double scale) con
     const auto fits = [&](std::ptrdiff_t step) {
         for (std::ptrdiff_t i = focus % step; i < count; i += step) {
             if (!placements_[i].drawn) continue;
-            const Box box = boxAt(i, scale);
+            const Box box = initialLabelBox(i, scale);
             for (std::ptrdiff_t j = i + step; j < count; j += step)
-                if (placements_[j].drawn && overlap(box, boxAt(j, scale))) return false;
+                if (placements_[j].drawn && overlap(box, initialLabelBox(j, scale))) return false;
         }
         return true;
     };

@@ -46,7 +46,7 @@ class LabelLayout {
     /// overlaps the kept label of a slice nearer to the focus slice. If the viewer has moved the camera (`isMoved`),
     /// also removes a label if it overlaps another slice or the axes symbol (whose box is `axes`), or if it extends
     /// below `bottom`, the upper edge of the parallel coordinates, which are drawn below the slices.
-    void thin(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
+    void removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
 
   private:
     // The font size of a label, in viewport heights.
@@ -62,7 +62,7 @@ class LabelLayout {
     glm::dvec2 halfPlate(const SlicePlacement& placement) const;
 
     // The center of the slice with the parameter u, on the plane at distance 1 from the eye.
-    glm::dvec2 onPlane(double u) const;
+    glm::dvec2 sliceCenterOnPlane(double u) const;
 
     // Returns how far the slice with the parameter u, regarded as a sphere, extends on the screen from its center in
     // `direction`, a unit vector. The result is in viewport heights; at the depth of the center, a world unit appears
@@ -78,7 +78,7 @@ class LabelLayout {
 
     // Returns the box of label i before the viewer moves the camera, in viewport heights from the center of the focus
     // slice. `scale`: as in overhang().
-    Box boxAt(std::size_t i, double scale) const;
+    Box initialLabelBox(std::size_t i, double scale) const;
 
     // Returns the place on the screen of a point in view coordinates, in viewport heights from the lower left corner.
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);

@@ -42,7 +42,7 @@ std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, con
     const InitialViewSpace space(arrangement);
     std::vector<Circle> circles;
     for (std::size_t i = 0; i < placements.size(); ++i) {
-        const double radius = arrangement.reach * arrangement.reachAt(parameterOf(i, placements.size()));
+        const double radius = arrangement.reach * arrangement.relativeSliceRadiusAt(parameterOf(i, placements.size()));
         circles.push_back(circleOf(placements[i].position, radius, space));
     }
     return circles;
@@ -125,7 +125,7 @@ void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camer
     camera.eye = away * arrangement.distance;
     camera.up = {0, 1, 0};
     camera.near = 0.05 * arrangement.distance;
-    camera.far = arrangement.distance + 2 * arrangement.extent() + 10;
+    camera.far = arrangement.distance + 2 * arrangement.maxDistanceFromFocus() + 10;
 }
 
 // Returns a box that contains the axes symbol and the names of the axes, in whatever direction the axes point.
@@ -234,7 +234,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const double relativeBall = look.thickness * content.relativeBallRadius;
     const bool projected = look.projection.kind != ProjectionKind::off;
     const auto [right, below] = partsBeside(boxOf(out.axes), room);
-    const SliceRoom sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
+    const AvailableSpace sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
     const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
     out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : MatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
@@ -267,7 +267,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     labels.place(out.camera);
     if (look.parts.labels) {
         labels.nameFocusSlice(focusName, out.camera, aspect);
-        labels.thin(out.camera, aspect, room.bottom - kMargin, boxOf(out.axes), look.orbit != CameraOrbit{});
+        labels.removeOverlappingLabels(out.camera, aspect, room.bottom - kMargin, boxOf(out.axes),
+                                       look.orbit != CameraOrbit{});
     }
 }
 

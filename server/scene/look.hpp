@@ -34,24 +34,25 @@ enum class View : std::uint8_t {
 struct ViewRow {
     std::string_view name;  ///< in messages, queries and on the command line
     View value;
-    bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
-    bool isTall = false;  ///< whether exported drawings of the view are in portrait format
+    bool showsAllSlices;                ///< whether the view shows all slices, not only the focus slice
+    bool isExportedInPortrait = false;  ///< whether exported drawings of the view are in portrait format
 };
-inline constexpr auto kViews =
-    std::to_array<ViewRow>({{.name = "oval", .value = View::oval, .showsAllSlices = true},
-                            {.name = "single", .value = View::single, .showsAllSlices = false},
-                            {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
-                            {.name = "strip", .value = View::strip, .showsAllSlices = true},
-                            {.name = "column", .value = View::column, .showsAllSlices = true, .isTall = true},
-                            {.name = "grid", .value = View::grid, .showsAllSlices = true}});
+inline constexpr auto kViews = std::to_array<ViewRow>(
+    {{.name = "oval", .value = View::oval, .showsAllSlices = true},
+     {.name = "single", .value = View::single, .showsAllSlices = false},
+     {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
+     {.name = "strip", .value = View::strip, .showsAllSlices = true},
+     {.name = "column", .value = View::column, .showsAllSlices = true, .isExportedInPortrait = true},
+     {.name = "grid", .value = View::grid, .showsAllSlices = true}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 /// Returns ViewRow::showsAllSlices of a view.
 constexpr bool showsAllSlices(View view) {
     return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.showsAllSlices; });
 }
-/// Returns ViewRow::isTall of a view.
-constexpr bool isTall(View view) {
-    return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.isTall; });
+/// Returns ViewRow::isExportedInPortrait of a view.
+constexpr bool isExportedInPortrait(View view) {
+    return std::ranges::any_of(kViews,
+                               [view](const ViewRow& row) { return row.value == view && row.isExportedInPortrait; });
 }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
@@ -66,13 +67,13 @@ enum class Coloring : std::uint8_t {
     growth = 5,     ///< for fields: how fast the surface moves outward as w increases
     value = 6,      ///< for fields: the value of the second function or, without one, of the function itself
 };
-inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell", Coloring::cell},
-                                                                          {"kind", Coloring::cell_type},
-                                                                          {"w", Coloring::w},
-                                                                          {"plain", Coloring::plain},
-                                                                          {"light", Coloring::light},
-                                                                          {"growth", Coloring::growth},
-                                                                          {"value", Coloring::value}});
+inline constexpr auto kColorings = std::to_array<text::NamedValue<Coloring>>({{"cell", Coloring::cell},
+                                                                              {"kind", Coloring::cell_type},
+                                                                              {"w", Coloring::w},
+                                                                              {"plain", Coloring::plain},
+                                                                              {"light", Coloring::light},
+                                                                              {"growth", Coloring::growth},
+                                                                              {"value", Coloring::value}});
 constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
@@ -83,7 +84,7 @@ enum class CapStyle : std::uint8_t {
     value = 1,  ///< colored as with Coloring::value
     open = 2,   ///< no caps: the surfaces are open at the domain's boundary
 };
-inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
+inline constexpr auto kCapStyles = std::to_array<text::NamedValue<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
@@ -95,9 +96,9 @@ enum class ProjectionKind : std::uint8_t {
     orthogonal = 2,   ///< parallel to the w axis
 };
 inline constexpr auto kProjectionKinds =
-    std::to_array<text::Choice<ProjectionKind>>({{"off", ProjectionKind::off},
-                                                 {"perspective", ProjectionKind::perspective},
-                                                 {"orthogonal", ProjectionKind::orthogonal}});
+    std::to_array<text::NamedValue<ProjectionKind>>({{"off", ProjectionKind::off},
+                                                     {"perspective", ProjectionKind::perspective},
+                                                     {"orthogonal", ProjectionKind::orthogonal}});
 constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKinds; }
 
 /// How the whole object is projected.

@@ -245,7 +245,7 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
         return picker.picked();
     }
     const double bottom = scene.viewport.height * (1 - scene.coordinates.top());
-    if (scene.clearsCoordinates() && point.y >= bottom) return std::nullopt;
+    if (scene.clearsCoordinatesArea() && point.y >= bottom) return std::nullopt;
     picker.pickSlices();
     picker.pickProjection();
     return picker.picked();

@@ -115,9 +115,9 @@ struct Scene : Layout {
     Color drawnBallColor() const { return look.parts.balls ? style().ball : style().bar; }
     /// Returns whether slices are removed from the part of the picture that belongs to the parallel coordinates. Slices
     /// extend into this part only if the viewer has moved the camera.
-    bool clearsCoordinates() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }
+    bool clearsCoordinatesArea() const { return look.parts.coordinates && look.orbit != CameraOrbit{}; }
     /// Returns the cell that determines the color of a face of `slices`.
-    std::uint32_t cellOfFace(std::size_t face) const {
+    std::uint32_t coloringCellOfFace(std::size_t face) const {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];
     }
     /// Returns whether the parallel coordinates are drawn as densities, because the vertices are too many for lines.

@@ -51,7 +51,7 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
     out.levels.resize(count);
     for (std::size_t i = 0; i < count; ++i) out.levels[i] = {i, surfaceColor(i, count, look), kOuterOpacity, false};
     const bool below = settings.inside == fields::Inside::below;
-    std::ranges::sort(out.levels, [&](const SurfaceLook::Level& a, const SurfaceLook::Level& b) {
+    std::ranges::sort(out.levels, [&](const SurfaceLook::LevelLook& a, const SurfaceLook::LevelLook& b) {
         const double first = settings.levels[a.index], second = settings.levels[b.index];
         return below ? first < second : first > second;
     });

@@ -41,13 +41,13 @@ struct SurfaceLook {
     enum class PointColoring : std::uint8_t { none, growth, value };
 
     /// The surface of one level.
-    struct Level {
+    struct LevelLook {
         std::size_t index = 0;  ///< the index in FieldSettings::levels, which SliceSurface::levelIndex() also returns
         Color color = 0;
         double opacity = 1;  ///< 0 … 1
         bool caps = false;   ///< whether its caps are drawn
     };
-    std::vector<Level> levels;       ///< from the innermost to the outermost; empty if no surfaces are shown
+    std::vector<LevelLook> levels;   ///< from the innermost to the outermost; empty if no surfaces are shown
     std::vector<Color> sliceColors;  ///< with Coloring::w: per slice, a color that replaces those of the levels; else
                                      ///< empty
     PointColoring pointColoring = PointColoring::none;  ///< for the points of level sets
@@ -62,7 +62,7 @@ struct SurfaceLook {
         pointColoring = capColoring = PointColoring::none;
     }
     bool empty() const { return levels.empty(); }
-    Color color(const Level& level, std::size_t slice) const {
+    Color color(const LevelLook& level, std::size_t slice) const {
         return sliceColors.empty() ? level.color : sliceColors[slice];
     }
     bool colorsPoints() const { return pointColoring != PointColoring::none; }

@@ -72,7 +72,7 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
     }
     if (!named.empty()) return named;
     // `text` may be another name of the same shape: "7-gonal prism" for "heptagonal prism".
-    if (const auto words = text::wordsOf(text); !words.empty()) {
+    if (const auto words = text::lowerCaseWords(text); !words.empty()) {
         const auto solid = polytopes::solidNamed(words);
         if (solid && std::holds_alternative<polytopes::Solid>(*solid)) {
             const std::string name = polytopes::nameOf(std::get<polytopes::Solid>(*solid));

@@ -127,10 +127,10 @@ struct Set {
     std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
                                            ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
-    std::optional<std::vector<double>> levels;                ///< FieldSettings::levels; for fields only
-    std::optional<fields::Inside> inside;                     ///< FieldSettings::inside; for fields only
-    std::optional<std::vector<slicing::FogPoint>> fog;        ///< FieldSettings::fog; for fields only
-    std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< indices of cell types, in any order
+    std::optional<std::vector<double>> levels;                 ///< FieldSettings::levels; for fields only
+    std::optional<fields::Inside> inside;                      ///< FieldSettings::inside; for fields only
+    std::optional<std::vector<slicing::FogControlPoint>> fog;  ///< FieldSettings::fog; for fields only
+    std::optional<std::vector<std::uint32_t>> hidden, faded;   ///< indices of cell types, in any order
     /// The element that is drawn in another color. The outer optional is empty if the highlight stays the same; the
     /// inner optional is empty if the command removes the highlight.
     std::optional<std::optional<slicing::Element>> highlight;

@@ -16,20 +16,20 @@ namespace oval4d::session {
 
 namespace {
 
-struct Function {
+struct NamedFunction {
     std::string_view name;
     double (*call)(double);
     bool givesAngle = false;  // whether its value is an angle in radians
 };
 constexpr auto kFunctions =
-    std::to_array<Function>({{"sqrt", [](double x) { return std::sqrt(x); }},
-                             {"sin", [](double x) { return std::sin(x); }},
-                             {"cos", [](double x) { return std::cos(x); }},
-                             {"tan", [](double x) { return std::tan(x); }},
-                             {"asin", [](double x) { return std::asin(x); }, true},
-                             {"acos", [](double x) { return std::acos(x); }, true},
-                             {"atan", [](double x) { return std::atan(x); }, true},
-                             {"deg", [](double x) { return x * std::numbers::pi / 180; }, true}});
+    std::to_array<NamedFunction>({{"sqrt", [](double x) { return std::sqrt(x); }},
+                                  {"sin", [](double x) { return std::sin(x); }},
+                                  {"cos", [](double x) { return std::cos(x); }},
+                                  {"tan", [](double x) { return std::tan(x); }},
+                                  {"asin", [](double x) { return std::asin(x); }, true},
+                                  {"acos", [](double x) { return std::acos(x); }, true},
+                                  {"atan", [](double x) { return std::atan(x); }, true},
+                                  {"deg", [](double x) { return x * std::numbers::pi / 180; }, true}});
 constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
 // Unicode characters that are accepted in place of pi, phi and -.
@@ -185,7 +185,7 @@ class Parser {
         const std::string_view name = text_.substr(start, at_ - start);
         if (name == "pi") return pi();
         if (name == "phi") return {.value = std::numbers::phi};
-        for (const Function& function : kFunctions) {
+        for (const NamedFunction& function : kFunctions) {
             if (function.name != name) continue;
             if (!take("(")) fail("'(' is expected after " + std::string(name));
             const bool outside = std::exchange(units_, true);

@@ -104,12 +104,12 @@ void commit(Session& session, State next, const Limits& limits) {
     replaceCurrent(session, std::move(next), limits);
 }
 
-const State* stateBeforeStep(const Session& session) {
+const State* stateBeforeAmendableStep(const Session& session) {
     return session.undoSteps.empty() || !session.redoSteps.empty() ? nullptr : &session.undoSteps.back();
 }
 
 void amend(Session& session, State next, const Limits& limits) {
-    if (stateBeforeStep(session) == nullptr) return commit(session, std::move(next), limits);
+    if (stateBeforeAmendableStep(session) == nullptr) return commit(session, std::move(next), limits);
     if (next == session.current) return;
     replaceCurrent(session, std::move(next), limits);
 }

@@ -26,7 +26,7 @@ void commit(Session& session, State next, const Limits& limits);
 void amend(Session& session, State next, const Limits& limits);
 
 /// Returns the state before the undo step that amend() extends; null if amend() works like commit().
-const State* stateBeforeStep(const Session& session);
+const State* stateBeforeAmendableStep(const Session& session);
 
 /// Removes the older half of the undo steps, to free memory.
 void forgetOlderHalf(Session& session);

@@ -19,7 +19,7 @@ namespace oval4d::session {
 
 namespace {
 
-using Done = Result<std::monostate>;
+using VoidResult = Result<std::monostate>;
 
 constexpr double kSpacingFactor = 1.1;
 
@@ -45,7 +45,7 @@ void scaleSpacing(State& state, double factor) {
     state.slices.spacing = std::clamp(state.slices.spacing * factor, kMinSpacing * radius, kMaxSpacing * radius);
 }
 
-Done showNeighbor(ActionContext& c, int by) {
+VoidResult showNeighbor(ActionContext& c, int by) {
     auto object = neighborOf(c.state.source, by, c.loaded, c.loader);
     if (!object) return object.error();
     return replaceObject(c.state, std::move(*object), c.loader);
@@ -61,7 +61,7 @@ void toggleView(State& state, scene::View view) {
 
 // Calls `act`, which returns void because it cannot fail, and returns success.
 template <auto act>
-Done always(ActionContext& c) {
+VoidResult always(ActionContext& c) {
     act(c);
     return std::monostate{};
 }
@@ -84,13 +84,13 @@ std::vector<Action> ownActions() {
              rotate(c.state, c.inverse ? turn.inverse() : turn);
          }>},
         {"repeat",
-         [](ActionContext& c) -> Done {
+         [](ActionContext& c) -> VoidResult {
              if (!c.state.lastTurn) return kNoRotationYet;
              rotate(c.state, *c.state.lastTurn);
              return std::monostate{};
          }},
         {"turn",
-         [](ActionContext& c) -> Done {
+         [](ActionContext& c) -> VoidResult {
              if (!c.state.lastTurn) return kNoRotationYet;
              c.state.turning = !c.state.turning;
              c.state.ongoingTurnToward.reset();
@@ -108,9 +108,10 @@ std::vector<Action> ownActions() {
         {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }},
         {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
         {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
-        {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
+        {"slices_fewer",
+         always<[](ActionContext& c) { setSliceCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
         {"slices_more", always<[](ActionContext& c) {
-             if (c.state.slices.count + 2 <= c.limits.maxSlices) setCount(c.state, c.state.slices.count + 2);
+             if (c.state.slices.count + 2 <= c.limits.maxSlices) setSliceCount(c.state, c.state.slices.count + 2);
          }>},
         {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
         {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
@@ -124,7 +125,7 @@ std::vector<Action> ownActions() {
 template <typename Row>
 void addSteps(const Row& setting, std::vector<Action>& actions) {
     const auto add = [&](const std::string& ending, auto next) {
-        actions.push_back({std::string(setting.name.text) + ending, [setting, next](ActionContext& c) -> Done {
+        actions.push_back({std::string(setting.name.text) + ending, [setting, next](ActionContext& c) -> VoidResult {
                                double& value = setting.ofState(c.state);
                                const auto& [least, most] = setting.rule.range;
                                value = std::clamp(next(value, c.state), least, most);
@@ -147,7 +148,7 @@ void addSteps(const Row& setting, std::vector<Action>& actions) {
 std::vector<Action> allActions() {
     std::vector<Action> actions = ownActions();
     for (const scene::NamedPart& part : scene::kParts) {
-        actions.push_back({std::string(part.name), [flag = part.flag](ActionContext& c) -> Done {
+        actions.push_back({std::string(part.name), [flag = part.flag](ActionContext& c) -> VoidResult {
                                bool& isShown = c.state.look.parts.*flag;
                                isShown = !isShown;
                                return std::monostate{};
@@ -160,7 +161,7 @@ std::vector<Action> allActions() {
     for (const scene::ViewRow& row : scene::kViews) {
         // The oval has no action of its own; View::single is toggled by the action "view" of ownActions().
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
-        actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> Done {
+        actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> VoidResult {
                                toggleView(c.state, to);
                                return std::monostate{};
                            }});
@@ -168,9 +169,9 @@ std::vector<Action> allActions() {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kHasRange) addSteps(setting, actions);
         if constexpr (Row::kIsInState) {
-            using SettingType = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
-            if constexpr (text::HasChoices<SettingType> && !std::is_same_v<SettingType, scene::View>) {
-                actions.push_back({std::string(setting.name.text), [setting](ActionContext& c) -> Done {
+            using SettingValueType = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
+            if constexpr (text::HasChoices<SettingValueType> && !std::is_same_v<SettingValueType, scene::View>) {
+                actions.push_back({std::string(setting.name.text), [setting](ActionContext& c) -> VoidResult {
                                        Set set;
                                        setting.ofSet(set) = nextChoice(setting.ofState(c.state));
                                        return applySet(c.state, set, c.loaded, c.limits, c.loader);

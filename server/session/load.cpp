@@ -215,7 +215,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
                                       const SecondFunctionSource& second) {
-    const Result<fields::ReadField> array = read(options);
+    const Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
     auto field = fields::fieldFromArray(name, *array);
@@ -227,7 +227,7 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
         const std::size_t count = fields::sampleCount(array->shape);
         if (!options.newFile) options.maxSamples -= std::min(options.maxSamples, count);
         if (count <= options.maxInMemory) options.maxInMemory -= count;
-        const Result<fields::ReadField> values = read(options);
+        const Result<fields::FieldArray> values = read(options);
         if (!values) return Error{values.error().code, "values: " + values.error().message};
         fault = fields::setSecondArray(*field, *values, second.variable);
     }
@@ -310,7 +310,7 @@ Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std
                       second);
 }
 
-Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
+Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
                                     const fields::ReadOptions& options, const SecondFunctionSource& second) {
     return objectFrom([&](const fields::ReadOptions& of) { return fields::readZarr(folder, of); }, name, options,
                       second);
@@ -344,7 +344,7 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
         return Error{ErrorCode::bad_field,
                      "the moment has " + text(more) + " samples along x, y and z, but the field has " + text(old)};
     }
-    fields::ReadField grown;
+    fields::FieldArray grown;
     grown.shape = old;
     grown.shape[3] += more[3];
     const fields::SecondFunction *const second = before->second.get(), *const values = appended->second.get();
@@ -373,7 +373,7 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
     return slicing::Object(std::make_shared<const fields::Field>(std::move(*made)));
 }
 
-std::string_view detectFormat(std::string_view text) {
+std::string_view detectTextFormat(std::string_view text) {
     try {
         const std::string plain = text_files::plainText(text);
         if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";

@@ -56,7 +56,7 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
                                       fields::MappedFileMaker newFile = {});
 
 /// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
-Result<ObjectWithWarnings> readZarr(const fields::FolderReader& folder, const std::string& name,
+Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
                                     const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
 
 /// Reads the files of a series as one array, with the name and the second function of `load`. Errors: those of
@@ -74,7 +74,7 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
 
 /// Returns the format that the first word of the file `text` shows: "off" if this word contains OFF, as in 4OFF;
 /// "cloud" if it is CLOUD; otherwise "points".
-std::string_view detectFormat(std::string_view text);
+std::string_view detectTextFormat(std::string_view text);
 
 /// Checks `load`, but not its data. Returns an empty optional if it is valid, else an error: `bad_message` for a
 /// malformed name or for members that the format does not take, `bad_polytope` for a name that already denotes a

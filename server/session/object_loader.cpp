@@ -131,7 +131,7 @@ void ObjectLoader::completePending(std::stop_token stop) {
     pending_ = std::monostate{};
 }
 
-std::size_t ObjectLoader::bytesNeeded() const {
+std::size_t ObjectLoader::memoryNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
     constexpr std::size_t kPerTextByte = 16;  // numbers, their copy for repairs, the polytope, and its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
@@ -160,7 +160,7 @@ std::size_t ObjectLoader::bytesNeeded() const {
            kPerHullPoint * design->recipe->hullPointCount();
 }
 
-std::size_t ObjectLoader::bytesLoaded() const {
+std::size_t ObjectLoader::loadedObjectMemory() const {
     std::size_t bytes = 0;
     if (fromFile_ && *fromFile_) bytes += unsharedMemory((*fromFile_)->object);
     if (extended_ && *extended_) bytes += unsharedMemory(**extended_);

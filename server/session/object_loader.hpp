@@ -92,11 +92,12 @@ class ObjectLoader {
     std::chrono::duration<double> estimatedDuration() const;
 
     /// Returns the estimated memory in bytes that completePending() and its result use; 0 if nothing is pending. For
-    /// the array of a compressed file, the estimate may be too low; afterward, bytesLoaded() states the actual memory.
-    std::size_t bytesNeeded() const;
+    /// the array of a compressed file, the estimate may be too low; afterward, loadedObjectMemory() states the actual
+    /// memory.
+    std::size_t memoryNeeded() const;
     /// Returns the memory, in bytes, of the object that was read from a file and of the array that was extended. Does
     /// not count polytopes that were built and objects that were transformed.
-    std::size_t bytesLoaded() const;
+    std::size_t loadedObjectMemory() const;
     /// Returns ObjectWithWarnings::warnings of the object that was read; an empty list if none was read.
     std::vector<std::string> warnings() const;
 

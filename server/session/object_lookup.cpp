@@ -18,12 +18,12 @@ namespace {
 // loaded object if that is at least as similar; an empty string if nothing is similar.
 std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
     name = name.substr(0, polytopes::kMaxNameBytes);
-    std::vector<std::string_view> near = polytopes::nearestNames(name);
+    std::vector<std::string_view> near = polytopes::equallyNearestNames(name);
     std::size_t least =
-        near.empty() ? text::normalizedName(name).size() / 3 : polytopes::editDistance(name, near.front());
+        near.empty() ? text::normalizedName(name).size() / 3 : polytopes::editDistanceOfNames(name, near.front());
     const auto consider = [&](std::string_view own) {
-        if (polytopes::editDistance(name, own) > least) return;
-        least = polytopes::editDistance(name, own);
+        if (polytopes::editDistanceOfNames(name, own) > least) return;
+        least = polytopes::editDistanceOfNames(name, own);
         near = {own};
     };
     for (const ExampleField& example : exampleFields()) {

@@ -29,7 +29,7 @@ namespace oval4d::session {
 
 namespace {
 
-using Done = Result<std::monostate>;
+using VoidResult = Result<std::monostate>;
 
 // An extended field, transformed to frames of reference (see slicing::transformedTo()). The key is the
 // slicing::identityOf() of the field before the extension in a frame; the value is the extended field in this frame.
@@ -66,11 +66,11 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
 std::optional<geometry::Turn> turnOfStep(const State& before, const State& current, const State& next) {
     constexpr double kSame = 1e-9;
     const geometry::Rotation whole = next.orientation * before.orientation.inverse();
-    if (whole.angle() < kSame) return before.lastTurn;
+    if (whole.largerAngle() < kSame) return before.lastTurn;
     if (current.lastTurn && next.lastTurn) {
         // Turns in the same plane add up, even beyond half a turn.
         const geometry::Turn sum = *current.lastTurn + *next.lastTurn;
-        if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).angle() < kSame) return sum;
+        if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).largerAngle() < kSame) return sum;
     }
     return whole.turn();
 }
@@ -93,63 +93,63 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
 }
 
 // Applies each command to a copy of the state, which becomes the current state only on success.
-class Applier {
+class CommandApplier {
   public:
-    Applier(Session& session, const Limits& limits, ObjectLoader& loader)
+    CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader)
         : session_(session), limits_(limits), loader_(loader) {}
 
-    Done operator()(const Key& key) {
+    VoidResult operator()(const Key& key) {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
-        Done done = *binding ? press(**binding) : Done(std::monostate{});
+        VoidResult done = *binding ? press(**binding) : VoidResult(std::monostate{});
         if (done) session_.pendingKey = std::move(pending);
         return done;
     }
-    Done operator()(const Rotate& command) {
-        if (Done valid = checkTurn(command.turn); !valid) return valid;
+    VoidResult operator()(const Rotate& command) {
+        if (VoidResult valid = checkTurn(command.turn); !valid) return valid;
         State next = session_.current;
         rotate(next, command.turn);
-        const State* const before = command.continues ? stateBeforeStep(session_) : nullptr;
+        const State* const before = command.continues ? stateBeforeAmendableStep(session_) : nullptr;
         // While the object turns continuously, that motion changes the orientation, too. turnOfStep() then cannot
         // derive the rotations of the step from the orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const TurnToward& command) {
+    VoidResult operator()(const TurnToward& command) {
         State next = session_.current;
-        if (Done done = turnToward(next, command); !done) return done;
+        if (VoidResult done = turnToward(next, command); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const TurnAtRandom& command) {
+    VoidResult operator()(const TurnAtRandom& command) {
         State next = session_.current;
         next.orientation = randomRotation(command.seed);
         next.ongoingTurnToward.reset();
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const Set& command) {
+    VoidResult operator()(const Set& command) {
         State next = session_.current;
         std::optional<LoadedObjects> extended;  // with the field of `formula`; empty if there is no `formula`
         if (command.formula) {
             extended = session_.loaded;
-            if (Done done = loadFormula(*command.formula, *extended); !done) return done;
+            if (VoidResult done = loadFormula(*command.formula, *extended); !done) return done;
         }
         const LoadedObjects& loaded = extended ? *extended : session_.loaded;
-        if (Done done = applySet(next, command, loaded, limits_, loader_); !done) return done;
+        if (VoidResult done = applySet(next, command, loaded, limits_, loader_); !done) return done;
         if (extended) session_.loaded = std::move(*extended);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const LoadObject& command) {
+    VoidResult operator()(const LoadObject& command) {
         if (command.append) return append(command);
-        if (Done room = checkRoom(session_.loaded, command.name); !room) return room;
+        if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room;
         const auto reading = loader_.objectFrom(command);
         if (!reading) return reading.error();
         State next = session_.current;
-        if (Done done = replaceObject(next, reading->object, loader_); !done) return done;
+        if (VoidResult done = replaceObject(next, reading->object, loader_); !done) return done;
         const State& before = session_.current;
         if (command.continues && slicing::fieldIn(before.object) != nullptr &&
             slicing::fieldIn(next.object) != nullptr) {
@@ -163,20 +163,20 @@ class Applier {
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const Undo& /*command*/) { return undo(session_); }
-    Done operator()(const Redo& /*command*/) { return redo(session_); }
-    Done operator()(const Reset& /*command*/) {
+    VoidResult operator()(const Undo& /*command*/) { return undo(session_); }
+    VoidResult operator()(const Redo& /*command*/) { return redo(session_); }
+    VoidResult operator()(const Reset& /*command*/) {
         State next = session_.current;
-        reset(next);
+        resetOrientationAndFocus(next);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const CommandLine& command) {
+    VoidResult operator()(const CommandLine& command) {
         const auto parsed = parseCommandLine(command.line, session_.current);
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
-    Done operator()(const OpenAddress& command) {
+    VoidResult operator()(const OpenAddress& command) {
         auto query = parseQuery(command.query);
         if (!query) {
             return Error{ErrorCode::bad_expression,
@@ -193,7 +193,7 @@ class Applier {
         if (!next) return next.error();
         const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
         if (formula != query->end()) {
-            if (Done room = checkRoom(session_.loaded, formula->first); !room) return room;
+            if (VoidResult room = checkRoom(session_.loaded, formula->first); !room) return room;
             session_.loaded.insert_or_assign(formula->first, next->source);
         }
         commit(session_, std::move(*next), limits_);
@@ -201,14 +201,14 @@ class Applier {
     }
 
   private:
-    Done checkRoom(const LoadedObjects& loaded, const std::string& name) const {
+    VoidResult checkRoom(const LoadedObjects& loaded, const std::string& name) const {
         if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
         return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                               " loaded objects; load under a name that is in use to replace one"};
     }
 
     // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.
-    Done loadFormula(const LoadObject& load, LoadedObjects& loaded) {
+    VoidResult loadFormula(const LoadObject& load, LoadedObjects& loaded) {
         if (const auto present = loadedOrExample(load.name, loaded)) {
             const fields::Field* const field = slicing::fieldIn(*present);
             const std::string second = field != nullptr && field->second ? field->second->formula : "";
@@ -216,7 +216,7 @@ class Applier {
                 field->box == load.box)
                 return std::monostate{};
         }
-        if (Done room = checkRoom(loaded, load.name); !room) return room;
+        if (VoidResult room = checkRoom(loaded, load.name); !room) return room;
         const auto reading = loader_.objectFrom(load);
         if (!reading) return reading.error();
         loaded.insert_or_assign(load.name, reading->object);
@@ -225,7 +225,7 @@ class Applier {
 
     // Adds time steps to a loaded array. Undo does not remove them: the longer array replaces the shorter one in the
     // states of the history, too, so that only one array is in memory.
-    Done append(const LoadObject& command) {
+    VoidResult append(const LoadObject& command) {
         const auto loaded = session_.loaded.find(command.name);
         if (loaded == session_.loaded.end())
             return Error{ErrorCode::not_found, "no field called " + text::inQuotes(command.name) + " is loaded"};
@@ -242,12 +242,12 @@ class Applier {
         return std::monostate{};
     }
 
-    Done press(const Binding& binding) {
+    VoidResult press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
         State next = session_.current;
         ActionContext context{next,          session_.loaded,          limits_,        loader_,
                               binding.plane, binding.isDoubleRotation, binding.inverse};
-        if (Done done = binding.action->onState(context); !done) return done;
+        if (VoidResult done = binding.action->onState(context); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -278,8 +278,8 @@ double spanningSpacing(const slicing::Object& object, int count) {
     return count > 1 ? 2 * reach / (count - 1) : reach;
 }
 
-Done apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
-    return std::visit(Applier(session, limits, loader), command);
+VoidResult apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
+    return std::visit(CommandApplier(session, limits, loader), command);
 }
 
 std::size_t historyMemoryWithoutObjects(const Session& session) {

@@ -93,70 +93,76 @@ void forEachSetting(const Visitor& visit) {
     };
     using enum ResetOccasion;
     // A setting that applySet() checks and changes with code of its own; Set has a member for it.
-    const auto withOwnCode = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
-                                 bool forFields = false) {
+    const auto visitWithOwnCode = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
+                                      bool forFields = false) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
         visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
     };
     // A setting whose value applySet() only stores, if `rule` allows the value; Set::plain contains the value.
-    const auto plain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack = never,
-                           bool forFields = false) {
+    const auto visitPlain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack = never,
+                                bool forFields = false) {
         using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;
         const auto ofSet = [text = name.text](auto& set) -> auto& { return set.plain.template of<Value>(text); };
         visit(Setting{name, ofSet, ofState, rule, setBack, forFields});
     };
 
     const auto frame = &State::referenceFrame;
-    withOwnCode({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
-    withOwnCode({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
-    withOwnCode({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
-    plain({"alpha"}, at(&State::alpha), NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}});
-    plain({"beta"}, at(&State::beta), NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}});
-    plain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
+    visitWithOwnCode({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
+    visitWithOwnCode({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
+    visitWithOwnCode({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
+    visitPlain({"alpha"}, at(&State::alpha),
+               NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}});
+    visitPlain({"beta"}, at(&State::beta),
+               NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}});
+    visitPlain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
 
     const auto slices = &State::slices;
-    withOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &HyperplaneSettings::count), never);
-    withOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &HyperplaneSettings::spacing), never);
-    withOwnCode({"focus", "slices"}, &Set::focus, at(slices, &HyperplaneSettings::focus), by_reset_or_another_object);
-    withOwnCode({"offset", "slices"}, &Set::offset, at(slices, &HyperplaneSettings::offset),
-                by_reset_or_another_object);
-    withOwnCode({"w", "slices"}, &Set::focusW, NotInState{}, never);
-    withOwnCode(
+    visitWithOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &HyperplaneSettings::count), never);
+    visitWithOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &HyperplaneSettings::spacing), never);
+    visitWithOwnCode({"focus", "slices"}, &Set::focus, at(slices, &HyperplaneSettings::focus),
+                     by_reset_or_another_object);
+    visitWithOwnCode({"offset", "slices"}, &Set::offset, at(slices, &HyperplaneSettings::offset),
+                     by_reset_or_another_object);
+    visitWithOwnCode({"w", "slices"}, &Set::focusW, NotInState{}, never);
+    visitWithOwnCode(
         {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
 
     const auto look = &State::look;
-    plain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
-    withOwnCode({"turning"}, &Set::turning, NotInState{}, never);
+    visitPlain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
+    visitWithOwnCode({"turning"}, &Set::turning, NotInState{}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
-    plain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
-          NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians});
-    plain({"elevation", "camera"}, at(look, orbit, &Orbit::elevation),
-          NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians});
-    plain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom), NumberInRange{"the camera's zoom", Orbit::kZoomRange});
-    plain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{});
-    plain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
-    plain({"thickness"}, at(look, &Look::thickness),
-          NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}});
-    plain({"opacity"}, at(look, &Look::opacity),
-          NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}});
+    visitPlain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
+               NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians});
+    visitPlain({"elevation", "camera"}, at(look, orbit, &Orbit::elevation),
+               NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians});
+    visitPlain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom),
+               NumberInRange{"the camera's zoom", Orbit::kZoomRange});
+    visitPlain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{});
+    visitPlain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
+    visitPlain({"thickness"}, at(look, &Look::thickness),
+               NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}});
+    visitPlain({"opacity"}, at(look, &Look::opacity),
+               NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}});
     const auto projection = &Look::projection;
     using Projection = scene::ProjectionSettings;
-    plain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});
-    plain({"eye"}, at(look, projection, &Projection::eye),
-          NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
+    visitPlain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});
+    visitPlain({"eye"}, at(look, projection, &Projection::eye),
+               NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
     const auto field = &Look::field;
-    withOwnCode({"levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), by_another_object, true);
-    withOwnCode({"inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), by_another_object, true);
-    plain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
-    withOwnCode({"fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), by_another_object, true);
+    visitWithOwnCode({"levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), by_another_object,
+                     true);
+    visitWithOwnCode({"inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), by_another_object,
+                     true);
+    visitPlain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
+    visitWithOwnCode({"fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
-    withOwnCode({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
-    withOwnCode({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
-    withOwnCode({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
+    visitWithOwnCode({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
+    visitWithOwnCode({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
+    visitWithOwnCode({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
 
     for (const scene::NamedPart& part : scene::kParts)
-        plain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{});
+        visitPlain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{});
 }
 
 }  // namespace oval4d::session

@@ -91,8 +91,8 @@ struct ValueReader {
         into = std::move(*list);
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogPoint>>& into) const {
-        std::vector<slicing::FogPoint>& points = into.emplace();
+    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogControlPoint>>& into) const {
+        std::vector<slicing::FogControlPoint>& points = into.emplace();
         if (text == "off") return std::monostate{};
         for (std::string_view rest = text;;) {
             const std::size_t comma = rest.find(',');
@@ -103,7 +103,7 @@ struct ValueReader {
             rest.remove_prefix(comma + 1);
         }
     }
-    Result<slicing::FogPoint> readFogPoint(std::string_view word) const {
+    Result<slicing::FogControlPoint> readFogPoint(std::string_view word) const {
         const std::size_t first = word.find(':');
         const std::size_t second = first == std::string_view::npos ? first : word.find(':', first + 1);
         const auto malformed = [&] {
@@ -114,7 +114,7 @@ struct ValueReader {
                                text::inQuotes(text));
         };
         if (first == std::string_view::npos) return malformed();
-        slicing::FogPoint point;
+        slicing::FogControlPoint point;
         const std::string_view opacity =
             word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
         for (const auto& [part, into] : {std::pair(word.substr(0, first), &point.value), {opacity, &point.opacity}}) {
@@ -190,7 +190,7 @@ struct ValueWriter {
     std::string operator()(const glm::dvec4& v) const { return numberList(std::array{v.x, v.y, v.z, v.w}); }
     std::string operator()(const glm::dvec3& v) const { return numberList(std::array{v.x, v.y, v.z}); }
     std::string operator()(const std::vector<double>& numbers) const { return numberList(numbers); }
-    std::string operator()(const std::vector<slicing::FogPoint>& points) const {
+    std::string operator()(const std::vector<slicing::FogControlPoint>& points) const {
         return points.empty() ? "off" : joined(points, fogPoint);
     }
     std::string operator()(const CellTypeList& types) const {
@@ -205,7 +205,7 @@ struct ValueWriter {
         return std::string(text::nameOf(choicesOf(value), value));
     }
 
-    static std::string fogPoint(const slicing::FogPoint& point) {
+    static std::string fogPoint(const slicing::FogControlPoint& point) {
         std::string text = text::shortestDecimal(point.value) + ':' + text::shortestDecimal(point.opacity);
         if (!point.color) return text;
         constexpr std::string_view kDigits = "0123456789abcdef";

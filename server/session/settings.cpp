@@ -75,7 +75,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
                                                       std::to_string(limits.maxSlices) + ", not " +
                                                       text::roundedDecimal(*set.count)};
         }
-        setCount(state, *set.count);
+        setSliceCount(state, *set.count);
     }
     const double radius = slicing::infoOf(state.object).circumradius;
     if (auto done = put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius}, state.slices.spacing);
@@ -124,7 +124,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
     if (set.fog) {
         if (!isTransferFunction(*set.fog)) {
             return Error{ErrorCode::out_of_range,
-                         "the fog must be off, or " + std::to_string(slicing::kMinFogPoints) + " to " +
+                         "the fog must be off, or " + std::to_string(slicing::kMinFogControlPoints) + " to " +
                              std::to_string(slicing::kMaxFogControlPoints) +
                              " points in the order of their values, which are different numbers from " +
                              text::roundedDecimal(-slicing::kMaxLevel) + " to " +
@@ -161,16 +161,16 @@ void setBack(State& state, ResetOccasion occasion, const State& initial) {
 
 }  // namespace
 
-bool isTransferFunction(std::span<const slicing::FogPoint> points) {
+bool isTransferFunction(std::span<const slicing::FogControlPoint> points) {
     constexpr std::uint32_t kWhite = 0xffffff;
     if (points.empty()) return true;
-    return points.size() >= slicing::kMinFogPoints && points.size() <= slicing::kMaxFogControlPoints &&
+    return points.size() >= slicing::kMinFogControlPoints && points.size() <= slicing::kMaxFogControlPoints &&
            std::ranges::all_of(points,
-                               [](const slicing::FogPoint& point) {
+                               [](const slicing::FogControlPoint& point) {
                                    return std::abs(point.value) <= slicing::kMaxLevel && point.opacity >= 0 &&
                                           point.opacity <= 1 && point.color.value_or(0) <= kWhite;
                                }) &&
-           std::ranges::adjacent_find(points, std::greater_equal<>(), &slicing::FogPoint::value) == points.end();
+           std::ranges::adjacent_find(points, std::greater_equal<>(), &slicing::FogControlPoint::value) == points.end();
 }
 
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader) {
@@ -210,7 +210,7 @@ void returnToInitialOrientation(State& state) {
     state.ongoingTurnToward.reset();
 }
 
-void reset(State& state) {
+void resetOrientationAndFocus(State& state) {
     returnToInitialOrientation(state);
     setBack(state, ResetOccasion::by_reset_or_another_object, initialState());
 }
@@ -240,7 +240,7 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
     return std::monostate{};
 }
 
-void setCount(State& state, int count) {
+void setSliceCount(State& state, int count) {
     if (count > 1 && state.slices.count > 1) {
         const double spacing = state.slices.spacing * (state.slices.count - 1) / (count - 1);
         const double radius = slicing::infoOf(state.object).circumradius;
@@ -347,7 +347,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     state.turning = false;
     state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
-    const double seconds = way.angle() / kRadiansPerSecond;
+    const double seconds = way.largerAngle() / kRadiansPerSecond;
     constexpr double kShortest = 1e-3;  // in seconds; nobody would see a shorter turn
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;

@@ -11,10 +11,10 @@ namespace oval4d::session {
 /// The maximum absolute value of an angle of a rotation in radians; larger doubles are imprecise.
 inline constexpr double kMaxAngle = 1e6;
 
-/// Returns whether these control points are valid as FieldSettings::fog: either none, or slicing::kMinFogPoints …
-/// slicing::kMaxFogControlPoints points with increasing values within ±slicing::kMaxLevel, opacities of 0 … 1, and
+/// Returns whether these control points are valid as FieldSettings::fog: either none, or slicing::kMinFogControlPoints
+/// … slicing::kMaxFogControlPoints points with increasing values within ±slicing::kMaxLevel, opacities of 0 … 1, and
 /// colors of 24 bits.
-bool isTransferFunction(std::span<const slicing::FogPoint> points);
+bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 
 /// Replaces State::source by `source`, and State::object accordingly; does nothing if State::source is already this
 /// object. Keeps the frame of reference, the orientation, and the ratio of the spacing to
@@ -29,7 +29,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
 void returnToInitialOrientation(State& state);
 
 /// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
-void reset(State& state);
+void resetOrientationAndFocus(State& state);
 
 /// Shows the object in another frame of reference; does nothing if the state has this frame already. The caller must
 /// ensure that the members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the
@@ -41,7 +41,7 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
 /// bounds, so that the span (count − 1) · spacing stays the same.
-void setCount(State& state, int count);
+void setSliceCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. After an error, some of these settings may have been applied, so
 /// callers must pass a copy of the state. Errors: those of findObject(); `not_a_rotation`; `out_of_range`;

@@ -11,8 +11,8 @@ namespace oval4d::slicing {
 
 /// Steps through parallel hyperplanes, and lists which edges of a polytope (or which 2-faces, or which cells) the
 /// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w. The indices of the hyperplanes that cut
-/// an element are a range [from, to). Call clear(), then add() for each element, then sort() once, then activateAt()
-/// for the hyperplanes in ascending order. Reuses its memory.
+/// an element are a range [from, to). Call clear(), then add() for each element, then sortByFirstHyperplane() once,
+/// then activateAt() for the hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
 /// take longer than the work that the branch avoids.
@@ -40,10 +40,11 @@ class ActiveList {
     /// Sorts the elements by their first hyperplane. Must be called once, after all calls of add(). `steps` lists the
     /// indices of the hyperplanes for which activateAt() will be called, in ascending order. It must include the first
     /// hyperplane of every element.
-    void sort(std::span<const int> steps);
+    void sortByFirstHyperplane(std::span<const int> steps);
 
     /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
-    /// sort(), in ascending order. Returns the elements that become active: those whose first hyperplane is `step`.
+    /// sortByFirstHyperplane(), in ascending order. Returns the elements that become active: those whose first
+    /// hyperplane is `step`.
     std::span<const Entry> activateAt(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Entry> active() const { return {active_.data(), activeCount_}; }
@@ -62,14 +63,15 @@ class ActiveList {
 
     std::vector<UnsortedEntry> unsorted_;
     std::vector<Entry> sorted_, active_;
-    // Per hyperplane: the elements whose range begins at this hyperplane. Before sort(), their number; afterward, the
-    // index in sorted_ at which they end.
+    // Per hyperplane: the elements whose range begins at this hyperplane. Before sortByFirstHyperplane(), their number;
+    // afterward, the index in sorted_ at which they end.
     std::vector<std::uint32_t> end_;
-    // The numbers of elements that were added, that are active, and that have become active since sort().
+    // The numbers of elements that were added, that are active, and that have become active since
+    // sortByFirstHyperplane().
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 
-inline void ActiveList::sort(std::span<const int> steps) {
+inline void ActiveList::sortByFirstHyperplane(std::span<const int> steps) {
     sorted_.resize(count_);
     active_.resize(count_);
     std::uint32_t* end = end_.data();

@@ -58,7 +58,7 @@ class CellComplexSlicer {
     };
     // A face of the slice in hyperplane `plane`: a closed loop with `size` corners, of which loopCorners_[begin] is the
     // first. `source` is its source number (see SliceSet).
-    struct Loop {
+    struct FaceLoop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
     };
@@ -140,7 +140,7 @@ class CellComplexSlicer {
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces that lie in a hyperplane and may be the whole slice in it
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<std::optional<bool>> upward_;   // per cell: the result of hasUpwardNormal(), if it is known
-    std::vector<Loop> loops_;
+    std::vector<FaceLoop> loops_;
     // Per corner: its slice vertex, and the slice edge to the next corner.
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
     std::vector<std::uint32_t> cursor_, cornerCursor_;  // per hyperplane: the index at which to write the next element

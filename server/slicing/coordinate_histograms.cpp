@@ -42,11 +42,11 @@ void CoordinateHistograms::measure(const fields::Field& field, const geometry::R
 
 // Evaluates the function, and sets fullRange_ and typicalRange_.
 void CoordinateHistograms::sample(const fields::Field& field) {
-    constexpr double kResolution = 128;  // how many steps long each side of the domain is: see forSteps()
+    constexpr double kResolution = 128;  // how many steps long each side of the domain is: see versionForSteps()
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};
     for (int k = 0; k < 4; ++k) steps[static_cast<std::size_t>(k)][k] = size[k] / kResolution;
-    const fields::ScalarFunction& function = field.function->forSteps(steps);
+    const fields::ScalarFunction& function = field.function->versionForSteps(steps);
     values_.resize(pointCount(function));
     UnitCubePoints points;
     for (std::size_t first = 0; first < values_.size(); first += kHistogramBatch) {

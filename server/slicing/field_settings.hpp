@@ -19,35 +19,35 @@ inline constexpr double kMaxLevel = 1e30;
 
 /// A control point of the transfer function of fog, which maps the values of a field to opacities and colors. The
 /// transfer function is linear between two successive control points, and constant below the first and above the last.
-struct FogPoint {
+struct FogControlPoint {
     double value = 0;
     double opacity = 0;  ///< 0 … 1, of a layer of fog that is as thick as the object's circumradius
     std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color that scene::makeFogTable() chooses
-    bool operator==(const FogPoint&) const = default;
+    bool operator==(const FogControlPoint&) const = default;
 };
-void visitStoredMembers(serialization::ReadOrWritten<FogPoint> auto& point, auto& visit) {
+void visitStoredMembers(serialization::ReadOrWritten<FogControlPoint> auto& point, auto& visit) {
     auto& [value, opacity, color] = point;
-    visit.member(0, value, geometry::Range::upTo(kMaxLevel));
+    visit.member(0, value, geometry::Range::absoluteUpTo(kMaxLevel));
     visit.member(1, opacity, geometry::Range{0, 1});
     visit.member(2, color);
 }
 
 /// The least and the greatest number of control points of a transfer function.
-inline constexpr std::size_t kMinFogPoints = 2, kMaxFogControlPoints = 8;
+inline constexpr std::size_t kMinFogControlPoints = 2, kMaxFogControlPoints = 8;
 
 /// How a field is shown: the levels whose surfaces are shown, which side of a level is inside, and the fog in the
 /// slices.
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
     fields::Inside inside = fields::Inside::below;
-    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogPoints …
+    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogControlPoints …
     /// kMaxFogControlPoints points with strictly ascending values.
-    std::vector<FogPoint> fog = {};
+    std::vector<FogControlPoint> fog = {};
     bool operator==(const FieldSettings&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<FieldSettings> auto& field, auto& visit) {
     auto& [levels, inside, fog] = field;
-    visit.member(0, levels, geometry::Range::upTo(kMaxLevel));
+    visit.member(0, levels, geometry::Range::absoluteUpTo(kMaxLevel));
     visit.member(1, inside);
     visit.addedMember(2, fog);
 }

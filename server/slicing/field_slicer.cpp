@@ -77,7 +77,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
             SliceTask task;
             if (sum > 0) task = {detail.steps[n], pointWeight(detail.steps[n]) / sum, 0};
             if (hasFog) task.fogStep = coarsening * detail.fogSteps[n];
-            sampleSlice(field, toFunction, settings, detail, task, i, out, worker);
+            extractSurfacesAndFog(field, toFunction, settings, detail, task, i, out, worker);
         }
     };
     parallel::invoke(forkJoin_, [&] { work(0); }, [&] { work(1); });
@@ -108,9 +108,9 @@ double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetai
     return factor;
 }
 
-void FieldSlicer::sampleSlice(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
-                              const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out,
-                              std::size_t worker) {
+void FieldSlicer::extractSurfacesAndFog(const fields::Field& field, const glm::dmat4& toFunction,
+                                        const FieldSettings& settings, const SurfaceDetail& detail,
+                                        const SliceTask& task, int slice, SliceSet& out, std::size_t worker) {
     const auto n = static_cast<std::size_t>(slice);
     const bool empty = out.vertexCount(slice) == 0, extracts = task.share > 0 && !empty;
     const bool samples = task.fogStep > 0 && !empty;
@@ -125,7 +125,7 @@ void FieldSlicer::sampleSlice(const fields::Field& field, const glm::dmat4& toFu
         const SurfaceLimits limits = surfaceLimits(detail.quality);
         const auto maxPoints = static_cast<std::size_t>(task.share * static_cast<double>(limits.points));
         const auto inQuality = [&](const fields::ScalarFunction& function) -> const fields::ScalarFunction& {
-            return detail.quality != Quality::draft ? function : function.forSteps(stepsOf(section, task.step));
+            return detail.quality != Quality::draft ? function : function.versionForSteps(stepsOf(section, task.step));
         };
         const fields::ScalarFunction* const second =
             detail.secondValues && field.second != nullptr ? &inQuality(*field.second->function) : nullptr;
@@ -144,7 +144,7 @@ void FieldSlicer::sampleSlice(const fields::Field& field, const glm::dmat4& toFu
         }
     }
     if (samples) {
-        sampleFog(field.function->forSteps(stepsOf(section, task.fogStep)), section, settings.fog.front().value,
+        sampleFog(field.function->versionForSteps(stepsOf(section, task.fogStep)), section, settings.fog.front().value,
                   settings.fog.back().value, task.fogStep, out.fogs[n]);
     }
     field.function->releasePages();

@@ -40,8 +40,9 @@ class FieldSlicer {
     };
     // Extracts the surfaces and samples the fog of one slice. `worker` is the index in extractors_ and sections_ of the
     // objects to use.
-    void sampleSlice(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
-                     const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out, std::size_t worker);
+    void extractSurfacesAndFog(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
+                               const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out,
+                               std::size_t worker);
     static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);
 
     parallel::ForkJoin* forkJoin_;

@@ -15,7 +15,7 @@ void FilledFaces::clear() {
     cornerBegin.assign(1, 0);
 }
 
-double FaceFiller::Side::at(double y) const {
+double FaceFiller::LoopSide::at(double y) const {
     if (y <= low.y) return low.x;
     if (y >= high.y) return high.x;
     return low.x + slope * (y - low.y);
@@ -128,13 +128,13 @@ bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint3
 // another.
 void FaceFiller::findLevels() {
     levels_.clear();
-    for (const Side& side : sides_) {
+    for (const LoopSide& side : sides_) {
         levels_.push_back(side.low.y);
         levels_.push_back(side.high.y);
     }
     for (std::size_t i = 0; i < sides_.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            const Side &a = sides_[i], &b = sides_[k];
+            const LoopSide &a = sides_[i], &b = sides_[k];
             const double bottom = std::max(a.low.y, b.low.y);
             const double top = std::min(a.high.y, b.high.y);
             if (top - bottom <= epsilon_ || std::max(a.low.x, a.high.x) < std::min(b.low.x, b.high.x) ||
@@ -150,7 +150,7 @@ void FaceFiller::findLevels() {
     std::sort(levels_.begin(), levels_.end());
     const auto same = [this](double a, double b) { return b - a <= epsilon_; };
     levels_.erase(std::unique(levels_.begin(), levels_.end(), same), levels_.end());
-    for (Side& side : sides_) {
+    for (LoopSide& side : sides_) {
         const auto level = [this](double y) {
             return static_cast<std::uint32_t>(std::upper_bound(levels_.begin(), levels_.end(), y) - levels_.begin() -
                                               1);
@@ -181,7 +181,7 @@ int FaceFiller::sweep(FilledFaces& out) {
         sortActive((bottom + top) / 2);
 
         arrivals_.clear();
-        for (Piece& piece : open_) {
+        for (ConvexPiece& piece : open_) {
             piece.continued = false;
             arrivals_.push_back({sides_[piece.leftSide].at(bottom), static_cast<std::uint32_t>(arrivals_.size())});
         }
@@ -200,12 +200,12 @@ int FaceFiller::sweep(FilledFaces& out) {
                 addSpan(left, i, hasPositiveWinding, bottom);
             }
         }
-        for (const Piece& piece : open_) {
+        for (const ConvexPiece& piece : open_) {
             if (!piece.continued) close(piece, bottom, out);
         }
-        std::erase_if(open_, [](const Piece& piece) { return !piece.continued; });
+        std::erase_if(open_, [](const ConvexPiece& piece) { return !piece.continued; });
     }
-    for (const Piece& piece : open_) close(piece, levels_.back(), out);
+    for (const ConvexPiece& piece : open_) close(piece, levels_.back(), out);
     return most;
 }
 
@@ -225,11 +225,11 @@ void FaceFiller::sortActive(double y) {
 // extends an open piece if this keeps it convex, else begins a new piece. Only a piece whose left side arrives at the
 // left end of the region can be extended. There is at most one such piece, except where several sides meet.
 void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
-    const Side &l = sides_[left], &r = sides_[right];
+    const LoopSide &l = sides_[left], &r = sides_[right];
     const double x = l.at(bottom);
-    auto arrival = std::ranges::lower_bound(arrivals_, x - epsilon_, {}, &Arrival::x);
+    auto arrival = std::ranges::lower_bound(arrivals_, x - epsilon_, {}, &PieceAtLevel::x);
     for (; arrival != arrivals_.end() && arrival->x <= x + epsilon_; ++arrival) {
-        Piece& piece = open_[arrival->piece];
+        ConvexPiece& piece = open_[arrival->piece];
         if (piece.continued || piece.hasPositiveWinding != hasPositiveWinding || !canContinue(piece, l, r, bottom))
             continue;
         if (piece.leftSide != left) piece.left.at(piece.leftCount++) = {l.at(bottom), bottom};
@@ -239,7 +239,7 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
         piece.continued = true;
         return;
     }
-    Piece piece{};
+    ConvexPiece piece{};
     piece.left[0] = {l.at(bottom), bottom};
     piece.right[0] = {r.at(bottom), bottom};
     piece.leftCount = piece.rightCount = 1;
@@ -252,19 +252,20 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
 
 // Returns whether the piece can continue upward from height `bottom` along these sides: whether it stays convex, and
 // its chains have room for another corner.
-bool FaceFiller::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
-    const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
-    const auto follows = [&](const Side& before, const Side& after, double inward) {
+bool FaceFiller::canContinue(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right,
+                             double bottom) const {
+    const LoopSide &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
+    const auto follows = [&](const LoopSide& before, const LoopSide& after, double inward) {
         if (&before == &after) return true;
         if (std::abs(before.at(bottom) - after.at(bottom)) > epsilon_) return false;
         return inward * (after.slope - before.slope) >= 0;
     };
-    return piece.leftCount < Piece::kMaxCorners && piece.rightCount < Piece::kMaxCorners && follows(l, left, 1) &&
-           follows(r, right, -1);
+    return piece.leftCount < ConvexPiece::kMaxCorners && piece.rightCount < ConvexPiece::kMaxCorners &&
+           follows(l, left, 1) && follows(r, right, -1);
 }
 
 // Completes a piece at height `top` and appends it to `out`, unless it is degenerate.
-void FaceFiller::close(const Piece& piece, double top, FilledFaces& out) const {
+void FaceFiller::close(const ConvexPiece& piece, double top, FilledFaces& out) const {
     const std::size_t first = out.corners.size();
     glm::dvec2 last(0);
     const auto add = [&](const glm::dvec2& p) {

@@ -56,7 +56,7 @@ class FaceFiller {
 
   private:
     // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the face's plane.
-    struct Side {
+    struct LoopSide {
         glm::dvec2 low, high;
         double slope;               // dx/dy
         int winding;                // the change of the winding number across the side, from left to right
@@ -66,7 +66,7 @@ class FaceFiller {
     };
     // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
     // that the chains currently follow.
-    struct Piece {
+    struct ConvexPiece {
         static constexpr std::size_t kMaxCorners = 16;  // the maximum number of corners in a chain
         std::array<glm::dvec2, kMaxCorners> left, right;
         std::size_t leftCount, rightCount;
@@ -76,10 +76,10 @@ class FaceFiller {
         bool hasPositiveWinding, continued;
     };
     // Where the left side of an open piece arrives at the current level: its x, and the index of the piece.
-    struct Arrival {
+    struct PieceAtLevel {
         double x;
         std::uint32_t piece;
-        auto operator<=>(const Arrival&) const = default;
+        auto operator<=>(const PieceAtLevel&) const = default;
     };
     // A plane in space: one of its points, and two orthonormal axes.
     struct Plane {
@@ -95,19 +95,19 @@ class FaceFiller {
     void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const;
     void sortActive(double y);
     void addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom);
-    bool canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const;
-    void close(const Piece& piece, double top, FilledFaces& out) const;
+    bool canContinue(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right, double bottom) const;
+    void close(const ConvexPiece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this are treated as 0
     Plane plane_{};
     std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
-    std::vector<Side> sides_;
+    std::vector<LoopSide> sides_;
     std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending
     std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels
     std::vector<std::uint32_t> active_;   // sides in the current strip (between two levels), from left to right
-    std::vector<Piece> open_;             // pieces that may continue in the next strip
-    std::vector<Arrival> arrivals_;       // one for each open piece from below the current strip, left to right
+    std::vector<ConvexPiece> open_;       // pieces that may continue in the next strip
+    std::vector<PieceAtLevel> arrivals_;  // one for each open piece from below the current strip, left to right
 };
 
 }  // namespace oval4d::slicing

@@ -192,9 +192,9 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
 }
 
 std::span<const std::uint32_t> typeOfCells(const Object& object) {
-    using Types = std::span<const std::uint32_t>;
-    return visitElements(Overloaded{[](const CellComplex& complex) { return Types(complex.typeOfCell); },
-                                    [](const PointCloud& /*cloud*/) { return Types(); }},
+    using CellTypeNumbers = std::span<const std::uint32_t>;
+    return visitElements(Overloaded{[](const CellComplex& complex) { return CellTypeNumbers(complex.typeOfCell); },
+                                    [](const PointCloud& /*cloud*/) { return CellTypeNumbers(); }},
                          object);
 }
 

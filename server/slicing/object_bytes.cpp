@@ -77,7 +77,8 @@ class SampleWriter {
         }
         auto found = std::ranges::find(files_, samples.file());
         if (found == files_.end()) found = files_.insert(found, samples.file());
-        archive_(static_cast<std::size_t>(found - files_.begin())), archive_(samples.offset()), archive_(count);
+        archive_(static_cast<std::size_t>(found - files_.begin())), archive_(samples.byteOffsetInFile()),
+            archive_(count);
     }
 
   private:
@@ -102,7 +103,7 @@ void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& fi
 }
 
 // Reads the samples of an array whose shape is already set. Throws std::runtime_error if samples are missing.
-void readSamples(ByteReader& archive, const MappedFiles& files, fields::ReadField& array) {
+void readSamples(ByteReader& archive, const MappedFiles& files, fields::FieldArray& array) {
     bool inFile = false;
     archive(inFile);
     if (inFile) {
@@ -129,7 +130,7 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
         if (error) throw std::runtime_error("an invalid field: " + error->message);
     };
     std::string formula, second, variable;
-    fields::ReadField array;
+    fields::FieldArray array;
     bool hasArray = false;
     archive(formula), archive(array.box);
     if (formula.empty()) archive(array.shape), readSamples(archive, files, array);

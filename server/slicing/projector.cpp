@@ -20,7 +20,7 @@ using geometry::kNone;
 
 // The elements of a cell complex that are written to part 0 of the output (see Projector::project()): those of the
 // selected cells, or all elements.
-struct Selection {
+struct CellSelection {
     const std::vector<bool>* facing;  // per cell: whether it is selected; null if all elements are selected
     bool face(const geometry::CellComplex& p, std::size_t f) const {
         return facing == nullptr || (*facing)[p.faceCells[f][0]] || (*facing)[p.faceCells[f][1]];
@@ -28,8 +28,8 @@ struct Selection {
 };
 
 // Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone for all others.
-void numberElements(const geometry::CellComplex& p, const Selection& selection, std::vector<std::uint32_t>& vertices,
-                    std::vector<std::uint32_t>& edges) {
+void numberElements(const geometry::CellComplex& p, const CellSelection& selection,
+                    std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
     for (std::size_t f = 0; f < p.faces.size(); ++f) {
@@ -83,7 +83,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
         const bool culled = options.culled && cells > 0, drawn = options.cells && cells > 0 && p.convexFaces;
         if (culled || drawn) findFacingCells(object, orientation, projection);
-        const Selection selection{culled ? &cellIsFacing_ : nullptr};
+        const CellSelection selection{culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;

@@ -22,7 +22,7 @@ struct SurfaceDetail {
     /// slice are not needed. Empty if no surfaces are needed.
     std::vector<double> steps;
     /// Determines the limits on time and points. Surfaces in drafts may lack details of the function that are smaller
-    /// than the lattice steps (see ScalarFunction::forSteps()).
+    /// than the lattice steps (see ScalarFunction::versionForSteps()).
     Quality quality = Quality::full;
     std::vector<double> fogSteps = {};  ///< like `steps`, but the lattice of the fog
     /// Whether only the topology of the surfaces is needed. If it is true, the points of the surfaces lie only roughly
@@ -72,7 +72,7 @@ inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& p
 /// Sets the lattice step of the fog in all slices, for messages: half the step that setUniformDetail() sets for the
 /// surfaces in the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
 /// moved onto the level after sampling.
-inline void addUniformFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
+inline void setUniformFogSteps(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
     out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
 }
 

@@ -123,7 +123,7 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
         ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
         edges_.add(e, from, to);
     }
-    edges_.sort(structureChanges_);
+    edges_.sortByFirstHyperplane(structureChanges_);
 
     faces_.clear(faces, planes);
     faceSpan_.resize(faces);
@@ -140,7 +140,7 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
         faces_.add(f, from, to);
     }
     if (ends != 2 * total.edges) return false;
-    faces_.sort(structureChanges_);
+    faces_.sortByFirstHyperplane(structureChanges_);
     total.corners = 2 * total.edges;  // every slice edge bounds two faces
 
     cells_.clear(cells, planes);
@@ -155,7 +155,7 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
         total.faces += span.to - span.from;
         cells_.add(c, span.from, span.to);
     }
-    cells_.sort(structureChanges_);
+    cells_.sortByFirstHyperplane(structureChanges_);
 
     line_.resize(edges);
     vertex_.resize(edges);

@@ -34,7 +34,7 @@ void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
 /// Calls `read` and returns its result. Converts exceptions of the JSON library to UnreadableRecord.
 template <typename Read>
-auto translatingErrors(Read read) {
+auto callTranslatingErrors(Read read) {
     try {
         return read();
     } catch (const nlohmann::json::exception& fault) {
@@ -44,7 +44,7 @@ auto translatingErrors(Read read) {
 
 /// Returns `value` as a number. Throws UnreadableRecord unless the number is from `least` to `most`; the overload
 /// without `least` requires a number from −`most` to `most`. If `value` is not a number, throws an exception of the
-/// JSON library, which translatingErrors() converts to UnreadableRecord.
+/// JSON library, which callTranslatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);
 double readNumber(const nlohmann::json& value, double most);
 

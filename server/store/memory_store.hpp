@@ -13,7 +13,7 @@ class MemoryStore final : public Store {
     using Clock = std::chrono::steady_clock;
 
     /// `quota`: the maximum total size of all records, in bytes.
-    explicit MemoryStore(std::size_t quota = kDefaultQuota, Now<Clock> now = Clock::now)
+    explicit MemoryStore(std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now)
         : quota_(quota), now_(std::move(now)) {}
 
     WritePolicy writePolicy() const override { return WritePolicy::at_close; }
@@ -25,7 +25,7 @@ class MemoryStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<LostSession> pollLostSessions() override { return {}; }
+    std::vector<TakenOverSession> pollTakenOverSessions() override { return {}; }
     std::size_t size() const override { return entries_.size(); }
 
   private:
@@ -44,7 +44,7 @@ class MemoryStore final : public Store {
     Entries::iterator erase(Entries::iterator entry);
 
     const std::size_t quota_;
-    const Now<Clock> now_;
+    const ClockFunction<Clock> now_;
     std::size_t bytes_ = 0;  // total size of all records, as in Entry::bytes()
     Entries entries_;
 };

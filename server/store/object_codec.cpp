@@ -64,8 +64,8 @@ json binary(std::span<const float> samples) {
 }
 
 // Decodes the samples of an array, and checks that their number matches `shape`.
-fields::ReadField arrayIn(const json::binary_t& samples, const fields::Box& box, const json& shape) {
-    fields::ReadField array;
+fields::FieldArray arrayIn(const json::binary_t& samples, const fields::Box& box, const json& shape) {
+    fields::FieldArray array;
     array.box = box;
     array.shape = shape.get<fields::Shape>();
     const std::size_t count = fields::sampleCount(array.shape);
@@ -87,7 +87,7 @@ void readSecond(const json& second, const json& shape, fields::Field& field) {
     if (second.is_string()) {
         error = fields::setSecondFormula(field, second.get<std::string>());
     } else if (field.array) {
-        const fields::ReadField array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
+        const fields::FieldArray array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
         // The name of a variable may be longer than that of an object.
         auto variable = second.at(0).get<std::string>();
         if (!text::isUtf8(variable)) throwUnreadable("the name of a variable is not UTF-8");
@@ -299,7 +299,7 @@ std::string encodeObjectRecord(const slicing::Object& object) {
 }
 
 slicing::Object decodeObjectRecord(std::string_view bytes, const DataFolderReader& open) {
-    return translatingErrors([&] {
+    return callTranslatingErrors([&] {
         const json value = parseRecord(bytes);
         constexpr std::type_identity<slicing::Object> kKinds;
         if (value.size() != kMovedLength) return decodeOneOf(kKinds, value, glm::dvec4(0), open);

@@ -26,7 +26,7 @@ std::size_t memoryOfImage(const slicing::Object& source) {
 
 }  // namespace
 
-std::size_t ObjectListEncoder::indexOf(const slicing::Object& object) {
+std::size_t ObjectListEncoder::findOrAddObject(const slicing::Object& object) {
     const auto [found, isNew] = indices_.try_emplace(slicing::identityOf(object), list_.size());
     if (isNew) {
         const geometry::ObjectInfo& info = slicing::infoOf(object);

@@ -22,7 +22,7 @@ class ObjectListEncoder {
     explicit ObjectListEncoder(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
 
     /// Returns the index of the object in the list, from 0. Adds the object if the list does not have it yet.
-    std::size_t indexOf(const slicing::Object& object);
+    std::size_t findOrAddObject(const slicing::Object& object);
 
     /// Returns the encoded list, with one entry for each object: [name] if it is built from its name, else [name, key].
     const nlohmann::json& list() const { return list_; }

@@ -25,12 +25,12 @@ constexpr mode_t kPermissions = 07777;
 }
 
 /// Owns a file descriptor.
-class Descriptor {
+class FileDescriptor {
   public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
+    explicit FileDescriptor(int number) : number_(number) {}
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+    ~FileDescriptor() {
         if (number_ >= 0) ::close(number_);
     }
     int number() const { return number_; }
@@ -67,7 +67,7 @@ enum class Permissions : std::uint8_t { leave, tighten };
 bool checkFile(const std::string& path, Permissions permissions) {
     // Closing an ordinary descriptor would release all locks of this process on the file; closing an O_PATH descriptor
     // does not.
-    const Descriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
+    const FileDescriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
     if (!file.valid()) {
         if (errno == ENOENT) return false;
         fail(path, "unable to open it");
@@ -93,7 +93,7 @@ void ensurePrivateFile(const std::string& path) {
     if (checkFile(path, Permissions::tighten)) return;
     makeFolders(std::filesystem::path(path).parent_path());
     {
-        const Descriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode));
+        const FileDescriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode));
         if (file.valid() && fchmod(file.number(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
         if (!file.valid() && errno != EEXIST) fail(path, "unable to open it");
     }

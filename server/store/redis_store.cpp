@@ -127,8 +127,8 @@ Number numberIn(std::string_view text, const std::string& what, Number least, Nu
 
 }  // namespace
 
-void RedisStore::Closer::operator()(redisContext* context) const { redisFree(context); }
-void RedisStore::Closer::operator()(redisReply* reply) const { freeReplyObject(reply); }
+void RedisStore::RedisDeleter::operator()(redisContext* context) const { redisFree(context); }
+void RedisStore::RedisDeleter::operator()(redisReply* reply) const { freeReplyObject(reply); }
 
 RedisStore::RedisStore(const StoreOptions& options)
     : expiry_(options.expiry), timeout_(options.timeout), self_(randomName(10)) {
@@ -166,7 +166,8 @@ void RedisStore::connect() {
     if (context_->err != 0) fail();
     redisSetTimeout(context_.get(), asTimeval(timeout_));
     redisEnableKeepAlive(context_.get());
-    if (!password_.empty()) ask(user_.empty() ? Arguments{"AUTH", password_} : Arguments{"AUTH", user_, password_});
+    if (!password_.empty())
+        ask(user_.empty() ? CommandWords{"AUTH", password_} : CommandWords{"AUTH", user_, password_});
     if (!database_.empty()) ask({"SELECT", database_});
     claimScript_ = textOf(*ask({"SCRIPT", "LOAD", kClaim}));
     saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
@@ -199,7 +200,7 @@ void RedisStore::fail() {
     throw StoreError(name() + ": " + why);
 }
 
-void RedisStore::send(const Arguments& command) {
+void RedisStore::send(const CommandWords& command) {
     if (!context_) connect();
     std::vector<const char*> starts;
     std::vector<std::size_t> sizes;
@@ -229,13 +230,13 @@ RedisStore::Reply RedisStore::receive() {
     return reply;
 }
 
-RedisStore::Reply RedisStore::ask(const Arguments& command) {
+RedisStore::Reply RedisStore::ask(const CommandWords& command) {
     send(command);
     return receive();
 }
 
-RedisStore::Reply RedisStore::ask(const std::string& script, const std::string& id, const Arguments& arguments) {
-    Arguments command{"EVALSHA", script, "2", sessionKey(id), objectsKey(id)};
+RedisStore::Reply RedisStore::ask(const std::string& script, const std::string& id, const CommandWords& arguments) {
+    CommandWords command{"EVALSHA", script, "2", sessionKey(id), objectsKey(id)};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return ask(command);
 }
@@ -272,20 +273,20 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
         const std::string& id = update.credentials.id;
-        Arguments command{"EVALSHA",
-                          saveScript_,
-                          "2",
-                          sessionKey(id),
-                          objectsKey(id),
-                          self_,
-                          std::to_string(expiry_.count()),
-                          std::to_string(update.fence),
-                          hashToken(update.credentials.token),
-                          alsoStoresPlainTokens() ? update.credentials.token : "",
-                          update.head,
-                          update.whole,
-                          update.closed ? "1" : "0",
-                          std::to_string(update.objects.size())};
+        CommandWords command{"EVALSHA",
+                             saveScript_,
+                             "2",
+                             sessionKey(id),
+                             objectsKey(id),
+                             self_,
+                             std::to_string(expiry_.count()),
+                             std::to_string(update.fence),
+                             hashToken(update.credentials.token),
+                             alsoStoresPlainTokens() ? update.credentials.token : "",
+                             update.head,
+                             update.whole,
+                             update.closed ? "1" : "0",
+                             std::to_string(update.objects.size())};
         for (const auto& [key, bytes] : update.objects) {
             command.push_back(key);
             command.push_back(bytes);
@@ -325,10 +326,10 @@ void RedisStore::restartExpiry(std::span<const std::string> ids) {
     for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();
 }
 
-std::vector<LostSession> RedisStore::pollLostSessions() {
+std::vector<TakenOverSession> RedisStore::pollTakenOverSessions() {
     if (!context_) connect();
     const Reply reply = ask({"EVALSHA", pollScript_, "1", "oval4d:taken:" + self_});
-    std::vector<LostSession> lost;
+    std::vector<TakenOverSession> lost;
     if (reply->type != REDIS_REPLY_ARRAY || reply->elements == 0) return lost;
     size_ = static_cast<std::size_t>(reply->element[0]->integer);
     for (std::size_t i = 1; i + 1 < reply->elements; i += 2)

@@ -32,24 +32,24 @@ class RedisStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
-    std::vector<LostSession> pollLostSessions() override;
+    std::vector<TakenOverSession> pollTakenOverSessions() override;
     std::size_t size() const override { return size_; }
 
   private:
-    struct Closer {
+    struct RedisDeleter {
         void operator()(redisContext* context) const;
         void operator()(redisReply* reply) const;
     };
-    using Reply = std::unique_ptr<redisReply, Closer>;
-    using Arguments = std::vector<std::string>;
+    using Reply = std::unique_ptr<redisReply, RedisDeleter>;
+    using CommandWords = std::vector<std::string>;
 
     void connect();
     [[noreturn]] void fail();
-    void send(const Arguments& command);
+    void send(const CommandWords& command);
     Reply receiveAny();
     Reply receive();
-    Reply ask(const Arguments& command);
-    Reply ask(const std::string& script, const std::string& id, const Arguments& arguments);
+    Reply ask(const CommandWords& command);
+    Reply ask(const std::string& script, const std::string& id, const CommandWords& arguments);
     void updatePlainTokenDeadline();
     bool alsoStoresPlainTokens() const;
 
@@ -57,7 +57,7 @@ class RedisStore final : public Store {
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
     const std::string self_;  // random name of this server in Redis
-    std::unique_ptr<redisContext, Closer> context_;
+    std::unique_ptr<redisContext, RedisDeleter> context_;
     // SHA-1 digests of the loaded scripts.
     std::string claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
     // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.

@@ -55,14 +55,14 @@ std::string encodeWhole(const Session& session, std::size_t maxUndo, const Objec
     json before = history(undoSteps, maxUndo, objects);
     json after = history(redoSteps, maxUndo, objects);
     json own = json::array();
-    for (const auto& [name, object] : loaded) own.push_back({name, objects.indexOf(object)});
+    for (const auto& [name, object] : loaded) own.push_back({name, objects.findOrAddObject(object)});
     return encodeCbor({kRecordVersion, revision, objects.list(), std::move(state), std::move(before), std::move(after),
                        std::move(own), pendingKey});
 }
 
 Session decodeSession(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                       polytopes::PolytopeCache& cache) {
-    return translatingErrors([&] {
+    return callTranslatingErrors([&] {
         const json value = parseRecord(whole);
         refuseUnknownMembers(value, kWholeMembers);
         ObjectListDecoder objects(value.at(2), objectOf, cache);

@@ -103,7 +103,7 @@ void Database::run(const char* sql) {
     if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(sql);
 }
 
-std::int64_t Database::number(const char* sql) {
+std::int64_t Database::queryNumber(const char* sql) {
     Statement statement(*this, sql);
     return statement.step() ? statement.numberAt(0) : 0;
 }
@@ -117,16 +117,19 @@ Statement::Statement(Database& database, const char* sql) : database_(database) 
 Statement::~Statement() { sqlite3_finalize(statement_); }
 
 Statement& Statement::text(std::string_view value) {
-    return bound(sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8));
+    return checkBinding(
+        sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8));
 }
 
 Statement& Statement::blob(std::string_view value) {
     // For an empty view, data() may be a null pointer, which SQLite would bind as NULL, not as an empty blob.
-    return bound(
+    return checkBinding(
         sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
 }
 
-Statement& Statement::number(std::int64_t value) { return bound(sqlite3_bind_int64(statement_, ++bound_, value)); }
+Statement& Statement::number(std::int64_t value) {
+    return checkBinding(sqlite3_bind_int64(statement_, ++bound_, value));
+}
 
 bool Statement::step() {
     const int status = sqlite3_step(statement_);
@@ -144,7 +147,7 @@ std::int64_t Statement::numberAt(int column) const { return sqlite3_column_int64
 
 std::size_t Statement::changes() const { return static_cast<std::size_t>(sqlite3_changes(database_.handle_)); }
 
-Statement& Statement::bound(int status) {
+Statement& Statement::checkBinding(int status) {
     if (status != SQLITE_OK) database_.fail("binding a value");
     return *this;
 }

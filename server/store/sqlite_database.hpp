@@ -35,7 +35,7 @@ class Database {
     /// NotWritable if the file cannot be written, CorruptDatabase if it is damaged, and StoreError for any other error.
     void run(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
-    std::int64_t number(const char* sql);
+    std::int64_t queryNumber(const char* sql);
     /// Keeps the write-ahead log file when the connection closes. Must be called before a damaged file and its log are
     /// renamed.
     void keepWriteAheadLog();
@@ -71,7 +71,7 @@ class Statement {
     std::size_t changes() const;
 
   private:
-    Statement& bound(int status);
+    Statement& checkBinding(int status);
 
     Database& database_;
     sqlite3_stmt* statement_ = nullptr;

@@ -69,7 +69,7 @@ void renameIfExists(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-SqliteStore::SqliteStore(std::string path, std::size_t quota, Now<Clock> now)
+SqliteStore::SqliteStore(std::string path, std::size_t quota, ClockFunction<Clock> now)
     : path_(std::move(path)), maxPages_(maxPagesFor(quota)), now_(std::move(now)) {
     open();
     spdlog::info("store opened store={} sessions={}", name(), size_);
@@ -101,7 +101,7 @@ void SqliteStore::open() {
         if (damage.empty()) {
             setUp();
         } else {
-            repair(damage);
+            replaceDamagedFile(damage);
         }
     } catch (...) {
         database_.reset();
@@ -112,10 +112,11 @@ void SqliteStore::open() {
 /// Throws CorruptDatabase if the file is damaged, and StoreError if it belongs to another program or was written by a
 /// later version. Changes nothing.
 void SqliteStore::check() {
-    const auto tables = database_->number("SELECT count(*) FROM sqlite_schema");
-    const auto version = database_->number("PRAGMA user_version");
+    const auto tables = database_->queryNumber("SELECT count(*) FROM sqlite_schema");
+    const auto version = database_->queryNumber("PRAGMA user_version");
     if (version > kSchemaVersion) throw StoreError(path_ + " was written by a later version of oval4d");
-    const auto ours = database_->number("SELECT count(*) FROM sqlite_schema WHERE name IN ('session', 'polytope')");
+    const auto ours =
+        database_->queryNumber("SELECT count(*) FROM sqlite_schema WHERE name IN ('session', 'polytope')");
     if (tables > 0 && ours == 0) {
         throw StoreError(path_ + " is the database of another program; it was not changed: give another path");
     }
@@ -128,7 +129,7 @@ void SqliteStore::check() {
 
 void SqliteStore::setUp() {
     database_->run("PRAGMA synchronous = NORMAL");
-    if (database_->number("SELECT count(*) FROM sqlite_schema") == 0) {
+    if (database_->queryNumber("SELECT count(*) FROM sqlite_schema") == 0) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
         database_->run(kSchema);
         database_->run("COMMIT");
@@ -151,13 +152,13 @@ void SqliteStore::setUp() {
     }
     releasePages(std::max<std::int64_t>(kMaxReleasedPages, usedPages()));
     database_->run("PRAGMA wal_checkpoint(TRUNCATE)");
-    size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+    size_ = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
 }
 
 /// Migrates a file of schema version 1, in which tokens are plain text and records have no digests, in one transaction.
 /// A VACUUM follows; if it fails, it is repeated when the file is opened the next time.
 void SqliteStore::migrate() {
-    if (database_->number("PRAGMA user_version") < kSchemaVersion) {
+    if (database_->queryNumber("PRAGMA user_version") < kSchemaVersion) {
         database_->run("PRAGMA foreign_keys = OFF");
         {
             Transaction all(*database_);
@@ -178,13 +179,13 @@ void SqliteStore::migrate() {
     // Erase the plain-text tokens from free pages and from the write-ahead log. VACUUM also makes auto_vacuum
     // incremental, which shows later that VACUUM has succeeded.
     constexpr std::int64_t kIncremental = 2;
-    if (database_->number("PRAGMA auto_vacuum") != kIncremental) {
+    if (database_->queryNumber("PRAGMA auto_vacuum") != kIncremental) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
     }
 }
 
 /// Copies the intact sessions into a new file, which replaces the damaged one.
-void SqliteStore::repair(const std::string& why) {
+void SqliteStore::replaceDamagedFile(const std::string& why) {
     spdlog::error("store damaged store={} damage=\"{}\"", name(), why);
     const std::string fresh = path_ + ".salvaged";
     for (const char* beside : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(fresh + beside);
@@ -231,7 +232,7 @@ void SqliteStore::logDamagedRecords() {
         " UNION SELECT session FROM polytope WHERE digest <> digest_of(session, key, bytes)");
     while (statement.step()) damaged.insert(statement.bytesAt(0));
     if (damaged.empty()) return;
-    const auto all = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+    const auto all = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
     spdlog::error("sessions damaged, and lost store={} kept={} lost={} lost_sessions={}", name(),
                   all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
 }
@@ -240,11 +241,11 @@ void SqliteStore::logDamagedRecords() {
 /// repairs the file first. The repair may lose sessions, but the exception makes WriteBehindStore save all open
 /// sessions again.
 template <typename Work>
-auto SqliteStore::afterPendingRepair(Work work) {
+auto SqliteStore::runAfterPendingRepair(Work work) {
     if (!database_) {
         open();
     } else if (!damage_.empty()) {
-        repair(std::string(damage_));
+        replaceDamagedFile(std::string(damage_));
     }
     try {
         return work();
@@ -255,14 +256,14 @@ auto SqliteStore::afterPendingRepair(Work work) {
 }
 
 std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
-    return afterPendingRepair([&]() -> std::optional<std::string> {
+    return runAfterPendingRepair([&]() -> std::optional<std::string> {
         Statement statement(*database_, "SELECT token_hash FROM session WHERE id = ?");
         return statement.text(id).step() ? std::optional(statement.bytesAt(0)) : std::nullopt;
     });
 }
 
 bool SqliteStore::isDamaged(const std::string& id) {
-    return afterPendingRepair([&] {
+    return runAfterPendingRepair([&] {
         Statement statement(*database_,
                             "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
         return statement.text(id).step();
@@ -270,7 +271,7 @@ bool SqliteStore::isDamaged(const std::string& id) {
 }
 
 std::optional<Record> SqliteStore::claim(const std::string& id) {
-    return afterPendingRepair([&]() -> std::optional<Record> {
+    return runAfterPendingRepair([&]() -> std::optional<Record> {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(nowMilliseconds()).text(id).step();
@@ -295,7 +296,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
 }
 
 std::vector<SaveResult> SqliteStore::save(std::span<const RecordUpdate> updates) {
-    return afterPendingRepair([&] {
+    return runAfterPendingRepair([&] {
         if (usedPages() + pagesNeededFor(updates) > maxPages_) {
             throw NotWritable(path_ + ": open sessions use up the quota (--store-quota)");
         }
@@ -352,7 +353,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
 }
 
 std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
-    return afterPendingRepair([&] { return evictSessionsUntilFits(pagesNeededFor(updates), isPinned); });
+    return runAfterPendingRepair([&] { return evictSessionsUntilFits(pagesNeededFor(updates), isPinned); });
 }
 
 std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
@@ -378,7 +379,7 @@ std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const 
 }
 
 void SqliteStore::remove(std::span<const std::string> ids) {
-    afterPendingRepair([&] {
+    runAfterPendingRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "DELETE FROM session WHERE id = ?");
@@ -389,7 +390,7 @@ void SqliteStore::remove(std::span<const std::string> ids) {
 }
 
 void SqliteStore::restartExpiry(std::span<const std::string> ids) {
-    afterPendingRepair([&] {
+    runAfterPendingRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
@@ -400,29 +401,29 @@ void SqliteStore::restartExpiry(std::span<const std::string> ids) {
 }
 
 std::size_t SqliteStore::expire(Milliseconds age) {
-    return afterPendingRepair([&] {
+    return runAfterPendingRepair([&] {
         Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
         statement.number(nowMilliseconds() - age.count()).step();
         return statement.changes();
     });
 }
 
-std::vector<LostSession> SqliteStore::pollLostSessions() {
-    afterPendingRepair([&] {
+std::vector<TakenOverSession> SqliteStore::pollTakenOverSessions() {
+    runAfterPendingRepair([&] {
         releasePages(kMaxReleasedPages);
-        size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+        size_ = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
     });
     return {};
 }
 
 std::int64_t SqliteStore::usedPages() {
-    return database_->number("PRAGMA page_count") - database_->number("PRAGMA freelist_count");
+    return database_->queryNumber("PRAGMA page_count") - database_->queryNumber("PRAGMA freelist_count");
 }
 
 /// Releases at most `maxPages` free pages to the file system, and keeps kReservedPages for the next updates.
 void SqliteStore::releasePages(std::int64_t maxPages) {
     constexpr std::int64_t kReservedPages = 64;
-    const std::int64_t free = database_->number("PRAGMA freelist_count");
+    const std::int64_t free = database_->queryNumber("PRAGMA freelist_count");
     if (free <= kReservedPages) return;
     database_->run(
         ("PRAGMA incremental_vacuum(" + std::to_string(std::min(maxPages, free - kReservedPages)) + ")").c_str());

@@ -25,7 +25,7 @@ class SqliteStore final : public Store {
     /// only a single update of more than an eighth of the quota may exceed it temporarily. Throws StoreError if another
     /// server uses the file, or if the file is not a store of oval4d, not owned by the server's user, or not a regular
     /// file.
-    explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, Now<Clock> now = Clock::now);
+    explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now);
 
     WritePolicy writePolicy() const override { return WritePolicy::soon; }
     std::string name() const override { return "sqlite:" + path_; }
@@ -37,18 +37,18 @@ class SqliteStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<LostSession> pollLostSessions() override;
+    std::vector<TakenOverSession> pollTakenOverSessions() override;
     std::size_t size() const override { return size_; }
 
   private:
     template <typename Work>
-    auto afterPendingRepair(Work work);
+    auto runAfterPendingRepair(Work work);
     std::int64_t nowMilliseconds() const;
     void open();
     void check();
     void setUp();
     void migrate();
-    void repair(const std::string& why);
+    void replaceDamagedFile(const std::string& why);
     void logDamagedRecords();
     SaveResult saveOne(const RecordUpdate& update);
     std::size_t evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);
@@ -57,7 +57,7 @@ class SqliteStore final : public Store {
 
     const std::string path_;
     const std::int64_t maxPages_;
-    const Now<Clock> now_;
+    const ClockFunction<Clock> now_;
     std::unique_ptr<Database> database_;  // null after a failed repair: the next operation opens the file again
     std::string damage_;                  // damage that the next operation must repair; empty if there is none
     std::size_t size_ = 0;

@@ -117,7 +117,7 @@ class StateWriter : public MemberWriter {
   public:
     explicit StateWriter(ObjectListEncoder& objects) : objects_(objects) {}
 
-    void object(std::size_t number, const slicing::Object& value) { put(number, objects_.indexOf(value)); }
+    void object(std::size_t number, const slicing::Object& value) { put(number, objects_.findOrAddObject(value)); }
 
   private:
     ObjectListEncoder& objects_;

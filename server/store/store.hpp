@@ -19,7 +19,7 @@ using Milliseconds = std::chrono::milliseconds;
 
 /// A function that returns the current time of a clock. Tests pass functions that return a virtual time.
 template <typename Clock>
-using Now = std::function<typename Clock::time_point()>;
+using ClockFunction = std::function<typename Clock::time_point()>;
 
 /// The credentials that open a session: its public id and its secret token.
 struct SessionCredentials {
@@ -65,11 +65,11 @@ enum class SaveResult : std::uint8_t {
 };
 
 /// A session that another server has claimed.
-struct LostSession {
+struct TakenOverSession {
     std::string id;
     Fence fence = 0;  ///< the fence in the session's record; 0 if it has no record anymore
 
-    bool operator==(const LostSession&) const = default;
+    bool operator==(const TakenOverSession&) const = default;
 };
 
 /// Thrown if a store operation fails because the store does not answer, cannot be used, or is full.
@@ -142,11 +142,11 @@ class Store {
     virtual std::size_t expire(Milliseconds age) = 0;
 
     /// Updates size(), and returns the sessions that other servers have claimed from this one since the last call. If
-    /// this server has claimed such a session back in the meantime, LostSession::fence is the fence of this server's
-    /// own claim.
-    virtual std::vector<LostSession> pollLostSessions() = 0;
+    /// this server has claimed such a session back in the meantime, TakenOverSession::fence is the fence of this
+    /// server's own claim.
+    virtual std::vector<TakenOverSession> pollTakenOverSessions() = 0;
 
-    /// Returns the approximate number of stored sessions, as of the last pollLostSessions().
+    /// Returns the approximate number of stored sessions, as of the last pollTakenOverSessions().
     virtual std::size_t size() const = 0;
 };
 

@@ -52,11 +52,11 @@ void StoredObjectKeys::recordSaved(const std::string& session, const std::vector
     });
 }
 
-void StoredObjectKeys::markLost(const std::string& session) {
+void StoredObjectKeys::markObjectsLost(const std::string& session) {
     for (auto& [serial, object] : sessions_[session]) object.stored = false;
 }
 
-void StoredObjectKeys::markAllLost() {
+void StoredObjectKeys::markAllObjectsLost() {
     for (auto& [session, objects] : sessions_) {
         for (auto& [serial, object] : objects) object.stored = false;
     }

@@ -34,8 +34,8 @@ class StoredObjectKeys {
 
     /// These functions record that the store has lost the objects of this session, or of all sessions. The next updates
     /// then contain the objects again.
-    void markLost(const std::string& session);
-    void markAllLost();
+    void markObjectsLost(const std::string& session);
+    void markAllObjectsLost();
 
     /// Forgets a session.
     void forget(const std::string& session) { sessions_.erase(session); }

@@ -29,14 +29,15 @@ const Error kNoAnswer{ErrorCode::internal, "this session cannot be opened right 
 
 }  // namespace
 
-WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener, Now<Clock> now)
+WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, WriteBehindSettings settings, Listener listener,
+                                   ClockFunction<Clock> now)
     : store_(std::move(store)),
       writePolicy_(store_->writePolicy()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
       now_(std::move(now)),
-      thread_([this] { run(); }) {}
+      thread_([this] { runThread(); }) {}
 
 WriteBehindStore::~WriteBehindStore() { stop(0ms); }
 
@@ -68,7 +69,7 @@ SessionCredentials WriteBehindStore::create() {
     return credentials;
 }
 
-void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
+void WriteBehindStore::claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
         requests_.emplace_back(
@@ -194,7 +195,7 @@ WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
     return stopping_ ? std::min(next, stopAt_) : next;
 }
 
-void WriteBehindStore::run() {
+void WriteBehindStore::runThread() {
     // Whether the last thing done was a request. If a write or a poll is due, it then comes before the next request, so
     // that clients that request many sessions, or sessions that do not exist, do not keep changes from being written.
     bool isOthersTurn = false;
@@ -230,7 +231,7 @@ void WriteBehindStore::run() {
 /// Calls `operation`, an operation of the store, and reports its duration and outcome to the listener. `name`: the name
 /// of the operation in the metrics.
 template <typename Operation>
-auto WriteBehindStore::timed(const char* name, Operation operation) {
+auto WriteBehindStore::runTimed(const char* name, Operation operation) {
     const auto start = Clock::now();
     const auto report = [&](bool done) {
         listener_.operationEnded(name, std::chrono::duration<double>(Clock::now() - start).count(), done);
@@ -248,7 +249,7 @@ auto WriteBehindStore::timed(const char* name, Operation operation) {
 void WriteBehindStore::storeFailed(const std::exception& fault) {
     const std::string why = fault.what();
     const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
-    if (!readable) objects_.markAllLost();  // the store may have lost its data
+    if (!readable) objects_.markAllObjectsLost();  // the store may have lost its data
     const Milliseconds pause = backoff_.next();
     const std::lock_guard lock(mutex_);
     retryAt_ = pollAt_ = now_() + pause;
@@ -299,7 +300,7 @@ void WriteBehindStore::write() {
     try {
         takeJobs(jobs, updates);
         if (jobs.empty()) return;
-        results = timed("save", [&] { return saveOrEvict(updates); });
+        results = runTimed("save", [&] { return saveOrEvict(updates); });
     } catch (const std::exception& fault) {
         storeFailed(fault);
         for (Job& job : jobs) requeue(job);
@@ -368,7 +369,7 @@ void WriteBehindStore::writeRemovals() {
     }
     if (ids.empty()) return;
     try {
-        timed("remove", [&] { return store_->remove(ids), true; });
+        runTimed("remove", [&] { return store_->remove(ids), true; });
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;
@@ -392,12 +393,12 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
             }
         }
     } else if (result == SaveResult::missing) {
-        objects_.markLost(job.id);
+        objects_.markObjectsLost(job.id);
         requeue(job);
         listener_.missing(job.id);
         return;
     } else {
-        dropClaimed(job.id, update.fence + 1);
+        dropIfTakenOver(job.id, update.fence + 1);
     }
     for (const SaveCallback& written : job.changes.waiting) written(result == SaveResult::saved);
 }
@@ -422,7 +423,7 @@ void WriteBehindStore::requeue(Job& job) {
 
 /// Drops a session that another server has claimed with the fence `fence` or a later one, unless this server has
 /// claimed it since.
-void WriteBehindStore::dropClaimed(const std::string& id, Fence fence) {
+void WriteBehindStore::dropIfTakenOver(const std::string& id, Fence fence) {
     std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
@@ -444,9 +445,9 @@ void WriteBehindStore::poll() {
     }
     std::size_t stored = 0;
     try {
-        if (now_() >= refreshAt_) refreshExpiry();
-        for (const auto& [id, fence] : timed("pulse", [&] { return store_->pollLostSessions(); }))
-            dropClaimed(id, fence);
+        if (now_() >= refreshAt_) renewAndExpireSessions();
+        for (const auto& [id, fence] : runTimed("pulse", [&] { return store_->pollTakenOverSessions(); }))
+            dropIfTakenOver(id, fence);
         stored = store_->size();  // a store may wait for its own lock, so not while mutex_ is held
     } catch (const std::exception& fault) {
         storeFailed(fault);
@@ -464,7 +465,7 @@ void WriteBehindStore::poll() {
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
-void WriteBehindStore::refreshExpiry() {
+void WriteBehindStore::renewAndExpireSessions() {
     const Milliseconds interval = std::min<Milliseconds>(settings_.expiry / 4, kMaxRefreshInterval);
     refreshAt_ = now_() + interval;
     std::vector<std::string> open;
@@ -476,9 +477,9 @@ void WriteBehindStore::refreshExpiry() {
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
         const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
-        timed("touch", [&] { return store_->restartExpiry(some), true; });
+        runTimed("touch", [&] { return store_->restartExpiry(some), true; });
     }
-    const std::size_t expired = timed("expire", [&] { return store_->expire(settings_.expiry); });
+    const std::size_t expired = runTimed("expire", [&] { return store_->expire(settings_.expiry); });
     if (expired > 0) spdlog::info("sessions expired count={}", expired);
 }
 
@@ -501,24 +502,24 @@ WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredent
             if (!cached->pending.whole)
                 return kNoAnswer;  // another client is opening the session, or it is being written
             cached->closed = false;
-            Fetched found{*cached->pending.whole, {}};
+            FetchedSession found{*cached->pending.whole, {}};
             found.record.fence = cached->fence;
             return found;
         }
         if (removals_.contains(credentials.id)) return kNotFound;
         if (now_() < readAt_) return kNoAnswer;
     }
-    const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
+    const auto hash = runTimed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
     if (!equalInConstantTime(hashToken(credentials.token), *hash)) {
         // The token may be correct, if the stored hash is damaged.
-        return timed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
+        return runTimed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }
-    auto record = timed("claim", [&] { return store_->claim(credentials.id); });
+    auto record = runTimed("claim", [&] { return store_->claim(credentials.id); });
     if (!record) return kNotFound;
     const std::lock_guard lock(mutex_);
     cached_.addStored(credentials, record->fence);
-    return Fetched{{}, std::move(*record)};
+    return FetchedSession{{}, std::move(*record)};
 }
 
 }  // namespace oval4d::store

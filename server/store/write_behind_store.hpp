@@ -29,14 +29,14 @@ namespace oval4d::store {
 /// The store counts as unavailable after a failed operation, such as a write for which it has no room, until its
 /// operations succeed again. While the store is unavailable, changes wait in memory, and no caller waits for the store;
 /// the cache retries with growing pauses (exponential backoff). If the store is full, sessions that no client has open
-/// are evicted from it. If the store is unavailable and the closed sessions in memory take more than `Settings::quota`,
-/// some of them are evicted from memory. An open session is never evicted.
+/// are evicted from it. If the store is unavailable and the closed sessions in memory take more than
+/// `WriteBehindSettings::quota`, some of them are evicted from memory. An open session is never evicted.
 ///
 /// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or on the thread that calls a function
 /// of this class.
 class WriteBehindStore {
   public:
-    struct Settings {
+    struct WriteBehindSettings {
         Milliseconds expiry{1'800'000};  ///< time after which a session that no client has open is deleted
         std::size_t maxUndo = 100;       ///< maximum number of undo steps, and of redo steps, to store with a session
         /// Maximum estimated memory, in bytes, of the closed sessions that wait while the store is unavailable.
@@ -58,17 +58,18 @@ class WriteBehindStore {
     /// A fetched session. If the session was still in memory, `session` holds it. Otherwise `session` is empty, and
     /// `record` is the stored record, which the caller must decode with session_codec.hpp. In either case,
     /// `record.fence` is the fence to pass to save().
-    struct Fetched {
+    struct FetchedSession {
         std::optional<session::Session> session;
         Record record;
     };
-    using FetchResult = Result<Fetched>;
+    using FetchResult = Result<FetchedSession>;
     /// The part of a session to save: the result of encodeHead() or of encodeWhole() (session_codec.hpp).
     enum class SaveScope : std::uint8_t { head, whole };
 
     using Clock = std::chrono::steady_clock;
 
-    WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener, Now<Clock> now = Clock::now);
+    WriteBehindStore(std::unique_ptr<Store> store, WriteBehindSettings settings, Listener listener,
+                     ClockFunction<Clock> now = Clock::now);
     WriteBehindStore(const WriteBehindStore&) = delete;
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
@@ -83,7 +84,7 @@ class WriteBehindStore {
     /// Makes the cache's thread claim a session for this server and then call `done` with the session or with an error:
     /// `not_found`, `bad_token`, or `internal` if the session cannot be fetched now. If `done` receives a record, the
     /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
-    void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
+    void claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Returns whether this server still owns the session that it has created or fetched with this fence, as far as it
     /// knows. If another server claims it later, Listener::claimed is called after this function has returned.
@@ -135,7 +136,7 @@ class WriteBehindStore {
     };
 
     // The following functions run on the cache's thread.
-    void run();
+    void runThread();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
     std::vector<std::optional<SaveResult>> saveOrEvict(std::span<const RecordUpdate> updates);
@@ -145,13 +146,13 @@ class WriteBehindStore {
     void dropKeys(const std::string& id);
     void applyResult(Job& job, const RecordUpdate& update, SaveResult result);
     void requeue(Job& job);
-    void dropClaimed(const std::string& id, Fence fence);
+    void dropIfTakenOver(const std::string& id, Fence fence);
     void poll();
-    void refreshExpiry();
+    void renewAndExpireSessions();
     void runFetch(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
     FetchResult findOrClaim(const SessionCredentials& credentials);
     template <typename Operation>
-    auto timed(const char* name, Operation operation);
+    auto runTimed(const char* name, Operation operation);
     void storeFailed(const std::exception& fault);
     void storeWorked();
 
@@ -163,19 +164,20 @@ class WriteBehindStore {
     const std::unique_ptr<Store> store_;
     const Store::WritePolicy writePolicy_;
     const std::string name_;
-    const Settings settings_;
+    const WriteBehindSettings settings_;
     const Listener listener_;
-    const Now<Clock> now_;
+    const ClockFunction<Clock> now_;
 
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // Guarded by mutex_.
     CachedSessions cached_;
-    std::deque<std::function<void()>> tasks_;     // do not use the store; the cache's thread runs them before all else
-    std::deque<std::function<void()>> requests_;  // calls of fetch() and remove(); take turns with writes and polls
-    std::set<std::string> removals_;              // ids to remove from the store
-    std::size_t storedCount_ = 0;                 // number of sessions in the store, as of the last poll
-    std::size_t neverSaved_ = 0;                  // number of sessions that have never been in the store
+    std::deque<std::function<void()>> tasks_;  // do not use the store; the cache's thread runs them before all else
+    std::deque<std::function<void()>>
+        requests_;                    // calls of claimAndFetch() and remove(); take turns with writes and polls
+    std::set<std::string> removals_;  // ids to remove from the store
+    std::size_t storedCount_ = 0;     // number of sessions in the store, as of the last poll
+    std::size_t neverSaved_ = 0;      // number of sessions that have never been in the store
     std::string lastError_;
     Clock::time_point retryAt_, pollAt_;  // retryAt_: earliest time of the next write; pollAt_: time of the next poll()
     Clock::time_point readAt_;            // earliest time of the next read
@@ -185,7 +187,7 @@ class WriteBehindStore {
     // Used only by the cache's thread.
     StoredObjectKeys objects_;
     Backoff backoff_;
-    Clock::time_point refreshAt_;  // time of the next refreshExpiry()
+    Clock::time_point refreshAt_;  // time of the next renewAndExpireSessions()
 
     std::thread thread_;  // the last member, so that the others are initialized before the thread uses them
 };

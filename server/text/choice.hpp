@@ -11,7 +11,7 @@ namespace oval4d::text {
 /// A row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
 /// several rows: the first one contains its name, the others contain aliases.
 template <typename Value>
-struct Choice {
+struct NamedValue {
     std::string_view name;
     Value value;
 };

@@ -24,7 +24,7 @@ std::vector<std::string_view> splitAtCommas(std::string_view text) {
     return parts;
 }
 
-std::vector<std::string> wordsOf(std::string_view text) {
+std::vector<std::string> lowerCaseWords(std::string_view text) {
     std::vector<std::string> words;
     bool apart = true;
     for (const char c : text) {

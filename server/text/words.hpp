@@ -13,7 +13,7 @@ namespace oval4d::text {
 std::vector<std::string_view> splitAtCommas(std::string_view text);
 
 /// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
-std::vector<std::string> wordsOf(std::string_view text);
+std::vector<std::string> lowerCaseWords(std::string_view text);
 
 /// Returns words[first] … words[end − 1], separated by spaces.
 std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end);

@@ -20,7 +20,7 @@ class Buffer {
     Buffer& operator=(const Buffer&) = delete;
 
     /// Ensures that at least `size` bytes can be written to at(). Invalidates earlier results of at().
-    void reserve(std::size_t size) {
+    void reserveMore(std::size_t size) {
         if (static_cast<std::size_t>(end_ - at_) < size) grow(size);
     }
     /// Returns a pointer to the current end of the text, where the caller may write as many bytes as it has reserved.
@@ -29,18 +29,18 @@ class Buffer {
     void moveTo(char* at) { at_ = at; }
     /// Appends one character.
     void put(char c) {
-        reserve(1);
+        reserveMore(1);
         *at_++ = c;
     }
     /// Appends text.
     void put(std::string_view text) {
-        reserve(text.size());
+        reserveMore(text.size());
         at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, allows an empty text whose data() is null
     }
     /// Appends `size` bytes with unspecified values. Returns a pointer to the first of them, which is valid until more
     /// bytes are appended.
     char* append(std::size_t size) {
-        reserve(size);
+        reserveMore(size);
         at_ += size;
         return at_ - size;
     }

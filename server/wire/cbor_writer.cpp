@@ -12,7 +12,7 @@ constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
 }  // namespace
 
 void CborWriter::head(std::uint8_t major, std::uint64_t argument) {
-    buffer_.reserve(9);
+    buffer_.reserveMore(9);
     char* at = buffer_.at();
     const int bytes = argument < 24            ? 0
                       : argument <= 0xFF       ? 1

@@ -47,7 +47,7 @@ void JsonWriter::close(char bracket) {
 
 void JsonWriter::value(double number) {
     separate();
-    buffer_.reserve(kMaxNumberLength);
+    buffer_.reserveMore(kMaxNumberLength);
     char* const end = buffer_.at() + kMaxNumberLength;
     // For an integer such as 1000000, to_chars of a double would write 1e+06.
     buffer_.moveTo(text::isExactInteger(number)
@@ -57,13 +57,13 @@ void JsonWriter::value(double number) {
 
 void JsonWriter::value(std::uint64_t number) {
     separate();
-    buffer_.reserve(kMaxNumberLength);
+    buffer_.reserveMore(kMaxNumberLength);
     buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
 }
 
 void JsonWriter::value(std::int64_t number) {
     separate();
-    buffer_.reserve(kMaxNumberLength);
+    buffer_.reserveMore(kMaxNumberLength);
     buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
 }
 
@@ -104,7 +104,7 @@ void JsonWriter::value(std::string_view text) {
 
 void JsonWriter::vector(const glm::dvec3& v) {
     separate();
-    buffer_.reserve(reserveFor(3));
+    buffer_.reserveMore(reserveFor(3));
     buffer_.moveTo(text::putVectorsAsJson(buffer_.at(), std::span(&v, 1)));
 }
 
@@ -112,7 +112,7 @@ void JsonWriter::vector(const glm::dvec3& v) {
 template <typename Put>
 void JsonWriter::array(std::size_t numbers, Put put) {
     separate();
-    buffer_.reserve(reserveFor(numbers));
+    buffer_.reserveMore(reserveFor(numbers));
     char* at = buffer_.at();
     *at++ = '[';
     at = put(at);

@@ -27,7 +27,7 @@ class JsonWriter {
     void endArray() { close(']'); }
     /// Writes a member's name without escaping it. The function is inline because most names are known at compile time.
     void key(std::string_view name) {
-        buffer_.reserve(name.size() + 4);
+        buffer_.reserveMore(name.size() + 4);
         char* at = buffer_.at();
         if (comma_) *at++ = ',';
         *at++ = '"';

@@ -37,7 +37,7 @@ inline ElementCounts countsOf(const slicing::Object& object) {
     return {vertices, edges, faces, cells};
 }
 
-inline void writeCounts(JsonWriter& w, const ElementCounts& counts) {
+inline void writeCountMembers(JsonWriter& w, const ElementCounts& counts) {
     w.member("vertices", counts[0]);
     w.member("edges", counts[1]);
     w.member("faces", counts[2]);
@@ -70,9 +70,9 @@ inline void writeValue(JsonWriter& w, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) w.value(std::string_view(text));
     w.endArray();
 }
-inline void writeValue(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
+inline void writeValue(JsonWriter& w, const std::vector<slicing::FogControlPoint>& points) {
     w.beginArray();
-    for (const slicing::FogPoint& point : points) {
+    for (const slicing::FogControlPoint& point : points) {
         w.beginObject();
         w.member("value", point.value);
         w.member("opacity", point.opacity);

@@ -168,7 +168,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             writeMember(w, "aliases", entry.aliases);
             w.member("diagram", std::string_view(entry.diagram));
             w.member("schlaefli", std::string_view(entry.schlaefli));
-            writeCounts(w, {entry.vertices, entry.edges, entry.faces, entry.cells});
+            writeCountMembers(w, {entry.vertices, entry.edges, entry.faces, entry.cells});
             w.member("symmetry_order", entry.symmetryOrder);
             w.endObject();
         }
@@ -180,7 +180,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             writeMember(w, "aliases", aliases);
             w.member("diagram", std::string_view());
             w.member("schlaefli", std::string_view());
-            writeCounts(w, counts);
+            writeCountMembers(w, counts);
             w.endObject();
         };
         for (const session::ExampleField& example : session::exampleFields()) {

@@ -40,7 +40,7 @@ class MsgpackWriter final : public BinaryWriter {
 
   private:
     /// An object or an array that is being written.
-    struct Container {
+    struct OpenContainer {
         std::size_t sizeAt;   ///< the position of its size in the message
         std::uint32_t items;  ///< the number of its values; in an object, names count as values, too
     };
@@ -54,7 +54,7 @@ class MsgpackWriter final : public BinaryWriter {
 
     std::string& out_;
     Buffer buffer_;
-    std::vector<Container> open_;  // the first element only counts the message itself, the last is the innermost
+    std::vector<OpenContainer> open_;  // the first element only counts the message itself, the last is the innermost
 };
 
 }  // namespace oval4d::wire

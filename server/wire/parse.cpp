@@ -88,7 +88,7 @@ template <glm::length_t length>
 void readValue(const json& coordinates, glm::vec<length, double>& into) {
     for (int axis = 0; axis < length; ++axis) into[axis] = coordinates[axis].get<double>();
 }
-void readValue(const json& points, std::vector<slicing::FogPoint>& into) {
+void readValue(const json& points, std::vector<slicing::FogControlPoint>& into) {
     for (const json& point : points) {
         into.push_back({point.at("value"), point.at("opacity")});
         take(point, "color", into.back().color);
@@ -238,14 +238,14 @@ exports::ExportRequest exportRequestOf(const json& message) {
         throw InvalidRequest{"get: /format must be " + text::commaSeparated(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
-    exports::ExportRequest request = exports::requestFor(*known);
+    exports::ExportRequest request = exports::defaultRequestFor(*known);
     choose(message, "of", exports::kExportContents, request.contents);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);
     request.size = message.value("size", request.size);
     if (const auto at = message.find("at"); at != message.end()) request.chosenW = numbersOf(*at, "get: /at");
     take(message, "fit", request.fittedSlices);
-    if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContents::oval;
+    if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
     return request;
 }
 
@@ -266,15 +266,15 @@ Get bodyOf(const json& message) {
     return get;
 }
 
-using Body = decltype(Request::body);
+using RequestBody = decltype(Request::body);
 
 // A type of messages, and the function that parses a valid message of this type.
 struct RequestType {
     std::string_view name;
-    Body (*bodyOf)(const json& message);
+    RequestBody (*bodyOf)(const json& message);
 };
 template <typename T>
-Body parse(const json& message) {
+RequestBody parse(const json& message) {
     if constexpr (boost::mp11::mp_contains<session::Command, T>::value) {
         return session::Command{bodyOf<T>(message)};
     } else {
@@ -286,7 +286,7 @@ constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
     return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
 }
 // mp_flatten replaces session::Command, a variant in Body, by its alternatives, the types of commands.
-constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<Body>>{});
+constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<RequestBody>>{});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.
 class TypeAndIdListener : public nlohmann::json_sax<json> {

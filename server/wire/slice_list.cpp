@@ -12,7 +12,7 @@ namespace {
 using scene::Scene;
 using scene::SlicePlacement;
 using slicing::SliceSet;
-using Numbers = std::span<const std::uint32_t>;
+using NumberSpan = std::span<const std::uint32_t>;
 
 template <typename T>
 std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
@@ -22,7 +22,7 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
 // The sources of the elements of one or several slices: for each element, the index of the polytope's element that it
 // was cut from (see SliceSet).
 struct ElementSources {
-    Numbers vertices, edges, faces;
+    NumberSpan vertices, edges, faces;
 };
 
 ElementSources sourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
@@ -49,8 +49,8 @@ template <typename W>
 void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                      std::size_t to) {
     if (faceCells.empty()) return;
-    const Numbers sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
-    const Numbers cells = part(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
+    const NumberSpan sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
+    const NumberSpan cells = part(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
     if (std::ranges::equal(sources, cells)) return;
     w.key("tints");
     w.numbers(cells);
@@ -60,7 +60,7 @@ void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32
 template <typename W>
 void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const ElementSources& of) {
     if (visibilities.allVisible()) return;
-    const auto write = [&](std::string_view name, Numbers elements, const std::vector<slicing::Visibility>& by) {
+    const auto write = [&](std::string_view name, NumberSpan elements, const std::vector<slicing::Visibility>& by) {
         std::vector<std::uint32_t> list;
         for (const std::uint32_t element : elements) list.push_back(static_cast<std::uint32_t>(by[element]));
         w.key(name);
@@ -241,7 +241,7 @@ void SliceListWriter::writePlacements(BinaryWriter& w, const std::vector<SlicePl
     w.endObject();
 }
 
-void SliceListWriter::writeSizes(BinaryWriter& w, std::string_view name, Numbers begin) {
+void SliceListWriter::writeRangeLengths(BinaryWriter& w, std::string_view name, NumberSpan begin) {
     sizes_.resize(begin.size() - 1);
     for (std::size_t i = 0; i < sizes_.size(); ++i) sizes_[i] = begin[i + 1] - begin[i];
     w.key(name);
@@ -255,15 +255,15 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
     const ElementSources of = sourcesOf(slices, 0, count);
     w.key("counts");
     w.beginObject();
-    writeSizes(w, "vertices", slices.vertexBegin);
-    writeSizes(w, "edges", slices.edgeBegin);
-    writeSizes(w, "faces", slices.faceBegin);
+    writeRangeLengths(w, "vertices", slices.vertexBegin);
+    writeRangeLengths(w, "edges", slices.edgeBegin);
+    writeRangeLengths(w, "faces", slices.faceBegin);
     w.endObject();
     w.key("vertices");
     w.vectors(std::span<const glm::dvec3>(slices.vertices));
     w.key("edges");
     w.pairs(slices.edges);
-    writeSizes(w, "sides", slices.cornerBegin);
+    writeRangeLengths(w, "sides", slices.cornerBegin);
     w.key("corners");
     w.numbers(slices.corners);
     writeSources(w, of);
@@ -272,7 +272,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
     writeVisibilities(w, visibilities, of);
 }
 
-void SliceListWriter::writeColumns(BinaryWriter& w, std::string_view placements, const Scene& scene) {
+void SliceListWriter::writeAllSlices(BinaryWriter& w, std::string_view placements, const Scene& scene) {
     const std::size_t count = scene.placements.size();
     w.beginObject();
     w.appendMembersOf(placements);
@@ -289,8 +289,8 @@ void SliceListWriter::writeColumns(BinaryWriter& w, std::string_view placements,
         w.beginObject();
         w.key("counts");
         w.beginObject();
-        writeSizes(w, "points", points);
-        writeSizes(w, "triangles", triangles);
+        writeRangeLengths(w, "points", points);
+        writeRangeLengths(w, "triangles", triangles);
         w.endObject();
         writeFill(w, fill, scene.visibilities);
         w.endObject();

@@ -36,7 +36,7 @@ class SliceListWriter {
             W placementWriter(out);
             writePlacements(placementWriter, scene.placements);
         });
-        writeColumns(w, placements, scene);
+        writeAllSlices(w, placements, scene);
     }
     /// Writes the projection of the whole object: each ProjectionPartLook with its vertices, edges and faces. In binary
     /// encodings, as for slices, one array per property has the values of all parts.
@@ -46,12 +46,12 @@ class SliceListWriter {
   private:
     static void writePlacements(BinaryWriter& w, const std::vector<scene::SlicePlacement>& placements);
     // Writes all slices. `placements`: the object that writePlacements() has written.
-    void writeColumns(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
+    void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                        const slicing::Visibilities& visibilities);
     // Writes the lengths of consecutive ranges. `begin` has the beginning of each range and the end of the last one.
-    void writeSizes(BinaryWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
+    void writeRangeLengths(BinaryWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 
     std::vector<std::uint32_t> sizes_;
     SurfaceWriter surfaces_;

@@ -164,7 +164,7 @@ void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
 }  // namespace
 
 template <typename W>
-void SlicesMessageWriter::writeMessage(W&& w, Texts& texts, const Scene& scene, std::uint64_t revision,
+void SlicesMessageWriter::writeMessage(W&& w, CachedTexts& texts, const Scene& scene, std::uint64_t revision,
                                        std::optional<double> id, slicing::Quality quality) {
     w.beginObject();
     w.member("type", "slices");
@@ -286,7 +286,7 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
 
 void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                                 std::string& out, slicing::Quality quality) {
-    Texts& texts = texts_.at(static_cast<std::size_t>(encoding));
+    CachedTexts& texts = texts_.at(static_cast<std::size_t>(encoding));
     writeEncoded(encoding, out, [&]<typename W>(W&& writer) {
         writeMessage(std::forward<W>(writer), texts, scene, revision, id, quality);
     });

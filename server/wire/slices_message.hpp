@@ -40,20 +40,20 @@ class SlicesMessageWriter {
 
   private:
     // The cached texts of the parts that stay the same from one message to the next, in one encoding.
-    struct Texts {
+    struct CachedTexts {
         CachedText<StaticScene> staticScene;  // an object whose members become members of `scene`
         PlacementTexts placements;
     };
 
     template <typename W>
-    void writeMessage(W&& w, Texts& texts, const scene::Scene& scene, std::uint64_t revision, std::optional<double> id,
-                      slicing::Quality quality);
+    void writeMessage(W&& w, CachedTexts& texts, const scene::Scene& scene, std::uint64_t revision,
+                      std::optional<double> id, slicing::Quality quality);
     template <typename W>
     void writeProjection(W& w, const scene::Scene& scene);
     template <typename W>
     void writeMatrix(W& w, const scene::Scene& scene);
 
-    std::array<Texts, kEncodings.size()> texts_;  // for each Encoding
+    std::array<CachedTexts, kEncodings.size()> texts_;  // for each Encoding
     SliceListWriter list_;
 };
 

@@ -18,7 +18,7 @@ void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme sch
     w.key("polytope");
     w.beginObject();
     w.member("name", std::string_view(info.name));
-    writeCounts(w, countsOf(object));
+    writeCountMembers(w, countsOf(object));
     w.key("kinds");
     w.beginArray();
     for (std::size_t i = 0; i < info.cellTypes.size(); ++i) {

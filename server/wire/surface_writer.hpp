@@ -30,7 +30,7 @@ class SurfaceWriter {
         if (look.empty()) return;
         w.key("surfaces");
         w.beginArray();
-        for (const scene::SurfaceLook::Level& level : look.levels) {
+        for (const scene::SurfaceLook::LevelLook& level : look.levels) {
             w.beginObject();
             w.member("level", static_cast<std::uint64_t>(level.index));
             w.member("color", level.color);

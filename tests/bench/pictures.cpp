@@ -114,7 +114,7 @@ class Bench {
 
     static std::unique_ptr<raster::Rasterizer> makeRasterizer(parallel::ForkJoin& forkJoin) {
         auto rasterizer = std::make_unique<raster::LocalRasterizer>(&forkJoin);
-        rasterizer->limitFill(pipeline::PictureWorkLimits().fillSteps);
+        rasterizer->limitFaceFilling(pipeline::PictureWorkLimits().fillSteps);
         return rasterizer;
     }
 

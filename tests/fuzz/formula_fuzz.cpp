@@ -52,7 +52,7 @@ void requireMistake(std::string_view text, const fields::FormulaMistake& mistake
 void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& kernels, const fields::Box& box,
                          Points& points) {
     const fields::FormulaFunction function(formula, kernels);
-    const fields::Bounds bounds = function.boundsIn(box);
+    const fields::ValueBounds bounds = function.boundsIn(box);
     auto& [x, y, z, w] = points.gradients;
     function.evaluateWithGradient(points.batch(), points.values, {x, y, z, w});
     const PointValues values = points.values;

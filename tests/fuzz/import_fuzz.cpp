@@ -10,7 +10,8 @@ OVAL4D_FUZZER(import) {
     session::Limits limits;
     limits.maxVertices = 200;
     limits.maxHullCells = 2'000;
-    const auto read = session::readObject({"p", std::string(session::detectFormat(text)), std::string(text)}, limits);
+    const auto read =
+        session::readObject({"p", std::string(session::detectTextFormat(text)), std::string(text)}, limits);
     if (!read) {
         require(!read.error().message.empty(), "what is refused says why");
         return 0;

@@ -19,7 +19,7 @@ void requireInFolder(const std::string& path) {
             "only files in the folder are read:", path);
 }
 
-void requireSound(const fields::ReadField& field) {
+void requireSound(const fields::FieldArray& field) {
     const std::size_t count = fields::sampleCount(field.shape);
     require(field.samples.values().size() == count, "there is a sample for each point");
     require(count <= kMaxSamples, "no array is larger than allowed");
@@ -37,7 +37,8 @@ OVAL4D_FUZZER(zarr) {
         const std::string_view path = fuzz::takeUntil(file, '\n');
         files.try_emplace(std::string(path), file);
     }
-    const fields::FolderReader folder = [&](const std::string& path) -> Result<std::optional<fields::FileContents>> {
+    const fields::FolderFileReader folder =
+        [&](const std::string& path) -> Result<std::optional<fields::FileContents>> {
         requireInFolder(path);
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<fields::FileContents>();

@@ -13,7 +13,7 @@ from wire import BINARY_ENCODINGS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "protocol/python"))
 import oval4d_client  # noqa: E402
-from oval4d_client import BinaryKind, Closed, connect, decode  # noqa: E402
+from oval4d_client import BinaryMessageKind, Closed, connect, decode  # noqa: E402
 
 
 def test_every_first_byte_belongs_to_one_kind_or_is_free():
@@ -50,7 +50,7 @@ def test_the_python_client_knows_the_documented_kinds():
 
 
 def test_the_python_client_looks_for_two_bytes_before_one(monkeypatch):
-    monkeypatch.setitem(oval4d_client.BINARY_KINDS, "other", BinaryKind(range(0x7E, 0x7F), lambda _: "other", 0x55))
+    monkeypatch.setitem(oval4d_client.BINARY_KINDS, "other", BinaryMessageKind(range(0x7E, 0x7F), lambda _: "other", 0x55))
     assert [decode(data) for data in (b"~U", b"~U~")] == ["other", "other"]
     assert [decode(data) for data in (b"~", b"~~U", b"U~")] == [b"~", b"~~U", b"U~"]
 

@@ -9,7 +9,7 @@ import { Clicks } from "./clicks";
 import { ColorControls } from "./color_controls";
 import { ColorScheme, groundOf, type SchemeChoice } from "./color_scheme";
 import { CommandLine } from "./command_line";
-import { namesOfKeys } from "./completion";
+import { namesOfServerKeys } from "./completion";
 import { ConnectionStatus } from "./connection_status";
 import { download, fileName } from "./download";
 import { byId } from "./element";
@@ -88,8 +88,8 @@ export class App {
         onRequest: (answer) => this.connection.trackRequest(answer),
         onState: (state) => this.update(state),
         onSlices: (slices) => {
-            this.slider.updatePicture(slices);
-            this.fieldPanel.updatePicture(slices);
+            this.slider.updateFromPicture(slices);
+            this.fieldPanel.updateFromPicture(slices);
             // The server sends the state of a picture before the picture, so `this.state` belongs to these slices.
             if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
@@ -103,12 +103,12 @@ export class App {
     private readonly session = new PageSession(this.client, this.initialView, {
         joined: () => (this.state = undefined),
         loadField: async (field) => this.fieldPanel.adoptLoaded(field, await this.loadField(field, {})),
-        reloadFile: (name) => this.fileLoading.reload(name),
+        reloadFile: (name) => this.fileLoading.reloadIntoNewSession(name),
         viewShown: (revision) => this.welcomeLine.firstVisitViewComplete(revision),
         tell: (messages) => this.notice.showAll(messages),
     });
     private readonly frameHitTesterCache = new FrameHitTesterCache(this.client, this.stage, () =>
-        this.orbit.hitTesterKnown(),
+        this.orbit.onHitTesterAvailable(),
     );
     private readonly orbit: OrbitControl = new OrbitControl(
         this.client,
@@ -162,12 +162,12 @@ export class App {
         names: () => ({
             polytopes: this.picker.catalogue,
             kinds: this.state?.polytope.kinds?.map(({ name }) => name) ?? [],
-            keys: namesOfKeys(this.keyboard.keys),
+            keys: namesOfServerKeys(this.keyboard.keys),
         }),
     });
     private readonly headerValues = new HeaderValues((line) => this.request({ type: "command", line }));
     private readonly picker = new PolytopePicker(
-        (name, isData) => (isData ? this.loadData(name) : this.request({ type: "set", polytope: name })),
+        (name, isData) => (isData ? this.loadFromDataFolder(name) : this.request({ type: "set", polytope: name })),
         (error) => this.notice.show(error.message),
     );
     private readonly fileLoading = new FileLoading(this.client, (state) =>
@@ -225,7 +225,7 @@ export class App {
             rotation: this.rotation,
             focusPoint: this.focusPointDrag,
             click: (at, isTap) => void this.clicks.click(at, isTap),
-            openMenu: (at) => this.clicks.openMenu(at),
+            highlightAndOpenMenu: (at) => this.clicks.highlightAndOpenMenu(at),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keyboard.keydown(event));
@@ -242,14 +242,14 @@ export class App {
         // Keys act on the drawing while the tour explains them, but the space bar presses the tour's buttons.
         byId("tour").addEventListener("keydown", (event) => event.key !== " " && this.keyboard.keydown(event));
         this.listenForToolsButton();
-        document.addEventListener("visibilitychange", () => this.requestStream());
-        window.addEventListener("online", () => this.requestStream());
+        document.addEventListener("visibilitychange", () => this.updateStreamAndConnection());
+        window.addEventListener("online", () => this.updateStreamAndConnection());
         window.addEventListener("offline", () => this.client.test()); // not closed: the server may be on this computer
         window.addEventListener("hashchange", () => this.session.joinShared());
-        window.addEventListener("popstate", () => this.session.joinSessionOfEntry());
+        window.addEventListener("popstate", () => this.session.joinSessionOfHistoryEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
-        if (this.session.useFirstVisitView()) this.welcomeLine.show();
+        if (this.session.useFirstVisitView()) this.welcomeLine.showAndRememberVisit();
         // There is no connection yet: this sets the size for the first hello.
         this.client.hello({ viewport: this.stage.size }).catch(() => {});
         this.client.connect();
@@ -263,22 +263,22 @@ export class App {
 
     /** Handles a new connection. The server may be another one than before, with another key table. */
     private async connectionOpened(): Promise<void> {
-        this.keyRepeatLimiter.restart();
-        this.latency.restart();
-        for (const part of [this.slider, this.orbit, this.focusPointControl, this.fieldPanel]) part.restart();
+        this.keyRepeatLimiter.prepareForNewConnection();
+        this.latency.prepareForNewConnection();
+        for (const part of [this.slider, this.orbit, this.focusPointControl, this.fieldPanel]) part.prepareForNewConnection();
         try {
-            await this.session.restoreView();
-            this.requestStream();
+            await this.session.restoreOrInitializeView();
+            this.updateStreamAndConnection();
             const keymap = await this.client.request({ type: "get", what: "keymap" });
-            if (JSON.stringify(keymap.keys) !== JSON.stringify(this.keyboard.keys)) this.showKeys(keymap);
+            if (JSON.stringify(keymap.keys) !== JSON.stringify(this.keyboard.keys)) this.applyKeymap(keymap);
             if (this.state) this.update(this.state);
-            if (this.picker.isOpen) void this.listPolytopes();
+            if (this.picker.isOpen) void this.refreshPickerEntries();
         } catch (error) {
             if ((error as RequestError).code !== "not_connected") this.notice.show((error as Error).message);
         }
     }
 
-    private showKeys(keymap: Keymap): void {
+    private applyKeymap(keymap: Keymap): void {
         this.keyboard.keys = keymap.keys;
         this.help.show(keymap);
         const page = pageSections({
@@ -307,9 +307,9 @@ export class App {
      * Requests the stream for the current mode, or no stream while the page is hidden. If the page is visible, also
      * tests the connection or, if there is none, connects without further delay.
      */
-    private requestStream(): void {
+    private updateStreamAndConnection(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
-        this.hello({ stream, viewport: this.stage.size });
+        this.helloShowingRefusal({ stream, viewport: this.stage.size });
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
         else this.client.test(); // because no event reports a broken network
@@ -319,7 +319,7 @@ export class App {
      * Says hello with a change; if the server refuses it, shows why. Without a connection, shows nothing: the client
      * says hello with the change when it connects again, and `onRefused` then handles a refusal.
      */
-    private hello(change: Parameters<Client["hello"]>[0]): void {
+    private helloShowingRefusal(change: Parameters<Client["hello"]>[0]): void {
         this.client.hello(change).catch((error: Error) => {
             if (this.client.status.kind === "open") this.notice.show(error.message);
         });
@@ -357,7 +357,7 @@ export class App {
     private stageResized(): void {
         clearTimeout(this.resizing);
         this.resizing = setTimeout(() => {
-            this.requestStream();
+            this.updateStreamAndConnection();
             if (this.state) this.frameMatrixCache.update(this.state);
         }, kResizeDelay);
     }
@@ -365,7 +365,7 @@ export class App {
     private modeChanged(mode: Mode): void {
         this.framePointing.reset();
         markMode(mode);
-        this.requestStream();
+        this.updateStreamAndConnection();
         if (this.state) this.frameMatrixCache.update(this.state);
     }
 
@@ -377,7 +377,7 @@ export class App {
     /** Asks for pictures in the new color scheme of the page. */
     private schemeChanged(): void {
         if (this.state) this.update(this.state);
-        this.hello({ scheme: this.colorScheme.current });
+        this.helloShowingRefusal({ scheme: this.colorScheme.current });
     }
 
     /**
@@ -389,7 +389,7 @@ export class App {
         this.setToolsOpen(!isOn && this.hadTools);
         if (document.activeElement === document.body) this.drawing.focus(); // the button with the focus may be hidden
         markFullScreen(isOn);
-        this.stage.redraw();
+        this.stage.scheduleRedraw();
     }
 
     /**
@@ -405,7 +405,7 @@ export class App {
 
     private openCommandLine(): void {
         this.notice.hide();
-        this.commandLine.open(this.listPolytopes());
+        this.commandLine.open(this.refreshPickerEntries());
     }
 
     /**
@@ -421,7 +421,7 @@ export class App {
                 this.help.open(topic);
             },
             exportFile: async (description) => {
-                if (description !== "") return this.saveFile(description);
+                if (description !== "") return this.exportAndSaveFile(description);
                 this.commandLine.close();
                 return this.openExport();
             },
@@ -452,7 +452,7 @@ export class App {
     }
 
     /** Loads a field of the server's data folder. */
-    private async loadData(path: string): Promise<void> {
+    private async loadFromDataFolder(path: string): Promise<void> {
         const data = { name: nameOf({ name: path }), path };
         await this.request({ type: "load", ...data });
         this.fileLoading.keep(data);
@@ -461,11 +461,11 @@ export class App {
     private openPicker(): void {
         this.notice.hide();
         this.picker.open(this.state?.polytope.name ?? "");
-        void this.listPolytopes();
+        void this.refreshPickerEntries();
     }
 
     /** Lists the catalogue in the picker. Requests it each time, because polytopes may have been loaded meanwhile. */
-    private async listPolytopes(): Promise<void> {
+    private async refreshPickerEntries(): Promise<void> {
         try {
             this.picker.setEntries((await this.client.request({ type: "get", what: "catalogue" })).polytopes);
         } catch (error) {
@@ -491,7 +491,7 @@ export class App {
     }
 
     /** Saves the file that a format and options describe. */
-    private async saveFile(description: string): Promise<void> {
+    private async exportAndSaveFile(description: string): Promise<void> {
         this.slider.stop();
         // A move of the focus may be on its way to the server. The file shows the slice after this move, so its name is
         // made from the state after it.

@@ -9,7 +9,7 @@ const kMaxReason = 200; // characters of a text that is shown as the reason
 const kHeader = 512; // bytes at the start of a file; in an array, they contain a character that texts do not contain
 
 /** Whether a file is binary, not a text. Only the server finds out whether it is an array, and in which format. */
-export async function isBinary(file: File): Promise<boolean> {
+export async function isBinaryFile(file: File): Promise<boolean> {
     const bytes = new Uint8Array(await file.slice(0, kHeader).arrayBuffer());
     if (utf16Of(bytes)) return false;
     return bytes.some((byte) => byte < 0x20 && !"\t\n\v\f\r".includes(String.fromCharCode(byte)));

@@ -13,7 +13,7 @@ const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 const kMostCompared = 64; // letters: of longer names, the search for similar names compares only the beginning
 const kLettersPerMistake = 3; // letters of the typed name per allowed mistake, as in the server's suggestions
 
-interface IndexedEntry {
+interface SearchableEntry {
     entry: CatalogueEntry;
     family: string;
     /** Name, aliases and symbols, normalized. */
@@ -23,7 +23,7 @@ interface IndexedEntry {
 }
 
 export class Catalogue {
-    private readonly indexed: IndexedEntry[];
+    private readonly indexed: SearchableEntry[];
     private readonly families: string[]; // the names of the families, in the order of the catalogue
 
     constructor(readonly entries: readonly CatalogueEntry[]) {
@@ -51,7 +51,7 @@ export class Catalogue {
         return this.byFamily(this.similar(normalize(query)), normalize(query));
     }
 
-    private byFamily(items: IndexedEntry[], wanted: string): Family[] {
+    private byFamily(items: SearchableEntry[], wanted: string): Family[] {
         const found = items.map((item) => ({ ...item, match: matchQuality(item.names, wanted) }));
         const families = this.families
             .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(compareMatch) }))
@@ -60,10 +60,10 @@ export class Catalogue {
         return families.map((family) => ({ name: family.name, entries: family.found.map(({ entry }) => entry) }));
     }
 
-    private similar(wanted: string): IndexedEntry[] {
+    private similar(wanted: string): SearchableEntry[] {
         const text = wanted.replaceAll(" ", "").slice(0, kMostCompared);
         let least = Math.floor(text.length / kLettersPerMistake);
-        let similar: IndexedEntry[] = [];
+        let similar: SearchableEntry[] = [];
         if (least === 0) return similar;
         for (const item of this.indexed) {
             for (const name of item.names) {

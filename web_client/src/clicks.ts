@@ -67,7 +67,7 @@ export class Clicks {
     }
 
     /** Highlights the element at a point of the drawing; opens its menu. Resolves to false if no element is there. */
-    async openMenu(at: Point): Promise<boolean> {
+    async highlightAndOpenMenu(at: Point): Promise<boolean> {
         const hitTester = await this.actions.hitTester();
         const pointed = hitTester && this.pointing.elementAt(at.x, at.y, hitTester);
         if (!pointed) return false;

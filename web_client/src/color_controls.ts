@@ -4,7 +4,7 @@ import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/pr
 
 import { element } from "./element";
 import { isField } from "./fields";
-import { capitalize, formatCount, roundedBeside } from "./format";
+import { capitalize, formatCount, roundedToDigitsOfSize } from "./format";
 import { cssColor } from "./picture/pen";
 import type { ToolSection } from "./tools";
 
@@ -173,7 +173,7 @@ function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefine
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
     const size = values.range[1] - values.range[0];
-    const textOf = (value: number): string => withMinus(String(roundedBeside(size, value, kScaleDigits)));
+    const textOf = (value: number): string => withTypographicMinus(String(roundedToDigitsOfSize(size, value, kScaleDigits)));
     const [least, most] = values.range.map(textOf) as [string, string];
     const name = values.formula ?? values.variable ?? "the values of the field";
     return { least, most, text: `The colors of ${name}, from ${least} to ${most}`, colors: values.colors.map(cssColor) };
@@ -227,7 +227,7 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     );
 }
 
-function withMinus(text: string): string {
+function withTypographicMinus(text: string): string {
     return text.replace("-", "\u2212");
 }
 

@@ -10,7 +10,7 @@ export const kSchemeChoices = ["system", "dark", "light"] as const;
 export type SchemeChoice = (typeof kSchemeChoices)[number];
 
 /** The backgrounds that are a color: all except "auto" and "transparent". */
-export type Ground = keyof typeof colors.grounds;
+export type OpaqueBackground = keyof typeof colors.grounds;
 
 const kSchemeKey = "oval4d.scheme"; // storage key of the choice, in localStorage
 
@@ -24,7 +24,7 @@ export class ColorScheme {
         const stored = readStored<SchemeChoice>(kSchemeKey, true);
         this.chosen = stored !== undefined && kSchemeChoices.includes(stored) ? stored : "system";
         this.current = this.wanted;
-        this.show();
+        this.applyToPage();
         this.system.addEventListener("change", () => this.update());
     }
 
@@ -46,18 +46,18 @@ export class ColorScheme {
     private update(): void {
         if (this.current === this.wanted) return;
         this.current = this.wanted;
-        this.show();
+        this.applyToPage();
         this.changed();
     }
 
-    private show(): void {
+    private applyToPage(): void {
         document.documentElement.dataset["scheme"] = this.current;
         document.querySelector('meta[name="theme-color"]')?.setAttribute("content", colors.grounds[this.current]);
     }
 }
 
 /** The ground on which a viewer with this scheme sees a picture. A transparent picture is shown on white. */
-export function groundOf(background: Background, scheme: Scheme): Ground {
+export function groundOf(background: Background, scheme: Scheme): OpaqueBackground {
     if (background === "auto") return scheme;
     return background === "transparent" ? "white" : background;
 }

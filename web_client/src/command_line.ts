@@ -20,7 +20,7 @@ export interface CommandLineEvents {
 }
 
 /** Completions between which Tab cycles. */
-interface Cycle extends Completions {
+interface CompletionCycle extends Completions {
     /** The line after the last completion. If the input differs from it, the user has edited the line. */
     line: string;
     /** The index in `options` of the option that is in the line; -1 if none is. */
@@ -36,7 +36,7 @@ export class CommandLine {
     private history = readStored<string[]>(kHistoryKey) ?? [];
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
     private draft = ""; // the line being typed, while an earlier one is shown
-    private cycle: Cycle | undefined;
+    private cycle: CompletionCycle | undefined;
     private openings = 0; // how often the line has been opened
     private loading: Promise<unknown> | undefined; // the request for the names of polytopes, while it runs
 
@@ -133,7 +133,7 @@ export class CommandLine {
         const { cycle } = this;
         if (cycle && cycle.line === this.input.value) {
             const count = cycle.options.length;
-            this.activate(cycle.at < 0 && step < 0 ? count - 1 : (cycle.at + step + count) % count);
+            this.putOptionIntoLine(cycle.at < 0 && step < 0 ? count - 1 : (cycle.at + step + count) % count);
             return true;
         }
         this.hideList();
@@ -141,13 +141,13 @@ export class CommandLine {
         const { start, options, suffix } = found;
         if (options.length === 0) return false;
         if (options.length === 1) {
-            this.insert(start, options[0]! + suffix);
+            this.replaceUpToCaret(start, options[0]! + suffix);
             this.announcer.textContent = this.input.value;
             return true;
         }
         const typed = this.input.value.slice(start, this.input.selectionEnd ?? undefined);
         const prefix = commonPrefix(options);
-        if (prefix.toLowerCase().startsWith(typed.toLowerCase())) this.insert(start, prefix);
+        if (prefix.toLowerCase().startsWith(typed.toLowerCase())) this.replaceUpToCaret(start, prefix);
         this.cycle = { ...found, line: this.input.value, at: -1 };
         this.list.replaceChildren(
             ...options.map((option, i) =>
@@ -162,10 +162,10 @@ export class CommandLine {
     }
 
     /** Puts an option into the line, and marks it in the list of options. */
-    private activate(at: number): void {
+    private putOptionIntoLine(at: number): void {
         const cycle = this.cycle!;
         this.list.children[cycle.at]?.setAttribute("aria-selected", "false");
-        this.insert(cycle.start, cycle.options[at]!);
+        this.replaceUpToCaret(cycle.start, cycle.options[at]!);
         this.cycle = { ...cycle, line: this.input.value, at };
         const option = this.list.children[at]!;
         option.setAttribute("aria-selected", "true");
@@ -176,13 +176,13 @@ export class CommandLine {
     /** Inserts an option of the list, and closes the list. */
     private choose(at: number): void {
         const { start, options, suffix } = this.cycle!;
-        this.insert(start, options[at]! + suffix);
+        this.replaceUpToCaret(start, options[at]! + suffix);
         this.hideList();
         this.input.focus();
     }
 
     /** Replaces the text from `start` to the caret. */
-    private insert(start: number, text: string): void {
+    private replaceUpToCaret(start: number, text: string): void {
         const { value, selectionEnd } = this.input;
         this.input.value = value.slice(0, start) + text + value.slice(selectionEnd ?? value.length);
         this.input.setSelectionRange(start + text.length, start + text.length);

@@ -18,17 +18,17 @@ export interface CommandRow {
 export const kCommands: CommandRow[] = table.commands;
 
 /** The part of a JSON schema that names a setting and its values. */
-interface Schema {
+interface SettingSchema {
     $ref?: string;
     type?: unknown;
     enum?: unknown[];
-    properties?: Record<string, Schema>;
+    properties?: Record<string, SettingSchema>;
 }
 
 const kNotOnTheLine = ["orientation", "field", "last"]; // settings that only messages can change
 
 /** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */
-export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, Schema>));
+export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, SettingSchema>));
 
 /**
  * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the schema, the
@@ -44,7 +44,7 @@ export const kElementKinds = settings.properties.highlight.properties.element.en
  * has its own name on the command line, except that `slices.count` is called `slices`. `parent` is the name of the
  * object, if it is nested.
  */
-function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
+function settingsOf(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {
         if (kNotOnTheLine.includes(name)) return [];
         if (schema.$ref === "parts.schema.json") return settingsOf(parts.properties);

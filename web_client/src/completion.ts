@@ -30,7 +30,7 @@ export function completionsOf(line: string, names: Names): Completions {
     const [, before = "", verb = "", blanks = "", rest = ""] = /^(\s*:?\s*)(\S*)(\s*)(.*)$/s.exec(line) ?? [];
     const command = kCommands.find(({ name }) => name === verb);
     if (blanks === "") {
-        const options = withPrefix(kCommands.map(({ name }) => name), verb);
+        const options = filterByPrefix(kCommands.map(({ name }) => name), verb);
         const only = kCommands.find(({ name }) => name === options[0]);
         return completionsUnlessComplete(line, before.length, options, only?.arguments === undefined ? "" : " ");
     }
@@ -48,7 +48,7 @@ function settingCompletions(line: string, start: number, rest: string, names: Na
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
     if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
     const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
-    return completionsUnlessComplete(line, start, withPrefix(all, line.slice(start)));
+    return completionsUnlessComplete(line, start, filterByPrefix(all, line.slice(start)));
 }
 
 /** What completes `typed`: names of this kind, such as "planes", or else values of the setting called `kind`. */
@@ -62,17 +62,17 @@ function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names
         format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],
         command: kCommands.map(({ name }) => name),
     };
-    return withPrefix(lists[kind] ?? kSettings.get(kind) ?? kPageSettings.get(kind) ?? [], typed);
+    return filterByPrefix(lists[kind] ?? kSettings.get(kind) ?? kPageSettings.get(kind) ?? [], typed);
 }
 
 /** The names that begin with the text; if there are none, those that the search of polytopes finds. */
 function polytopeNames(catalogue: Catalogue, typed: string): string[] {
-    const found = withPrefix(catalogue.entries.map(({ name }) => name), typed);
+    const found = filterByPrefix(catalogue.entries.map(({ name }) => name), typed);
     if (found.length > 0) return found;
     return catalogue.find(typed).flatMap(({ entries }) => entries.map(({ name }) => name));
 }
 
-function withPrefix(list: string[], prefix: string): string[] {
+function filterByPrefix(list: string[], prefix: string): string[] {
     const wanted = prefix.toLowerCase();
     return list.filter((one) => one.toLowerCase().startsWith(wanted));
 }
@@ -83,7 +83,7 @@ function completionsUnlessComplete(line: string, start: number, options: string[
 }
 
 /** The names of keys for the command `key`, which sends one keystroke, but none that only the page handles. */
-export function namesOfKeys(table: readonly KeyBinding[]): string[] {
+export function namesOfServerKeys(table: readonly KeyBinding[]): string[] {
     return table
         .filter(({ key, client }) => key.length === 1 && !client)
         .map(({ key, ctrl }) => (ctrl ? `ctrl-${key}` : key === " " ? "space" : key));

@@ -1,7 +1,7 @@
 // Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". Moving a slider rewrites the formula.
 
 import { element } from "./element";
-import { constantsOf, rangeFor, textOfStep, withConstant } from "./formula";
+import { constantsOf, rangeFor, textOfSliderValue, withConstant } from "./formula";
 
 interface Row {
     slider: HTMLInputElement;
@@ -52,7 +52,7 @@ export class ConstantSliders {
         element("label", {}, element("i", { "aria-hidden": "true" }, name), slider, value);
         const row = { slider, value, step: 1 };
         slider.addEventListener("input", () => {
-            this.changed(withConstant(this.formula, name, textOfStep(Number(slider.value), row.step)));
+            this.changed(withConstant(this.formula, name, textOfSliderValue(Number(slider.value), row.step)));
         });
         return row;
     }

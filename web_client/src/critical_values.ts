@@ -80,7 +80,7 @@ export class CriticalValues {
     }
 
     /** Takes rounded values from the picture of the newest state, if the picture has the parallel coordinates. */
-    adopt({ coordinates, scene }: Slices): void {
+    adoptFromPicture({ coordinates, scene }: Slices): void {
         if (this.isCurrent || coordinates.length === 0) return;
         const heights = coordinates.filter((_, i) => i % 4 === 3).sort();
         this.all = [];

@@ -58,8 +58,8 @@ export class ExportDialog {
         this.isForElement = of !== undefined;
         if (of !== undefined) {
             const format = this.format.of.includes(of) ? this.format : kAllFormats.find((one) => one.of.includes(of));
-            this.field("format").value = format!.name;
-            this.field("of").value = of;
+            this.formField("format").value = format!.name;
+            this.formField("of").value = of;
         }
         this.fillForm(state);
         this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
@@ -78,7 +78,7 @@ export class ExportDialog {
             throw new Error(`no format is called “${name}”; the formats are ${names}`);
         }
         const { options, file } = this.restoringForm(() => {
-            this.field("format").value = format.name;
+            this.formField("format").value = format.name;
             this.fillForm(state);
             if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
             const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
@@ -118,13 +118,13 @@ export class ExportDialog {
         const { width, height } = this.size();
         const isAsDisplayed = this.form.querySelector('[name=preset][value=""]:checked') !== null;
         for (const [name, pageSize] of Object.entries({ width, height })) {
-            const field = this.field(name);
+            const field = this.formField(name);
             field.min = String(limits["min_side"] ?? 1);
             field.max = String(limits[`max_${name}`] ?? 8192);
             if (isAsDisplayed || field.value === "") field.value = String(pageSize);
         }
         this.selectPreset();
-        this.showFormats();
+        this.offerFormats();
         this.showOptions();
     }
 
@@ -147,16 +147,16 @@ export class ExportDialog {
      * Hides the formats that cannot describe the object. If the selected format is one of these, selects the first
      * format of the list.
      */
-    private showFormats(): void {
+    private offerFormats(): void {
         const kind = this.state?.field ? "fields" : "polytopes";
         for (const { name, objects } of kAllFormats) {
             const radio = this.form.querySelector<HTMLInputElement>(`[name=format][value="${name}"]`)!;
             radio.disabled = radio.parentElement!.hidden = objects !== undefined && objects !== kind;
-            if (radio.disabled && radio.checked) this.field("format").value = kAllFormats[0]!.name;
+            if (radio.disabled && radio.checked) this.formField("format").value = kAllFormats[0]!.name;
         }
     }
 
-    private field(name: string): HTMLInputElement {
+    private formField(name: string): HTMLInputElement {
         return this.form.elements.namedItem(name) as HTMLInputElement;
     }
 
@@ -172,8 +172,8 @@ export class ExportDialog {
         if (name === "preset") {
             const { width, height } = this.size();
             const [w = String(width), h = String(height)] = value === "" ? [] : value.split("x");
-            this.field("width").value = w;
-            this.field("height").value = h;
+            this.formField("width").value = w;
+            this.formField("height").value = h;
         } else if (name === "width" || name === "height") {
             this.selectPreset();
         }
@@ -185,7 +185,7 @@ export class ExportDialog {
     /** Selects the preset that equals the current size, if any. */
     private selectPreset(): void {
         const { width, height } = this.size();
-        const size = `${this.field("width").value}x${this.field("height").value}`;
+        const size = `${this.formField("width").value}x${this.formField("height").value}`;
         for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=preset]")) {
             radio.checked = size === (radio.value || `${width}x${height}`);
         }
@@ -226,9 +226,9 @@ export class ExportDialog {
             const used = (format.choices as string[]).includes(set.dataset["choice"]!);
             set.hidden = set.disabled = !used;
         }
-        this.showContents(format);
-        this.showSlices(format);
-        this.showBodies();
+        this.offerContents(format);
+        this.offerSliceChoices(format);
+        this.offerBodies();
         this.submit.textContent = `Download ${format.label}`;
     }
 
@@ -236,29 +236,29 @@ export class ExportDialog {
      * Offers what files of the format can contain. If they cannot contain what is chosen, chooses the default of the
      * format.
      */
-    private showContents(format: Format): void {
+    private offerContents(format: Format): void {
         const all = this.state?.field ? format.forFields.of : format.of;
         const of = all.filter((one) => one !== "highlight" || this.state?.highlight);
-        if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.field("of").value = of[0]!;
+        if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.formField("of").value = of[0]!;
         for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=of]")) {
             radio.disabled = radio.parentElement!.hidden = !of.includes(radio.value);
         }
     }
 
     /** Offers a choice of slices if the whole oval is exported, and shows the field that belongs to this choice. */
-    private showSlices({ choices }: Format): void {
+    private offerSliceChoices({ choices }: Format): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
         set.hidden = set.disabled = !choices.includes("of") || this.chosenValue("of") !== "oval";
         for (const name of ["fit", "at"]) {
-            const field = this.field(name);
+            const field = this.formField(name);
             field.disabled = field.parentElement!.hidden = this.chosenValue("slices") !== name;
         }
     }
 
     /** Offers no solid of a face, an edge or a vertex, which has no volume. */
-    private showBodies(): void {
+    private offerBodies(): void {
         const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
-        const body = this.field("body");
+        const body = this.formField("body");
         if (isFlat) {
             this.bodyToRestore ??= body.value;
             body.value = "skeleton";

@@ -38,8 +38,8 @@ const kOfValues = /^values: /; // the beginning of an error message about the fo
 
 export class FieldPanel {
     private readonly root = byId("field");
-    private readonly formula = this.formulaText("");
-    private readonly values = this.formulaText("-values");
+    private readonly formula = this.makeFormulaText("");
+    private readonly values = this.makeFormulaText("-values");
     private readonly levels = byId<HTMLInputElement>("field-levels");
     private readonly levelsError = byId("field-levels-error");
     private readonly boxError = byId("field-box-error");
@@ -62,12 +62,12 @@ export class FieldPanel {
     // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
     // state.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
-    private shownText = ""; // textOf() of the newest state
-    private ownText = ""; // textOf() of the state whose formula this page loaded, or took from the server, last
-    private readonly typedFields = new Map<string, FormulaWithBox>(); // what the user typed, by textOf() of its state
+    private shownText = ""; // formulaKeyOf() of the newest state
+    private ownText = ""; // formulaKeyOf() of the state whose formula this page loaded, or took from the server, last
+    private readonly typedFields = new Map<string, FormulaWithBox>(); // what the user typed, by formulaKeyOf() of its state
 
     constructor(private readonly events: FieldPanelEvents) {
-        this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
+        this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => rangeEndInput(axis, end)));
         byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
         this.loaded = readStored<FormulaWithBox>(kStorageKey);
@@ -86,7 +86,7 @@ export class FieldPanel {
         byId("field-form").addEventListener("submit", (event) => event.preventDefault());
     }
 
-    private formulaText(of: string): FormulaText {
+    private makeFormulaText(of: string): FormulaText {
         const ids = { input: of === "" ? "field-formula" : `field${of}`, error: `field${of}-error`, excerpt: `field${of}-excerpt` };
         return new FormulaText(
             ids,
@@ -126,9 +126,9 @@ export class FieldPanel {
         this.recordServerText();
     }
 
-    restart(): void {
-        this.fog.restart();
-        this.observer.restart();
+    prepareForNewConnection(): void {
+        this.fog.prepareForNewConnection();
+        this.observer.prepareForNewConnection();
     }
 
     update(state: State): void {
@@ -147,8 +147,8 @@ export class FieldPanel {
         }
     }
 
-    updatePicture(picture: Slices): void {
-        this.fog.updatePicture(picture);
+    updateFromPicture(picture: Slices): void {
+        this.fog.updateFromPicture(picture);
     }
 
     /**
@@ -159,7 +159,7 @@ export class FieldPanel {
         const { lastLoad, state, loaded } = this;
         if (!lastLoad || lastLoad.isRecorded || !loaded || !state || state.revision < lastLoad.revision) return;
         lastLoad.isRecorded = true;
-        this.ownText = textOf(state);
+        this.ownText = formulaKeyOf(state);
         if (this.typedFields.size >= kMaxTyped) this.typedFields.clear();
         this.typedFields.set(this.ownText, loaded);
     }
@@ -167,7 +167,7 @@ export class FieldPanel {
     /** Shows the formula of a state if this page has not loaded this formula: for example, if undo has restored it. */
     private showForeignFormula(state: State): void {
         this.recordServerText();
-        const text = textOf(state);
+        const text = formulaKeyOf(state);
         const isNew = text !== this.shownText;
         this.shownText = text;
         const { formula, box, values } = state.field ?? {};
@@ -234,7 +234,7 @@ export class FieldPanel {
         this.root.setAttribute("aria-busy", "true");
         try {
             const settings = this.keptSettings(field);
-            const revision = await this.events.load(field, settings, this.continues(field));
+            const revision = await this.events.load(field, settings, this.continuesSeries(field));
             this.sent = { settings, revision };
             this.recordLoad(field, revision);
             this.showError(undefined);
@@ -248,7 +248,7 @@ export class FieldPanel {
      * Whether the change to this field continues a series of changes, such as the steps of a drag, that are undone
      * together.
      */
-    private continues({ formula }: FormulaWithBox): boolean {
+    private continuesSeries({ formula }: FormulaWithBox): boolean {
         const { loaded, lastLoad, state } = this;
         // If the state is newer than the last load, there was another command in between.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
@@ -266,7 +266,7 @@ export class FieldPanel {
         const keepsLevels = levels && inside && comparisonOf(loaded.formula) === comparisonOf(formula);
         return {
             ...(keepsLevels && { levels, inside, ...(fog && { fog }) }),
-            ...(String(loaded.box) === String(box) && { slices: placeOf(slices), point }),
+            ...(String(loaded.box) === String(box) && { slices: focusAndOffsetOf(slices), point }),
         };
     }
 
@@ -317,7 +317,7 @@ export class FieldPanel {
 }
 
 /** A text by which the formulas of states are compared. */
-function textOf({ field }: State): string {
+function formulaKeyOf({ field }: State): string {
     return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
 }
 
@@ -325,7 +325,7 @@ function textOf({ field }: State): string {
  * The position of the slices along w, which stays when a formula is edited. The distance between them is left out,
  * because each object gets a distance of its own.
  */
-function placeOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
+function focusAndOffsetOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };
 }
 
@@ -335,7 +335,7 @@ function numberIn(text: string): number {
     return numbers.length === 1 ? numbers[0]! : NaN;
 }
 
-function endInput(axis: string, end: string): HTMLInputElement {
+function rangeEndInput(axis: string, end: string): HTMLInputElement {
     return element("input", {
         ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },
         ...{ "aria-label": `${axis} ${end}`, "aria-describedby": "field-box-error", "data-end": `${axis} ${end}` },

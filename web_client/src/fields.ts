@@ -4,7 +4,7 @@ import type { Box, Settings, State } from "@oval4d/protocol";
 
 import { textOfFog } from "./fog";
 import { formatFieldValue } from "./format";
-import { frameQuery } from "./reference_frame";
+import { referenceFrameQuery } from "./reference_frame";
 
 /** A formula, its domain, and what colors its surfaces: all from which the server makes a field. */
 export interface FormulaWithBox {
@@ -89,7 +89,7 @@ export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLoo
         ...(inside && inside !== "below" && { inside }),
         ...(caps && caps !== "plain" && { caps }),
         ...(fog && fog.length > 0 && { fog: textOfFog(fog) }),
-        ...frameQuery(look),
+        ...referenceFrameQuery(look),
     };
     // Characters that formulas use stay readable, if an address may contain them.
     const encoded = (text: string): string =>

@@ -4,7 +4,7 @@
 
 import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
-import { isBinary, uploadArray } from "./array_upload";
+import { isBinaryFile, uploadArray } from "./array_upload";
 import { byId, element } from "./element";
 import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, tooLarge } from "./files";
 import { toSentence } from "./format";
@@ -45,7 +45,7 @@ export class FileLoading {
         this.chooser.click();
     }
 
-    /** Keeps an object that this page has loaded, so that reload() can load it again. */
+    /** Keeps an object that this page has loaded, so that reloadIntoNewSession() can load it again. */
     keep(object: ReloadableObject): void {
         const name = object instanceof File ? nameOf(object) : object.name;
         this.kept.delete(name);
@@ -54,7 +54,7 @@ export class FileLoading {
     }
 
     /** Loads the object of this name again, into a new session; does nothing if this page has not loaded it before. */
-    async reload(name: string): Promise<void> {
+    async reloadIntoNewSession(name: string): Promise<void> {
         const object = this.kept.get(name);
         if (object instanceof File) await this.upload(object);
         else if (object) await this.client.request({ type: "load", ...object });
@@ -75,7 +75,7 @@ export class FileLoading {
     private async load(file: File): Promise<void> {
         let read: LoadContent | undefined;
         try {
-            this.showProgress(file.name);
+            this.beginProgress(file.name);
             const limit = this.client.welcome?.limits["message"] ?? kDefaultLimit;
             const state = await readState(file, limit);
             if (state) {
@@ -83,7 +83,7 @@ export class FileLoading {
                 this.finishLoading([]);
                 return;
             }
-            if (await isBinary(file)) {
+            if (await isBinaryFile(file)) {
                 this.finishLoading((await this.upload(file)).warnings ?? []);
                 this.keep(file);
                 return;
@@ -118,7 +118,7 @@ export class FileLoading {
 
     private async loadAgain(object: LoadContent): Promise<void> {
         try {
-            this.showProgress(object.name);
+            this.beginProgress(object.name);
             await this.loadObject(object);
         } catch (error) {
             this.showError(error as Error, object.data);
@@ -150,7 +150,7 @@ export class FileLoading {
         return await answer.finally(() => clearInterval(timer));
     }
 
-    private showProgress(name: string): void {
+    private beginProgress(name: string): void {
         this.title.textContent = name;
         this.root.hidden = false;
         this.root.dataset["outcome"] = "";

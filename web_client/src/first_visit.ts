@@ -45,7 +45,7 @@ export class WelcomeLine {
     }
 
     /** Shows the line, and remembers that this browser has seen it. */
-    show(): void {
+    showAndRememberVisit(): void {
         this.root.hidden = false;
         try {
             localStorage.setItem(kVisitedKey, "1");

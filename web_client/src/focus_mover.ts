@@ -43,7 +43,7 @@ export class FocusMover {
     }
 
     /** Forgets a move that has not been sent. */
-    cancel(): void {
+    cancelUnsentMove(): void {
         this.isUnsent = false;
     }
 
@@ -58,7 +58,7 @@ export class FocusMover {
     }
 
     /** Forgets the revisions, because a new connection may be to a session whose revisions start at 0. */
-    restart(): void {
+    prepareForNewConnection(): void {
         this.answered.revision = this.seen.revision = 0;
     }
 

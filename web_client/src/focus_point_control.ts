@@ -38,8 +38,8 @@ export class FocusPointControl {
         this.origin = originInFile(state);
     }
 
-    restart(): void {
-        this.lastChange.restart();
+    prepareForNewConnection(): void {
+        this.lastChange.prepareForNewConnection();
     }
 
     /** Begins a gesture: the moves up to the next call are one undo step. */

@@ -60,13 +60,13 @@ export class FocusSlider {
     }
 
     /** Takes the critical values from the picture of the newest state. */
-    updatePicture(slices: Slices): void {
-        this.criticalValues.adopt(slices);
+    updateFromPicture(slices: Slices): void {
+        this.criticalValues.adoptFromPicture(slices);
     }
 
     /** Prepares for the states of a new connection. */
-    restart(): void {
-        this.mover.restart();
+    prepareForNewConnection(): void {
+        this.mover.prepareForNewConnection();
         this.stop();
     }
 
@@ -74,7 +74,7 @@ export class FocusSlider {
     stop(): void {
         if (this.playedAt === undefined) return;
         this.playedAt = undefined;
-        this.mover.cancel();
+        this.mover.cancelUnsentMove();
         this.showPlaying();
     }
 
@@ -154,7 +154,7 @@ export class FocusSlider {
     }
 
     private pressKey(key: string, held: boolean): void {
-        this.mover.cancel();
+        this.mover.cancelUnsentMove();
         this.events.pressKey(key, held);
     }
 

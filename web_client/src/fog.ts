@@ -1,12 +1,12 @@
 // The transfer function of fog: the opacity and the color of each value of a field.
 
-import type { FogPoint, Inside, Scheme, Slices } from "@oval4d/protocol";
+import type { FogControlPoint, Inside, Scheme, Slices } from "@oval4d/protocol";
 
 import table from "../../protocol/colors.json";
-import { roundedBeside } from "./format";
+import { roundedToDigitsOfSize } from "./format";
 
-export const kMinFogPoints = 2;
-export const kMaxFogPoints = 8;
+export const kMinFogControlPoints = 2;
+export const kMaxFogControlPoints = 8;
 const kDigits = 4; // significant digits of differences between values, and of opacities
 
 /** The distribution of a field's values. */
@@ -43,7 +43,7 @@ export function looksLike(one: ValueDistribution, other: ValueDistribution): boo
 }
 
 /** Fog for a body inside a level: dense where the values are farthest inside, thinner at the level, clear outside. */
-export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogPoint[] {
+export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogControlPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;
     const points = [
@@ -52,13 +52,13 @@ export function usualFog([least, greatest]: [number, number], level: number, ins
         { value: edge + (far - edge) / 4, opacity: 0 },
     ];
     const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4); // the smaller difference between points
-    const rounded = points.map(({ value, opacity }) => ({ value: roundedBeside(size, value, kDigits), opacity }));
+    const rounded = points.map(({ value, opacity }) => ({ value: roundedToDigitsOfSize(size, value, kDigits), opacity }));
     return inside === "below" ? rounded : rounded.reverse();
 }
 
 /** The text of a transfer function on the command line and in addresses. */
-export function textOfFog(points: FogPoint[]): string {
-    const textOf = ({ value, opacity, color }: FogPoint): string =>
+export function textOfFog(points: FogControlPoint[]): string {
+    const textOf = ({ value, opacity, color }: FogControlPoint): string =>
         [value, opacity, ...(color === undefined ? [] : [hexDigitsOf(color)])].join(":");
     return points.length === 0 ? "off" : points.map(textOf).join(",");
 }
@@ -72,7 +72,7 @@ export function hexDigitsOf(color: number): string {
  * The color of point i in a picture of this scheme: its own or, if it has none, the color of its value on the scale,
  * which extends from the first point to the last.
  */
-export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
+export function colorOf(points: FogControlPoint[], i: number, scheme: Scheme): number {
     const { value, color } = points[i]!;
     if (color !== undefined) return color;
     const [first, last] = [points[0]!.value, points.at(-1)!.value];
@@ -90,7 +90,7 @@ export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
 type ScaleColors = [least: number, middle: number, most: number];
 
 /** Whether the server accepts these points: increasing finite values, and opacities from 0 to 1. */
-export function isTransferFunction(points: FogPoint[]): boolean {
+export function isTransferFunction(points: FogControlPoint[]): boolean {
     return points.every(
         ({ value, opacity }, i) =>
             Number.isFinite(value) && opacity >= 0 && opacity <= 1 && (i === 0 || value > points[i - 1]!.value),
@@ -101,28 +101,28 @@ export function isTransferFunction(points: FogPoint[]): boolean {
  * The points, with point i moved to `value` and `opacity`, or as near to them as its neighbors and `ends` allow. `ends`
  * are the least and the greatest value that a point may have.
  */
-export function withPoint(points: FogPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogPoint[] {
+export function withMovedPoint(points: FogControlPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogControlPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;
     const least = i > 0 ? points[i - 1]!.value + gap : ends[0];
     const most = i < points.length - 1 ? points[i + 1]!.value - gap : ends[1];
     const within = (number: number, from: number, to: number): number => Math.max(from, Math.min(to, number));
     const moved = {
         ...points[i]!,
-        value: roundedBeside(ends[1] - ends[0], within(value, least, most), kDigits),
-        opacity: roundedBeside(1, within(opacity, 0, 1), kDigits),
+        value: roundedToDigitsOfSize(ends[1] - ends[0], within(value, least, most), kDigits),
+        opacity: roundedToDigitsOfSize(1, within(opacity, 0, 1), kDigits),
     };
     const result = points.map((point, k) => (k === i ? moved : point));
     return isTransferFunction(result) ? result : points;
 }
 
 /** Adds a point in the middle of the two neighbors with the largest difference of values. */
-export function withNewPoint(points: FogPoint[]): FogPoint[] {
+export function withNewPoint(points: FogControlPoint[]): FogControlPoint[] {
     const lengths = points.slice(1).map(({ value }, i) => value - points[i]!.value);
     const at = lengths.indexOf(Math.max(...lengths));
     const [from, to] = [points[at]!, points[at + 1]!];
     const middle = {
-        value: roundedBeside(to.value - from.value, (from.value + to.value) / 2, kDigits),
-        opacity: roundedBeside(1, (from.opacity + to.opacity) / 2, kDigits),
+        value: roundedToDigitsOfSize(to.value - from.value, (from.value + to.value) / 2, kDigits),
+        opacity: roundedToDigitsOfSize(1, (from.opacity + to.opacity) / 2, kDigits),
     };
     return [...points.slice(0, at + 1), middle, ...points.slice(at + 1)];
 }

@@ -1,12 +1,12 @@
 // The editor of the transfer function of fog: a curve whose points can be dragged, drawn over the distribution of the
 // field's values; and number fields for the same points.
 
-import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
+import type { FogControlPoint, Settings, Slices, State } from "@oval4d/protocol";
 
 import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
 import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction, looksLike } from "./fog";
-import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
+import { kMaxFogControlPoints, kMinFogControlPoints, usualFog, withNewPoint, withMovedPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
 import { NewestOnly } from "./newest_only";
@@ -33,12 +33,12 @@ export class FogEditor {
     private readonly addButton = byId<HTMLButtonElement>("fog-add");
     private readonly showButton = byId<HTMLButtonElement>("fog-show");
     private readonly offButton = byId<HTMLButtonElement>("fog-off");
-    private readonly changes = new NewestOnly<{ fog: FogPoint[]; drag?: number }>((change) => this.apply(change));
+    private readonly changes = new NewestOnly<{ fog: FogControlPoint[]; drag?: number }>((change) => this.apply(change));
     private readonly lastChange = new OldStateDetector();
     private rows: Row[] = [];
-    private points: FogPoint[] = []; // what the editor shows
+    private points: FogControlPoint[] = []; // what the editor shows
     private state: State | undefined;
-    private field = ""; // textOf() of the state
+    private field = ""; // fieldKeyOf() of the state
     // How the values of the state's field are distributed; undefined until a picture of the field has a histogram.
     private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
@@ -59,14 +59,14 @@ export class FogEditor {
         for (const end of ["pointerup", "pointercancel"]) this.curve.addEventListener(end, () => this.release());
     }
 
-    restart(): void {
-        this.lastChange.restart();
+    prepareForNewConnection(): void {
+        this.lastChange.prepareForNewConnection();
     }
 
     update(state: State): void {
         this.state = state;
         this.showButton.disabled = state.fog === undefined;
-        const field = textOf(state);
+        const field = fieldKeyOf(state);
         if (field !== this.field) {
             this.field = field;
             this.distribution = undefined;
@@ -81,7 +81,7 @@ export class FogEditor {
     /**
      * Takes over the distribution of the values from the histogram of a picture, if the picture shows the newest state.
      */
-    updatePicture(picture: Slices): void {
+    updateFromPicture(picture: Slices): void {
         if (picture.revision !== this.state?.revision) return;
         const distribution = distributionOf(picture);
         if (!distribution || (this.distribution && looksLike(distribution, this.distribution))) return;
@@ -89,21 +89,21 @@ export class FogEditor {
         if (this.dragged === undefined) this.draw();
     }
 
-    private usualPoints(): FogPoint[] {
+    private usualPoints(): FogControlPoint[] {
         const { levels = [0], inside = "below" } = this.state ?? {};
         const level = levels[0]!;
         return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
     }
 
     /** Shows and sends points; `drag` is the number of the drag that makes this change, if any. */
-    private change(points: FogPoint[], delay = 0, drag?: number): void {
+    private change(points: FogControlPoint[], delay = 0, drag?: number): void {
         this.points = points;
         this.mistake = "";
         this.draw();
         this.changes.submit({ fog: points, ...(drag !== undefined && { drag }) }, delay);
     }
 
-    private async apply({ fog, drag }: { fog: FogPoint[]; drag?: number }): Promise<void> {
+    private async apply({ fog, drag }: { fog: FogControlPoint[]; drag?: number }): Promise<void> {
         // Decided here, because a newer change may have replaced the first change of the drag before that one was sent.
         const continues = drag !== undefined && drag === this.sentDrag;
         try {
@@ -140,7 +140,7 @@ export class FogEditor {
         const down = ((event.clientY - top) / height) * kHeight;
         const value = this.ends[0] + ((along - kMargin) / (kWidth - 2 * kMargin)) * (this.ends[1] - this.ends[0]);
         const opacity = 1 - (down - kMargin) / (kHeight - 2 * kMargin);
-        this.change(withPoint(this.points, this.dragged, value, opacity, this.ends), 0, this.drag);
+        this.change(withMovedPoint(this.points, this.dragged, value, opacity, this.ends), 0, this.drag);
     }
 
     private release(): void {
@@ -154,7 +154,7 @@ export class FogEditor {
         const isOn = points.length > 0;
         for (const part of [this.curve, this.list, this.addButton, this.offButton]) part.toggleAttribute("hidden", !isOn);
         this.showButton.textContent = isOn ? "Reset" : "Show fog";
-        this.addButton.disabled = points.length >= kMaxFogPoints;
+        this.addButton.disabled = points.length >= kMaxFogControlPoints;
         this.showRows();
         if (!isOn) return;
         if (this.dragged === undefined) {
@@ -223,7 +223,7 @@ export class FogEditor {
             }
             const color = `#${hexDigitsOf(colorOf(this.points, i, schemeOfPicture()))}`;
             if (document.activeElement !== row.color) row.color.value = color;
-            row.remove.disabled = this.points.length <= kMinFogPoints;
+            row.remove.disabled = this.points.length <= kMinFogControlPoints;
         });
     }
 
@@ -273,7 +273,7 @@ export class FogEditor {
 }
 
 /** A text that differs for different fields. Arrays of the same name, shape and range are not told apart. */
-function textOf({ polytope, field }: State): string {
+function fieldKeyOf({ polytope, field }: State): string {
     return field ? JSON.stringify([polytope.name, field.formula, field.shape, field.range, field.box]) : "";
 }
 

@@ -59,7 +59,7 @@ function formatRounded(value: number, decimals: number): string {
  * The value, rounded to `digits` significant digits. If it is larger than `size`, it is rounded less: to the place of
  * the last of `digits` significant digits of `size`, which is, for example, the difference from another value.
  */
-export function roundedBeside(size: number, value: number, digits: number): number {
+export function roundedToDigitsOfSize(size: number, value: number, digits: number): number {
     const more = exponentOf(value) - exponentOf(size) || 0; // 0 if the size is not finite
     return Number(value.toPrecision(Math.min(kMostDigits, digits + Math.max(0, more))));
 }

@@ -1,7 +1,7 @@
 // The text of a formula: its named constants, and the place of a mistake.
 
 /** A constant such as a=0.7 after the formula, whose value is a number. */
-export interface Constant {
+export interface FormulaConstant {
     name: string;
     value: number;
     /** The indices in the text at which the value begins and ends. */
@@ -10,7 +10,7 @@ export interface Constant {
 }
 
 /** A mistake that the server has found. */
-export interface Mistake {
+export interface FormulaMistake {
     what: string;
     /** The index of the wrong character, from 0; the length of the text if something is missing at its end. */
     at: number;
@@ -21,7 +21,7 @@ const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
 const kConstant = /([;,]\s*([A-Za-z]\w*)\s*=\s*)([-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?=\s*(?:[;,]|$))/g;
 
 /** The constants whose values are numbers, in the order of the text. */
-export function constantsOf(formula: string): Constant[] {
+export function constantsOf(formula: string): FormulaConstant[] {
     return [...formula.matchAll(kConstant)].map((match) => {
         const [, before = "", name = "", text = ""] = match;
         const from = match.index + before.length;
@@ -42,7 +42,7 @@ export function comparisonOf(formula: string): string {
 }
 
 /** The mistake in a formula that an error message of the server describes; undefined if it names no position. */
-export function mistakeOf(message: string): Mistake | undefined {
+export function mistakeOf(message: string): FormulaMistake | undefined {
     const [, position, what = ""] = /^.*, position (\d+): (.*)$/s.exec(message) ?? [];
     return position === undefined ? undefined : { what, at: Number(position) - 1 };
 }
@@ -74,6 +74,6 @@ export function rangeFor(value: number): { min: number; max: number; step: numbe
 }
 
 /** The text of a slider's value, with as many decimals as the slider's step has. */
-export function textOfStep(value: number, step: number): string {
+export function textOfSliderValue(value: number, step: number): string {
     return String(Number(value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))));
 }

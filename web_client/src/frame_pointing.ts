@@ -71,7 +71,7 @@ export class FramePointing {
     /** Asks what is at the pointer, again and again, until an answer is about its newest position. */
     private async ask(): Promise<void> {
         this.isAsking = true;
-        for (let pixel = this.nextPixel(); pixel; pixel = this.nextPixel()) {
+        for (let pixel = this.nextPixelToAskAbout(); pixel; pixel = this.nextPixelToAskAbout()) {
             const pointer = this.pointer!;
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
             const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
@@ -83,7 +83,7 @@ export class FramePointing {
     }
 
     /** The pixel of the picture to ask about; undefined if there is nothing to ask. */
-    private nextPixel(): Point | undefined {
+    private nextPixelToAskAbout(): Point | undefined {
         const { pointer, revision } = this;
         if (!pointer || revision === undefined || !this.isIdle(revision)) return undefined;
         const ratio = this.stage.size.height / this.drawing.clientHeight;

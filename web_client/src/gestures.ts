@@ -25,7 +25,7 @@ export interface GestureTargets {
     /** A click, or the tap of a finger, at a point of the drawing. */
     click(at: Point, isTap: boolean): void;
     /** A click with the right button, or a long press of a finger, at a point. Resolves to whether a menu opened. */
-    openMenu(at: Point): Promise<boolean>;
+    highlightAndOpenMenu(at: Point): Promise<boolean>;
 }
 
 export function listenForGestures(drawing: HTMLElement, targets: GestureTargets): void {
@@ -78,7 +78,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
             if (!isClick) return;
             isClick = false;
             isLongPress = true;
-            void targets.openMenu(placeOf(event)).then((hasOpened) => (isMenuOpen = hasOpened));
+            void targets.highlightAndOpenMenu(placeOf(event)).then((hasOpened) => (isMenuOpen = hasOpened));
         }, kLongPress);
     });
     // Suppresses the mouse events that follow a touch: they would take the focus from the menu.
@@ -86,7 +86,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         passive: false,
     });
     drawing.addEventListener("pointerup", (event) => {
-        if (isClick && event.button === kButtons.right) void targets.openMenu(placeOf(event));
+        if (isClick && event.button === kButtons.right) void targets.highlightAndOpenMenu(placeOf(event));
     });
     // Some systems open the browser's own menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());

@@ -8,7 +8,7 @@ import { byId } from "./element";
 import { spokenLevels } from "./fields";
 import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
 import { HeaderValue } from "./header_value";
-import { spokenFrame } from "./reference_frame";
+import { spokenReferenceFrame } from "./reference_frame";
 import { makeToolbar } from "./toolbar";
 
 /** A value of the header: the part of the state that it shows, and the command that changes it. */
@@ -126,7 +126,7 @@ function announcementsOf(state: State): string[] {
         spokenKinds(state),
         `${state.background === "auto" ? "automatic" : state.background} background`,
         spokenLevels(state),
-        spokenFrame(state) || "observer at rest",
+        spokenReferenceFrame(state) || "observer at rest",
         state.highlight ? `${state.highlight.element} ${state.highlight.number} highlighted` : "no highlight",
         ...Object.entries(state.shown).map(([part, isShown]) => onOff(part, isShown as boolean)),
     ];

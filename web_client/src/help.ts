@@ -70,9 +70,9 @@ export class Help {
         });
         this.sheet.replaceChildren(
             ...sections,
-            section("Common keys", kCommonKeys, "kbd"),
-            section("Mouse and touch", kGestures, "span"),
-            section("Gamepad", kSticks, "span"),
+            helpSection("Common keys", kCommonKeys, "kbd"),
+            helpSection("Mouse and touch", kGestures, "span"),
+            helpSection("Gamepad", kSticks, "span"),
             commandSection(),
         );
     }
@@ -110,7 +110,7 @@ export class Help {
     }
 }
 
-function section(title: string, rows: readonly (readonly [string, string])[], tag: "kbd" | "span"): HTMLElement {
+function helpSection(title: string, rows: readonly (readonly [string, string])[], tag: "kbd" | "span"): HTMLElement {
     const lines = rows.map(([name, text]) => tableRow(name, text, { tag }));
     return element("section", {}, element("h3", {}, title), element("table", {}, ...lines));
 }

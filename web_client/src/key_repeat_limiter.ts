@@ -29,7 +29,7 @@ export class KeyRepeatLimiter {
     }
 
     /** Forgets the revisions, because a new connection may be to a session whose revisions start at 0. */
-    restart(): void {
+    prepareForNewConnection(): void {
         this.awaitedRevision = this.presentedRevision = 0;
     }
 }

@@ -50,11 +50,11 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const ctrl = event.ctrlKey && !composed;
     const { shiftKey: shift, key } = event;
 
-    if (!shift && !ctrl && table.some((row) => isNamed(row) && row.key === key)) return { key, shift, ctrl };
+    if (!shift && !ctrl && table.some((row) => isKeyGivenByName(row) && row.key === key)) return { key, shift, ctrl };
     const digit = composed ? undefined : digitOfKey(event);
     const typed = typedCharacter(event);
     const isKnown = table.some((row) => {
-        if ((row.ctrl ?? false) !== ctrl || isNamed(row)) return false;
+        if ((row.ctrl ?? false) !== ctrl || isKeyGivenByName(row)) return false;
         if (row.key.length > 1) return row.key.includes(typed);
         return row.key === typed || (row.shift === "inverse" && row.key === typed.toLowerCase());
     });
@@ -80,7 +80,7 @@ function digitOfKey(event: KeyboardEvent): string | undefined {
 }
 
 /** Whether a binding gives its key by name, as KeyboardEvent.key does ("ArrowLeft"), not as one or two characters. */
-function isNamed({ key }: KeyBinding): boolean {
+function isKeyGivenByName({ key }: KeyBinding): boolean {
     return key.length > 2;
 }
 

@@ -17,7 +17,7 @@ const kMaxSamples = 10_000;
 const kRecentSamples = 500; // number of samples in the displayed statistics
 const kShownKey = "oval4d.latency"; // storage key of whether the statistics are shown
 
-interface Sample {
+interface LatencySample {
     /** When the request was sent, in milliseconds as in performance.now(). */
     start: number;
     milliseconds: number;
@@ -28,8 +28,8 @@ interface Sample {
 
 export class Latency {
     private readonly output = byId("latency");
-    private readonly samples: Sample[] = [];
-    private pending: Pick<Sample, "start" | "revision" | "request">[] = [];
+    private readonly samples: LatencySample[] = [];
+    private pending: Pick<LatencySample, "start" | "revision" | "request">[] = [];
     private presentedRevision = 0;
     private presentedAt = 0; // milliseconds, as in performance.now()
     private presentedBy: Mode = "geometry";
@@ -61,7 +61,7 @@ export class Latency {
     }
 
     /** Forgets the revisions: a new connection may be to a session whose revisions start at 0. */
-    restart(): void {
+    prepareForNewConnection(): void {
         this.pending = [];
         this.presentedRevision = 0;
     }
@@ -105,7 +105,7 @@ export class Latency {
         this.updateText();
     }
 
-    private record(sample: Sample): void {
+    private record(sample: LatencySample): void {
         if (this.samples.length >= kMaxSamples) {
             this.samples.splice(0, kMaxSamples / 2);
             performance.clearMeasures(kMeasure);

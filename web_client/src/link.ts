@@ -37,7 +37,7 @@ export function readInitialView(): InitialView {
     const { credentials, fault } = extractSharedSession();
     const faults = fault ? [fault] : [];
     if (credentials) return { credentials, lines: [], faults };
-    const known = sessionOfEntry() ?? sessionOfTab();
+    const known = sessionOfHistoryEntry() ?? sessionOfTab();
     if (known) return { credentials: known, lines: [], faults };
     const view = fieldOf(location.search);
     return { ...view, lines: commandLines(location.search), faults: [...faults, ...view.faults] };
@@ -62,7 +62,7 @@ export function extractSharedSession(): { credentials?: Credentials; fault?: str
 }
 
 /** The session that the present entry of the browser's history has, if any. */
-export function sessionOfEntry(): Credentials | undefined {
+export function sessionOfHistoryEntry(): Credentials | undefined {
     return (history.state as HistoryEntry | null)?.credentials;
 }
 

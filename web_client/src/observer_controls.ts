@@ -51,8 +51,8 @@ export class ObserverControls {
     }
 
     /** Prepares for the states of a new connection. */
-    restart(): void {
-        this.lastPace.restart();
+    prepareForNewConnection(): void {
+        this.lastPace.prepareForNewConnection();
     }
 
     /**

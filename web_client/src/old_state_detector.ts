@@ -14,7 +14,7 @@ export class OldStateDetector {
     }
 
     /** Forgets the revisions, because a new connection may be to a session whose revisions start again. */
-    restart(): void {
+    prepareForNewConnection(): void {
         this.revision = this.seen = 0;
     }
 

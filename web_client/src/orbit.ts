@@ -53,7 +53,7 @@ export class OrbitControl {
         const [min, max] = kLimits.zoom;
         const from = this.stage.orbit;
         const to = this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) });
-        this.setOrbit(to);
+        this.setAndSendOrbit(to);
         if (Math.abs(factor - 1) <= kLeastZoom) return; // two fingers that only move or twist do not zoom
         if (Math.abs(to.zoom / from.zoom - 1) > kLeastZoom) return;
         if (factor < 1) this.stopped("The camera is as far away as it can be.");
@@ -63,18 +63,18 @@ export class OrbitControl {
 
     reset(): void {
         this.lastLimited = undefined;
-        this.setOrbit(kInitial);
+        this.setAndSendOrbit(kInitial);
     }
 
     /** Limits the moves that were made before the hit tester was known. */
-    hitTesterKnown(): void {
+    onHitTesterAvailable(): void {
         const from = this.lastLimited;
         this.lastLimited = undefined;
-        if (from) this.setOrbit(this.limited(from, this.stage.orbit));
+        if (from) this.setAndSendOrbit(this.limited(from, this.stage.orbit));
     }
 
-    restart(): void {
-        this.lastChange.restart();
+    prepareForNewConnection(): void {
+        this.lastChange.prepareForNewConnection();
     }
 
     /** Performs an action of the key table; returns false if it is not one of the camera. */
@@ -92,13 +92,13 @@ export class OrbitControl {
         const from = this.stage.orbit;
         const turned = this.limited(from, { azimuth: from.azimuth + azimuth });
         const tilted = Math.min(kLimits.elevation, Math.max(-kLimits.elevation, from.elevation + elevation));
-        this.setOrbit(this.limited(turned, { elevation: tilted }));
+        this.setAndSendOrbit(this.limited(turned, { elevation: tilted }));
     }
 
     /**
      * The orbit after a change. If less than kLeastVisible of the slices would then be visible, and fewer than before,
      * makes only the largest part of the change that avoids this. Without a hit tester, makes the whole change, which
-     * hitTesterKnown() limits later.
+     * onHitTesterAvailable() limits later.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };
@@ -121,9 +121,9 @@ export class OrbitControl {
         this.stage.orbit = state.camera;
     }
 
-    private setOrbit(orbit: Orbit): void {
+    private setAndSendOrbit(orbit: Orbit): void {
         this.stage.orbit = { ...orbit, azimuth: orbit.azimuth % (2 * Math.PI) };
-        if (this.stage.mode === "geometry") this.stage.redraw();
+        if (this.stage.mode === "geometry") this.stage.scheduleRedraw();
         this.unsent = true;
         void this.send();
     }

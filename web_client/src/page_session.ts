@@ -4,7 +4,7 @@ import type { Client, Credentials, RequestError, State } from "@oval4d/protocol"
 
 import type { FormulaWithBox } from "./fields";
 import { isFirstVisit, kFirstVisitView } from "./first_visit";
-import { extractSharedSession, type InitialView, rememberSession, sessionOfEntry } from "./link";
+import { extractSharedSession, type InitialView, rememberSession, sessionOfHistoryEntry } from "./link";
 
 interface PageSessionActions {
     /** Called when the page joins another session, of which nothing is known yet. */
@@ -52,8 +52,8 @@ export class PageSession {
      * Joins the session that belongs to the current entry of the browser's history. Must be called after Back or Forward
      * has changed the entry without reloading the page.
      */
-    joinSessionOfEntry(): void {
-        const credentials = sessionOfEntry();
+    joinSessionOfHistoryEntry(): void {
+        const credentials = sessionOfHistoryEntry();
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
     }
 
@@ -72,7 +72,7 @@ export class PageSession {
      * In a new session, restores the view of a lost session, or applies the initial view. Else does nothing. Rejects if
      * the connection breaks; the next connection then needs another call.
      */
-    async restoreView(): Promise<void> {
+    async restoreOrInitializeView(): Promise<void> {
         try {
             if (this.lostState) await this.restore(this.lostState);
         } catch (error) {
@@ -81,7 +81,7 @@ export class PageSession {
         }
         this.lostState = undefined;
         const faults = await this.applyInitialView();
-        this.clearView();
+        this.clearInitialView();
         this.actions.tell(faults);
     }
 
@@ -114,14 +114,14 @@ export class PageSession {
     }
 
     private join(credentials: Credentials): void {
-        this.clearView(); // the initial view is only for a new session
+        this.clearInitialView(); // the initial view is only for a new session
         this.lostState = undefined;
         this.actions.joined();
         this.client.credentials = credentials;
         this.client.connect();
     }
 
-    private clearView(): void {
+    private clearInitialView(): void {
         Object.assign(this.view, { lines: [], faults: [] });
         delete this.view.field;
         this.isViewBegun = false;

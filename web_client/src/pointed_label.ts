@@ -5,7 +5,7 @@ import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 import { byId } from "./element";
 import { capitalize, formatCoordinate, formatLength } from "./format";
 import type { Point } from "./hover";
-import { spokenFrame } from "./reference_frame";
+import { spokenReferenceFrame } from "./reference_frame";
 
 /** An element, and what is known of its shape and its place. */
 export interface ElementDescription extends PolytopeElement {
@@ -111,7 +111,7 @@ function describe(described: ElementDescription, measured: Measurement, state: S
     if (coordinates) parts[0] += ` (${coordinates.map(format).join(", ")})`;
     const kind = described.kind ?? state?.polytope.kinds?.[measured.kind ?? -1]?.name;
     if (kind !== undefined) parts.push(kind);
-    const { length, area, volume }: Partial<Measurement> = state && spokenFrame(state) === "" ? measured : {};
+    const { length, area, volume }: Partial<Measurement> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
     for (const [name, size] of Object.entries(sizes)) {
         if (size !== undefined) parts.push(`${name} ${formatLength(size)}`);

@@ -41,7 +41,7 @@ export class Pointing {
         if (polytope?.cells !== scene.colors.cells.length) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
-        const vertex = hitTester.vertexInColumnAt(x * ratio, y * ratio, size);
+        const vertex = hitTester.vertexInCoordinatesAt(x * ratio, y * ratio, size);
         if (vertex !== undefined) return { element: "vertex", number: vertex };
         const hit = hitTester.hitAt(x * ratio, y * ratio, orbit, size, ratio);
         return hit && { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };

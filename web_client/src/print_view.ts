@@ -53,7 +53,7 @@ export class PrintView {
             Object.assign(canvas, { width, height });
             canvas.getContext("2d")!.drawImage(this.frame, 0, 0);
         } else {
-            this.stage.print(canvas);
+            this.stage.drawForPrint(canvas);
         }
         const values = [...document.querySelectorAll("#state-fields .state-field > button")];
         const section = (byId("focus-section").textContent ?? "").trim();

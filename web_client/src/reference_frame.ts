@@ -8,7 +8,7 @@ import { formatDecimal } from "./format";
 export type Velocity = "follow" | "boost";
 
 /** A frame of reference in words such as "pace 2, follow 0.3, 0, 0"; "" for the one in which the object was made. */
-export function spokenFrame({ pace, follow, boost }: State): string {
+export function spokenReferenceFrame({ pace, follow, boost }: State): string {
     const spoken = (name: Velocity, velocity: Vector): string =>
         velocity.some((v) => v !== 0) ? `${name} ${velocity.map((v) => formatDecimal(v, 3)).join(", ")}` : "";
     const parts = [pace === 1 ? "" : `pace ${formatDecimal(pace, 3)}`, spoken("follow", follow), spoken("boost", boost)];
@@ -16,7 +16,7 @@ export function spokenFrame({ pace, follow, boost }: State): string {
 }
 
 /** The parameters of an address for a frame of reference, without those that have their initial values. */
-export function frameQuery({ pace = 1, follow, boost }: Pick<Settings, "pace" | Velocity>): Record<string, string> {
+export function referenceFrameQuery({ pace = 1, follow, boost }: Pick<Settings, "pace" | Velocity>): Record<string, string> {
     const moves = (velocity: Vector | undefined): velocity is Vector => velocity?.some((v) => v !== 0) ?? false;
     return {
         ...(pace !== 1 && { pace: String(pace) }),

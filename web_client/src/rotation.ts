@@ -8,7 +8,7 @@ import type { AnglesByPlane } from "./rolling_ball";
 
 type Rotation = Extract<Request, { type: "rotate" }>;
 
-interface Gesture {
+interface RotationGesture {
     /** Whether a rotation of the gesture has been executed. Later rotations of the gesture belong to its undo step. */
     hasStep: boolean;
     /** The angles to send, in radians. */
@@ -16,7 +16,7 @@ interface Gesture {
 }
 
 export class RotationControl {
-    private gestures: Gesture[] = []; // the last one is the current gesture; the others still have angles to send
+    private gestures: RotationGesture[] = []; // the last one is the current gesture; the others still have angles to send
     private sending = false;
     private scheduled = false;
 

@@ -155,7 +155,7 @@ export class Tools {
             const name = element("span", { class: of.length === 1 ? "symbol" : "" }, of);
             return [this.stepper(less, false, [name], `${less.name} ${more.name}`, more)];
         });
-        const rest = keys.filter((key) => !paired.has(key)).sort(compareFocusOrder);
+        const rest = keys.filter((key) => !paired.has(key)).sort(compareFocusSliceKeys);
         return [...steppers, ...rest.map((key) => this.actionButton(key))];
     }
 
@@ -224,7 +224,7 @@ function uncapitalized(text: string): string {
 }
 
 /** The index in kRotationColumns of a plane, or of its perpendicular plane. */
-function columnOf(plane: Plane): number {
+function columnIndexOf(plane: Plane): number {
     const column = kRotationColumns.indexOf(plane);
     return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
 }
@@ -232,7 +232,7 @@ function columnOf(plane: Plane): number {
 /** The row and the column of a rotation in the grid of rotations, counted from 1. */
 function gridPlaceOf(planes: readonly Plane[]): { row: number; column: number } {
     const row = planes.length > 1 ? 3 : kRotationColumns.includes(planes[0]!) ? 1 : 2;
-    return { row, column: 1 + columnOf(planes[0]!) };
+    return { row, column: 1 + columnIndexOf(planes[0]!) };
 }
 
 /** Orders rotations by their places in the grid, so that Tab and the arrow keys follow what is seen. */
@@ -241,6 +241,6 @@ function compareGridPlaces(a: KeyBinding, b: KeyBinding): number {
     return one.row - other.row || one.column - other.column;
 }
 
-function compareFocusOrder(a: KeyBinding, b: KeyBinding): number {
+function compareFocusSliceKeys(a: KeyBinding, b: KeyBinding): number {
     return kFocusOrder.indexOf(a.action) - kFocusOrder.indexOf(b.action);
 }

@@ -9,7 +9,7 @@ export interface Finger {
     clientY: number;
 }
 
-interface Placement {
+interface FingerPair {
     x: number; // of the point in the middle between the fingers, in pixels
     y: number;
     distance: number;
@@ -17,14 +17,14 @@ interface Placement {
 }
 
 export class TwoFingers {
-    private last: Placement;
+    private last: FingerPair;
     private moved = { x: 0, y: 0 }; // pixels since the fingers touched the drawing
     private twisted = 0; // radians since the fingers touched the drawing
     private moves = false; // whether the movement has left its dead zone
     private twists = false; // whether the twist has left its dead zone
 
     constructor(a: Finger, b: Finger) {
-        this.last = placementOf(a, b);
+        this.last = fingerPairOf(a, b);
     }
 
     /**
@@ -34,7 +34,7 @@ export class TwoFingers {
      */
     update(a: Finger, b: Finger): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
-        const now = (this.last = placementOf(a, b));
+        const now = (this.last = fingerPairOf(a, b));
         const [dx, dy, twist] = [now.x - last.x, now.y - last.y, wrapped(now.angle - last.angle)];
         const change = {
             ...(this.moves ? { dx, dy } : { dx: 0, dy: 0 }),
@@ -49,7 +49,7 @@ export class TwoFingers {
     }
 }
 
-function placementOf(a: Finger, b: Finger): Placement {
+function fingerPairOf(a: Finger, b: Finger): FingerPair {
     const [dx, dy] = [b.clientX - a.clientX, b.clientY - a.clientY];
     const [x, y] = [(a.clientX + b.clientX) / 2, (a.clientY + b.clientY) / 2];
     return { x, y, distance: Math.hypot(dx, dy), angle: Math.atan2(dy, dx) };

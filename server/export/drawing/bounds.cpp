@@ -17,7 +17,7 @@ class ShapeCutter {
   public:
     explicit ShapeCutter(double farthest) : farthest_(farthest) {}
 
-    std::optional<Shape> operator()(Line line) const {
+    std::optional<DrawnShape> operator()(Line line) const {
         for (int bound = 0; bound < 4; ++bound) {
             const double a = insideBound(line.from, bound), b = insideBound(line.to, bound);
             if (a < 0 && b < 0) return std::nullopt;
@@ -26,7 +26,7 @@ class ShapeCutter {
         }
         return line;
     }
-    std::optional<Shape> operator()(FilledPolygon polygon) const {
+    std::optional<DrawnShape> operator()(FilledPolygon polygon) const {
         for (int bound = 0; bound < 4; ++bound) {
             std::vector<glm::dvec2> kept;
             for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
@@ -40,7 +40,7 @@ class ShapeCutter {
         if (polygon.corners.empty()) return std::nullopt;
         return polygon;
     }
-    std::optional<Shape> operator()(const Disk& disk) const {
+    std::optional<DrawnShape> operator()(const Disk& disk) const {
         const glm::dvec2 reach = glm::abs(disk.center) + disk.radius;
         if (std::max(reach.x, reach.y) <= farthest_) return disk;
         constexpr int kCorners = 360;
@@ -51,11 +51,11 @@ class ShapeCutter {
         }
         return (*this)(std::move(polygon));
     }
-    std::optional<Shape> operator()(const TextLine& line) const {
+    std::optional<DrawnShape> operator()(const TextLine& line) const {
         if (std::max(std::abs(line.at.x), std::abs(line.at.y)) > farthest_) return std::nullopt;
         return line;
     }
-    std::optional<Shape> operator()(const DensityImage& density) const { return density; }
+    std::optional<DrawnShape> operator()(const DensityImage& density) const { return density; }
 
   private:
     // Returns the distance of a position from a bound, positive inside and negative outside. The bounds 0 … 3 are
@@ -75,7 +75,7 @@ class ShapeCutter {
 
 }  // namespace
 
-std::optional<Shape> cutAtBounds(const Shape& shape, double farthest) {
+std::optional<DrawnShape> cutAtBounds(const DrawnShape& shape, double farthest) {
     return std::visit(ShapeCutter(farthest), shape);
 }
 

@@ -20,12 +20,12 @@ constexpr double kNameRoom = 3.2 * kText;  // the width of the label of a vertex
 
 /// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
 /// columns are arranged in rows.
-struct Columns {
+struct VertexColumnLayout {
     std::size_t count, perRow, rows;
     double step, rowStep;    ///< the distance from a column to the next, and from a row to the next
     std::size_t namedEvery;  ///< the distance, in columns, from one label (P0, …) to the next in a row
 
-    explicit Columns(std::size_t vertices) : count(vertices) {
+    explicit VertexColumnLayout(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;
         const auto most = static_cast<std::size_t>(width / kMinColumn);
         rows = (count + most - 1) / most;
@@ -108,13 +108,13 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     if (const fields::Field* field = slicing::fieldIn(object)) return drawHistogram(scene, *field, orientation);
     const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
     if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
-    const Columns columns(vertices.size());
+    const VertexColumnLayout columns(vertices.size());
     const double right = columns.left(columns.perRow - 1) + columns.step;
     Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,
                     kDrawingWidth,
                     columns.rowStep * static_cast<double>(columns.rows) + kDrawingMargin,
                     {}};
-    ShapeGroup& zeros = drawing.groups.emplace_back("zero", std::vector<Shape>());
+    ShapeGroup& zeros = drawing.groups.emplace_back("zero", std::vector<DrawnShape>());
     for (std::size_t row = 0; row < columns.rows; ++row) {
         const double y = columns.zero(row);
         zeros.shapes.emplace_back(
@@ -123,7 +123,7 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     const auto& colors = scene.style().axes;
     const double lineStep = columns.step / 5;
     for (int axis = 0; axis < 4; ++axis) {
-        ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<Shape>());
+        ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<DrawnShape>());
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const double x = columns.left(i) + lineStep * (axis + 1), zero = columns.zero(i / columns.perRow);
             lines.shapes.emplace_back(Line{.from = {x, zero},
@@ -132,7 +132,7 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
                                            .color = colors[static_cast<std::size_t>(axis)]});
         }
     }
-    ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
+    ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<DrawnShape>());
     for (int axis = 0; axis < 4; ++axis) {
         const double x = kDrawingMargin + kText * (axis + 0.5);
         names.shapes.emplace_back(TextLine{{x, kDrawingMargin - 0.4 * kText},

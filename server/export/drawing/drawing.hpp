@@ -15,8 +15,8 @@
 
 namespace oval4d::exports {
 
-// Lengths and positions are in units of the drawing (see Drawing::unit()). Positions are measured from its upper left
-// corner, with y downward.
+// Lengths and positions are in units of the drawing (see Drawing::millimetersPerUnit()). Positions are measured from
+// its upper left corner, with y downward.
 
 /// The default of Drawing::size in millimeters: about the width of the text on a page of A4.
 inline constexpr double kDrawingSize = 170;
@@ -80,12 +80,12 @@ struct DensityImage {
         return mixed;
     }
 };
-using Shape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;
+using DrawnShape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;
 
 /// A named group of shapes. Later shapes cover earlier ones.
 struct ShapeGroup {
     std::string id;  ///< identifies the group in the file; unique in a drawing
-    std::vector<Shape> shapes;
+    std::vector<DrawnShape> shapes;
 };
 
 /// A drawing without a background, for white paper.
@@ -96,7 +96,7 @@ struct Drawing {
     double size = kDrawingSize;      ///< the larger of width and height on paper, in millimeters
 
     /// Returns the length of a unit on paper, in millimeters.
-    double unit() const { return size / std::max(width, height); }
+    double millimetersPerUnit() const { return size / std::max(width, height); }
 };
 
 /// The width of drawings in units. A unit is about 1/72 inch if the drawing has its default size.

@@ -115,7 +115,7 @@ class SectionDrawer {
 
     /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name what
     /// must be added to them.
-    void drawName(int axis, std::vector<Shape>& shapes) const {
+    void drawName(int axis, std::vector<DrawnShape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
         if (offset(axis) == 0) return;
@@ -180,7 +180,7 @@ Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin) {
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {
         for (const bool transposed : {false, true}) drawing.groups.push_back(drawer.draw(i, transposed));
     }
-    ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
+    ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<DrawnShape>());
     for (int axis = 0; axis < 4; ++axis) drawer.drawName(axis, names.shapes);
     drawing.groups.push_back(drawer.drawNumbers());
     return drawing;

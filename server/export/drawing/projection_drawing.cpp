@@ -120,7 +120,7 @@ class ProjectionDrawer {
     const glm::dmat3 view_;
     double scale_ = 1;            // drawing units per world unit
     std::vector<double> depths_;  // the depth of each of shapes_
-    std::vector<Shape> shapes_;
+    std::vector<DrawnShape> shapes_;
 };
 
 }  // namespace

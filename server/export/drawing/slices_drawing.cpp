@@ -94,7 +94,7 @@ class SliceDrawer {
     struct LayeredShape {
         Layer layer;
         double depth;  ///< increases toward the viewer
-        Shape shape;
+        DrawnShape shape;
     };
 
     glm::dvec3 seen(const glm::dvec3& p) const {
@@ -168,8 +168,8 @@ class SliceDrawer {
             const bool toward = !corners.empty() && glm::dot(area, corners[0]) < 0;
             const double opacity =
                 scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(set_.faceSource[f]));
-            addPolygon(toward ? toward_faces : away_faces, corners, lit(scene_.cellColors[scene_.cellOfFace(f)], area),
-                       opacity);
+            addPolygon(toward ? toward_faces : away_faces, corners,
+                       lit(scene_.cellColors[scene_.coloringCellOfFace(f)], area), opacity);
         }
     }
 
@@ -344,10 +344,10 @@ Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, con
     SliceDrawer drawer(scene, paper);
     std::size_t shapes = 0;
     for (const auto& [distance, i] : order) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         drawing.groups.push_back(drawer.draw(i));
         shapes += drawing.groups.back().shapes.size();
-        budget.checkBytes(kTypicalShapeBytes * shapes);
+        budget.checkFileSize(kTypicalShapeBytes * shapes);
     }
     for (const scene::SlicePlacement& placement : scene.placements) {
         if (placement.focus && showsFocusPoint(scene.look))

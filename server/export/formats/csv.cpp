@@ -23,16 +23,16 @@ namespace {
 void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
-    append(out, origin.w + slices.planes.w(i));
+    appendDecimal(out, origin.w + slices.planes.w(i));
     for (const std::size_t count : {slices.vertexCount(i), slices.edgeCount(i), m.faces})
         out += ',' + std::to_string(count);
     for (const double number : {m.volume, m.area}) {
         out += ',';
-        append(out, number);
+        appendDecimal(out, number);
     }
     for (int axis = 0; axis < 3; ++axis) {
         out += ',';
-        if (m.hasCentroid) append(out, origin[axis] + m.centroid[axis]);
+        if (m.hasCentroid) appendDecimal(out, origin[axis] + m.centroid[axis]);
     }
     out += "\n";
 }
@@ -40,11 +40,11 @@ void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::d
 void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m) {
     for (const double number : {m.volume, m.area}) {
         out += ',';
-        append(out, number);
+        appendDecimal(out, number);
     }
     for (int axis = 0; axis < 3; ++axis) {
         out += ',';
-        if (m.centroid) append(out, (*m.centroid)[axis]);
+        if (m.centroid) appendDecimal(out, (*m.centroid)[axis]);
     }
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
@@ -58,7 +58,7 @@ std::size_t tableBytes(const fields::Field& field) {
     return 2 * sizeof(double) * indices;
 }
 
-std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
+std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     const geometry::Hyperplanes& planes = source.scene.slices->planes;
     const slicing::FieldSettings& settings = source.scene.look.field;
     const bool hasLevels = settings.levels.size() > 1;
@@ -68,11 +68,11 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
-    source.budget.checkBytes(tableBytes(field));
+    source.budget.checkFileSize(tableBytes(field));
     slicing::ClosedSurfaceSlicer slicer(field, source.orientation);
     slicing::ClosedSurface surface;
     slicing::ClosedSurfaceSlicer::Options options{
-        .inside = settings.inside, .maxTriangles = source.budget.triangles(), .mustStop = [&] {
+        .inside = settings.inside, .maxTriangles = source.budget.triangleLimit(), .mustStop = [&] {
             source.budget.checkTrianglesAndMemory(surface.triangles.size());
             return source.budget.mustStop();
         }};
@@ -80,19 +80,19 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
         for (const double level : settings.levels) {
             options.level = level;
             const auto done = slicer.slice(planes.w(i), options, surface);
-            source.budget.checkTime();
+            source.budget.checkTimeAndStop();
             if (!done) throw ExportRefused{{ExportRefusal::Cause::too_large, done.error().message}};
             source.budget.checkTrianglesAndMemory(surface.triangles.size());
             out += std::to_string(planes.first + i) + ',';
-            append(out, planes.w(i));
-            if (hasLevels) append(out += ',', level);
+            appendDecimal(out, planes.w(i));
+            if (hasLevels) appendDecimal(out += ',', level);
             appendMeasurements(out, slicing::measureSurface(surface));
             if (field.second) {
                 slicing::placeSection(field, toFunction, planes.w(i), section);
                 slicing::evaluateInSection(*field.second->function, section, std::span(std::as_const(surface.points)),
                                            values);
                 out += ',';
-                if (const auto mean = slicing::meanOnSurface(surface, values)) append(out, *mean);
+                if (const auto mean = slicing::meanOnSurface(surface, values)) appendDecimal(out, *mean);
             }
             out += '\n';
         }
@@ -101,40 +101,40 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
 }
 
 // Returns a table of the values of w at which there are vertices, with the number of vertices at each value.
-std::string criticalCsv(const SceneInput& source) {
+std::string criticalCsv(const SceneToWrite& source) {
     std::string out = "w,vertices\n";
     std::vector<double> heights;
     for (const glm::dvec4& v : source.scene.slices->rotatedVertices) heights.push_back(v.w);
     const double same = slicing::kOnPlaneTolerance * source.scene.circumradius;
     for (const auto& [w, vertexCount] : slicing::groupHeights(std::move(heights), same)) {
-        append(out, slicing::infoOf(source.object).originInFile.w + w);
+        appendDecimal(out, slicing::infoOf(source.object).originInFile.w + w);
         out += ',' + std::to_string(vertexCount) + '\n';
     }
     return out;
 }
 
 // Returns a table of the values of w at which the body of a level changes its topology.
-std::string fieldCriticalCsv(const SceneInput& source) {
+std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
     slicing::CriticalOptions options{.stop = source.budget.stopToken()};
     // A search ends after at most 1.5 times this time, when sections are no longer compared.
     options.time = std::min(options.time, source.budget.time() / 2);
     const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, options);
-    source.budget.checkTime();
+    source.budget.checkTimeAndStop();
     if (!found) throw ExportRefused{{ExportRefusal::Cause::too_long, found.error().message}};
     std::string out =
         "w,change,level,components_before,components_after,cavities_before,cavities_after,euler_before,euler_after,"
         "tolerance\n";
     for (const slicing::CriticalSection& section : found->all) {
-        append(out, slicing::infoOf(source.object).originInFile.w + section.w);
+        appendDecimal(out, slicing::infoOf(source.object).originInFile.w + section.w);
         out += ',';
         out += text::nameOf(slicing::kSectionChanges, section.change);
-        append(out += ',', settings.levels.at(section.levelIndex));
+        appendDecimal(out += ',', settings.levels.at(section.levelIndex));
         const slicing::SectionTopology &before = section.before, &after = section.after;
         for (const std::size_t count : {before.components, after.components, before.cavities, after.cavities})
             out += ',' + std::to_string(count);
         for (const long euler : {before.euler, after.euler}) out += ',' + std::to_string(euler);
-        append(out += ',', found->tolerance);
+        appendDecimal(out += ',', found->tolerance);
         out += '\n';
     }
     return out;
@@ -142,9 +142,9 @@ std::string fieldCriticalCsv(const SceneInput& source) {
 
 }  // namespace
 
-std::string measurementsCsv(const SceneInput& source) {
+std::string measurementsCsv(const SceneToWrite& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
-    if (source.contents == ExportContents::critical)
+    if (source.contents == ExportContentsKind::critical)
         return field != nullptr ? fieldCriticalCsv(source) : criticalCsv(source);
     if (field != nullptr) return fieldCsv(source, *field);
     const slicing::SliceSet& slices = *source.scene.slices;

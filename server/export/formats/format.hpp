@@ -31,17 +31,17 @@ struct MeshesToWrite {
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
     /// Returns whether any mesh has pointColors.
-    bool havePointColors() const {
+    bool anyHasPointColors() const {
         return std::ranges::any_of(solids, [](const PlacedMesh& solid) { return !solid.mesh.pointColors.empty(); });
     }
 };
 
 /// The input of the writers of data formats. The slices of `scene` were cut from `object` rotated by `orientation`.
-struct SceneInput {
+struct SceneToWrite {
     const scene::Scene& scene;
     const slicing::Object& object;
     const geometry::Rotation& orientation;
-    ExportContents contents;
+    ExportContentsKind contents;
     const Budget& budget;
     std::vector<std::string>& warnings;  ///< the writer adds what the file lacks (see ExportedFile::warnings)
 };
@@ -59,17 +59,17 @@ struct Format {
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
-    std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
-    bool readsSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    std::vector<ExportContentsKind> contents;  ///< what a file can contain; the first of them is the default
+    bool readsSurfaces = false;  ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
     /// background. If false, the scene has the default look, but the colors, levels and fog of the picture.
     bool showsPicture = false;
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
-    std::string (*writeScene)(const SceneInput&) = nullptr;
+    std::string (*writeScene)(const SceneToWrite&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
 
     /// Returns whether files of the format can contain `what`.
-    bool canContain(ExportContents what) const { return std::ranges::find(contents, what) != contents.end(); }
+    bool canContain(ExportContentsKind what) const { return std::ranges::find(contents, what) != contents.end(); }
 };
 
 }  // namespace oval4d::exports

@@ -14,13 +14,13 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr auto kArrangements = std::to_array<text::Choice<Format::Arrangement>>(
+constexpr auto kArrangements = std::to_array<text::NamedValue<Format::Arrangement>>(
     {{"", Format::Arrangement::none}, {"plate", Format::Arrangement::plate}, {"oval", Format::Arrangement::oval}});
 
 constexpr auto kObjects =
-    std::to_array<text::Choice<Format::Objects>>({{"all", Format::Objects::all},
-                                                  {"fields", Format::Objects::fields},
-                                                  {"polytopes", Format::Objects::polytopes_and_points}});
+    std::to_array<text::NamedValue<Format::Objects>>({{"all", Format::Objects::all},
+                                                      {"fields", Format::Objects::fields},
+                                                      {"polytopes", Format::Objects::polytopes_and_points}});
 
 std::vector<Format> readTable() {
     std::vector<Format> table;
@@ -29,7 +29,7 @@ std::vector<Format> readTable() {
         Format format;
         format.name = row.at("name");
         format.mediaType = row.at("media_type");
-        const auto writer = std::ranges::find(kWriters, format.name, &Writer::name);
+        const auto writer = std::ranges::find(kWriters, format.name, &FormatWriterRow::name);
         const std::string bodies = row.value("bodies", "");
         if (writer == kWriters.end() || (writer->ofBodies != nullptr) == bodies.empty())
             throw std::logic_error("export_formats.json: no matching writer for " + format.name);

@@ -29,7 +29,7 @@ float linear(unsigned channel) {
 class VertexAttribute {
   public:
     void add(const glm::vec3& value) {
-        for (int i = 0; i < 3; ++i) put(bytes_, value[i]);
+        for (int i = 0; i < 3; ++i) putLittleEndian(bytes_, value[i]);
         least_ = glm::min(least_, value);
         most_ = glm::max(most_, value);
         ++count_;
@@ -123,7 +123,7 @@ std::string glb(const MeshesToWrite& meshes) {
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model.materials.push_back(std::move(material));
     for (const PlacedMesh& solid : meshes.solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         addMesh(solid, meshes, model);
     }
     std::ostringstream out;

@@ -10,13 +10,15 @@
 namespace oval4d::exports {
 
 template <std::unsigned_integral Number>
-void put(std::string& out, Number number) {
+void putLittleEndian(std::string& out, Number number) {
     for (std::size_t i = 0; i < sizeof number; ++i) out += static_cast<char>(number >> (8 * i) & 0xffU);
 }
-inline void put(std::string& out, float number) { put(out, std::bit_cast<std::uint32_t>(number)); }
+inline void putLittleEndian(std::string& out, float number) {
+    putLittleEndian(out, std::bit_cast<std::uint32_t>(number));
+}
 /// Appends x, y and z as float32.
-inline void put(std::string& out, const glm::dvec3& point) {
-    for (int i = 0; i < 3; ++i) put(out, static_cast<float>(point[i]));
+inline void putLittleEndian(std::string& out, const glm::dvec3& point) {
+    for (int i = 0; i < 3; ++i) putLittleEndian(out, static_cast<float>(point[i]));
 }
 
 }  // namespace oval4d::exports

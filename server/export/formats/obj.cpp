@@ -20,12 +20,12 @@ std::string obj(const MeshesToWrite& meshes) {
     std::string out = "# oval4d, millimeters\n";
     std::size_t first = 1;
     for (const PlacedMesh& solid : meshes.solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         const Mesh& mesh = solid.mesh;
         out += "o " + wordOf(solid.name) + "\n";
         for (const glm::dvec3& point : mesh.points) {
             out += "v ";
-            append(out, point + solid.at);
+            appendDecimal(out, point + solid.at);
             out += '\n';
         }
         std::uint32_t cell = kNoCell;

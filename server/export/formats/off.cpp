@@ -2,7 +2,7 @@
 
 namespace oval4d::exports {
 
-std::string off(const SceneInput& source) {
+std::string off(const SceneToWrite& source) {
     return slicing::write4Off(source.object, source.scene.slices->rotatedVertices);
 }
 

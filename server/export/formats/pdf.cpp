@@ -158,13 +158,13 @@ std::string pdf(const Drawing& drawing) {
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, title.empty() ? drawing.title.c_str() : placeholder.c_str());
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
     const HPDF_Page page = HPDF_AddPage(document.get());
-    const double scale = drawing.unit() * kPointsPerMillimeter;
+    const double scale = drawing.millimetersPerUnit() * kPointsPerMillimeter;
     HPDF_Page_SetWidth(page, static_cast<float>(drawing.width * scale));
     HPDF_Page_SetHeight(page, static_cast<float>(drawing.height * scale));
     HPDF_Page_Concat(page, static_cast<float>(scale), 0, 0, static_cast<float>(scale), 0, 0);
     PageWriter writer(document.get(), page, drawing.height);
     for (const ShapeGroup& group : drawing.groups) {
-        for (const Shape& shape : group.shapes) {
+        for (const DrawnShape& shape : group.shapes) {
             if (const auto drawn = cutAtBounds(shape, kFarthest)) std::visit(writer, *drawn);
         }
     }

@@ -9,17 +9,17 @@ namespace oval4d::exports {
 namespace {
 
 void putColor(std::string& out, scene::Color color) {
-    for (const unsigned shift : {16U, 8U, 0U}) put(out, static_cast<std::uint8_t>(color >> shift));
+    for (const unsigned shift : {16U, 8U, 0U}) putLittleEndian(out, static_cast<std::uint8_t>(color >> shift));
 }
 
 void putPoints(std::string& out, const PlacedMesh& solid, bool colored) {
     const Mesh& mesh = solid.mesh;
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-        put(out, mesh.points[p] + solid.at);
+        putLittleEndian(out, mesh.points[p] + solid.at);
         if (!colored) continue;
         const bool own = !mesh.pointColors.empty();
         putColor(out, own ? mesh.pointColors[p] : solid.color);
-        put(out, own ? mesh.pointValues[p] : std::numeric_limits<float>::quiet_NaN());
+        putLittleEndian(out, own ? mesh.pointValues[p] : std::numeric_limits<float>::quiet_NaN());
     }
 }
 
@@ -33,22 +33,22 @@ std::string ply(const MeshesToWrite& meshes) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
-    const bool colored = meshes.havePointColors();  // whether points have colors; if not, triangles have colors
+    const bool colored = meshes.anyHasPointColors();  // whether points have colors; if not, triangles have colors
     const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment oval4d, millimeters\nelement vertex " +
                       std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +
                       (colored ? colors + "property float value\n" : "") + "element face " + std::to_string(triangles) +
                       "\nproperty list uchar uint vertex_indices\n" + (colored ? "" : colors) + "end_header\n";
     for (const PlacedMesh& solid : solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         putPoints(out, solid, colored);
     }
     std::uint32_t first = 0;
     for (const PlacedMesh& solid : solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
-            put(out, std::uint8_t{3});
-            for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);
+            putLittleEndian(out, std::uint8_t{3});
+            for (const std::uint32_t corner : solid.mesh.triangles[t]) putLittleEndian(out, first + corner);
             if (!colored) putColor(out, meshes.colorOf(solid, t));
         }
         first += static_cast<std::uint32_t>(solid.mesh.points.size());

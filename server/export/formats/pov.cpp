@@ -31,7 +31,7 @@ constexpr std::string_view kMatte = "Matte", kShiny = "Shiny";  // the finishes 
 template <typename Number>
 std::string povNumber(Number number) {
     std::string out;
-    append(out, number);
+    appendDecimal(out, number);
     return out;
 }
 
@@ -131,7 +131,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
 }
 
 /// The place of a slice or of a part of the projection, and how its balls and bars are drawn.
-struct PovPart {
+struct PovPlacement {
     glm::dvec3 position;
     double scale;                  ///< world units per unit of the object
     double ballRadius, barRadius;  ///< in world units; balls or bars with the radius 0 are not drawn
@@ -142,7 +142,7 @@ struct PovPart {
 
 class PovWriter {
   public:
-    explicit PovWriter(const SceneInput& source)
+    explicit PovWriter(const SceneToWrite& source)
         : source_(source),
           scene_(source.scene),
           set_(*scene_.slices),
@@ -164,13 +164,13 @@ class PovWriter {
 
   private:
     void checkBudget() const {
-        source_.budget.checkTime();
-        source_.budget.checkBytes(textures_.declarations().size() + objects_.size());
+        source_.budget.checkTimeAndStop();
+        source_.budget.checkFileSize(textures_.declarations().size() + objects_.size());
     }
 
     std::string header() const {
         const bool isTransparent = style_.backgroundOpacity == 0;
-        std::string out = "// " + xmlCharacters(scene_.title) + ", from oval4d: povray +W" +
+        std::string out = "// " + onlyXmlCharacters(scene_.title) + ", from oval4d: povray +W" +
                           std::to_string(scene_.viewport.width) + " +H" + std::to_string(scene_.viewport.height) +
                           (isTransparent ? " +UA" : "") + " +A FILE.pov\n#version 3.7;\n";
         out +=
@@ -213,11 +213,12 @@ class PovWriter {
     void addSlice(std::size_t slice) {
         const scene::SlicePlacement& placement = scene_.placements[slice];
         objects_ += "\n// Slice " + std::to_string(placement.index) + "\n";
-        const PovPart part{placement.position,       scene_.scale,
-                           scene_.drawnBallRadius(), scene_.look.parts.bars ? scene_.barRadius : 0,
-                           scene_.drawnBallColor(),  style_.bar};
+        const PovPlacement part{placement.position,       scene_.scale,
+                                scene_.drawnBallRadius(), scene_.look.parts.bars ? scene_.barRadius : 0,
+                                scene_.drawnBallColor(),  style_.bar};
         if (scene_.look.parts.faces && !scene_.needsDepthBuffer) {
-            addFaces(set_, slice, part, scene_.faceOpacity, [this](std::uint32_t f) { return scene_.cellOfFace(f); });
+            addFaces(set_, slice, part, scene_.faceOpacity,
+                     [this](std::uint32_t f) { return scene_.coloringCellOfFace(f); });
         }
         if (!scene_.fill.empty()) addPieces(slice, part);
         if (!scene_.surfaces.empty()) addSurfaces(slice, part);
@@ -230,12 +231,12 @@ class PovWriter {
         objects_ += "\n// Projection\n";
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
             const scene::ProjectionPartLook& look = projection.parts[i];
-            const PovPart part{scene_.projectionPlacement.position,
-                               projection.scale,
-                               look.ballRadius,
-                               look.barRadius,
-                               look.ballColor,
-                               look.barColor};
+            const PovPlacement part{scene_.projectionPlacement.position,
+                                    projection.scale,
+                                    look.ballRadius,
+                                    look.barRadius,
+                                    look.ballColor,
+                                    look.barColor};
             addFaces(projection.elements, i, part, look.faceOpacity,
                      [&](std::uint32_t f) { return projection.faceCells[f]; });
             addBalls(projection.elements, i, part);
@@ -246,7 +247,8 @@ class PovWriter {
 
     /// Adds convex faces. `opacity` is that of fully visible faces; `cellOf` returns the cell that colors a face.
     template <typename CellOf>
-    void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPart& part, double opacity, CellOf cellOf) {
+    void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part, double opacity,
+                  CellOf cellOf) {
         PovMesh mesh;
         mesh.isLitFromBehind = true;
         for (std::uint32_t v = set.vertexBegin[slice]; v < set.vertexBegin[slice + 1]; ++v)
@@ -263,7 +265,7 @@ class PovWriter {
     }
 
     /// Adds the convex pieces of faces that may cross each other.
-    void addPieces(std::size_t slice, const PovPart& part) {
+    void addPieces(std::size_t slice, const PovPlacement& part) {
         const slicing::FilledFaces& fill = scene_.fill;
         PovMesh mesh;
         mesh.isLitFromBehind = true;
@@ -281,11 +283,11 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    void addSurfaces(std::size_t slice, const PovPart& part) {
+    void addSurfaces(std::size_t slice, const PovPlacement& part) {
         const slicing::SliceSurface& surface = set_.surfaces[slice];
         triangles_ += surface.triangles.size();
         source_.budget.checkTrianglesAndMemory(triangles_);
-        for (const scene::SurfaceLook::Level& level : scene_.surfaces.levels) {
+        for (const scene::SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
             addSurface(slice, part, level, false);
             if (level.caps) addSurface(slice, part, level, true);
         }
@@ -293,7 +295,8 @@ class PovWriter {
 
     /// Adds the smooth level set of a level, or its flat caps. The level set and the caps are separate meshes, because
     /// the points where they meet have different normals and colors in each.
-    void addSurface(std::size_t slice, const PovPart& part, const scene::SurfaceLook::Level& level, bool ofCaps) {
+    void addSurface(std::size_t slice, const PovPlacement& part, const scene::SurfaceLook::LevelLook& level,
+                    bool ofCaps) {
         const slicing::SliceSurface& surface = set_.surfaces[slice];
         PovMesh mesh;
         // Per point of the surface: its index in the mesh.
@@ -319,7 +322,7 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    scene::Color colorOf(std::size_t slice, const scene::SurfaceLook::Level& level, bool ofCaps,
+    scene::Color colorOf(std::size_t slice, const scene::SurfaceLook::LevelLook& level, bool ofCaps,
                          std::uint32_t point) const {
         const scene::SurfaceLook& look = scene_.surfaces;
         if (ofCaps && look.colorsCapPoints()) return look.capPointColor(set_.surfaces[slice], point);
@@ -327,7 +330,7 @@ class PovWriter {
         return look.color(level, slice);
     }
 
-    void addBalls(const slicing::SliceSet& set, std::size_t slice, const PovPart& part) {
+    void addBalls(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part) {
         for (std::uint32_t v = set.vertexBegin[slice]; part.ballRadius > 0 && v < set.vertexBegin[slice + 1]; ++v) {
             const std::uint32_t source = set.vertexSource[v];
             const double own = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
@@ -339,7 +342,7 @@ class PovWriter {
         }
     }
 
-    void addBars(const slicing::SliceSet& set, std::size_t slice, const PovPart& part) {
+    void addBars(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part) {
         const std::uint32_t first = set.vertexBegin[slice];
         for (std::uint32_t e = set.edgeBegin[slice]; part.barRadius > 0 && e < set.edgeBegin[slice + 1]; ++e) {
             const std::uint32_t source = set.edgeSource[e];
@@ -394,7 +397,7 @@ class PovWriter {
 #end
 )";
 
-    const SceneInput& source_;
+    const SceneToWrite& source_;
     const scene::Scene& scene_;
     const slicing::SliceSet& set_;
     const scene::Style& style_;
@@ -407,6 +410,6 @@ class PovWriter {
 
 }  // namespace
 
-std::string pov(const SceneInput& source) { return PovWriter(source).write(); }
+std::string pov(const SceneToWrite& source) { return PovWriter(source).write(); }
 
 }  // namespace oval4d::exports

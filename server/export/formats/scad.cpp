@@ -16,7 +16,7 @@ std::string moduleName(std::size_t body) { return "body_" + std::to_string(body 
 void appendBracketed(std::string& out, const glm::dvec3& vector) {
     for (int axis = 0; axis < 3; ++axis) {
         out += axis == 0 ? "[" : ", ";
-        append(out, vector[axis]);
+        appendDecimal(out, vector[axis]);
     }
     out += ']';
 }
@@ -24,7 +24,7 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
     // When OpenSCAD previews a difference or an intersection, it omits parts of a body that a line of sight enters more
     // than `convexity` times.
-    out += "\n// " + xmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
+    out += "\n// " + onlyXmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
            scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";
     for (const glm::dvec3& point : solid.mesh.points) {
@@ -44,10 +44,10 @@ void appendModule(std::string& out, const std::string& name, const PlacedMesh& s
 }  // namespace
 
 std::string scad(const MeshesToWrite& meshes) {
-    // A line end in a name would end its comment; xmlCharacters() removes line ends.
-    std::string out = "// " + xmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
+    // A line end in a name would end its comment; onlyXmlCharacters() removes line ends.
+    std::string out = "// " + onlyXmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
     for (std::size_t i = 0; i < meshes.solids.size(); ++i) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         appendModule(out, moduleName(i), meshes.solids[i]);
     }
     out += '\n';

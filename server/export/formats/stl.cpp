@@ -22,15 +22,15 @@ std::string stl(const MeshesToWrite& meshes) {
     std::string out = "oval4d, millimeters";
     out.reserve(kHeader + 4 + kTriangle * count);
     out.resize(kHeader, ' ');
-    put(out, static_cast<std::uint32_t>(count));
+    putLittleEndian(out, static_cast<std::uint32_t>(count));
     for (const PlacedMesh& solid : solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         for (const auto& triangle : solid.mesh.triangles) {
             const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, triangle);
             const double length = glm::length(across);
-            put(out, length > 0 ? across / length : glm::dvec3(0));
-            for (const std::uint32_t corner : triangle) put(out, solid.mesh.points[corner] + solid.at);
-            put(out, std::uint16_t{0});
+            putLittleEndian(out, length > 0 ? across / length : glm::dvec3(0));
+            for (const std::uint32_t corner : triangle) putLittleEndian(out, solid.mesh.points[corner] + solid.at);
+            putLittleEndian(out, std::uint16_t{0});
         }
     }
     return out;

@@ -106,14 +106,14 @@ struct ElementWriter {
 }  // namespace
 
 std::string svg(const Drawing& drawing) {
-    const auto millimeters = [&](double length) { return number(length * drawing.unit()) + "mm"; };
+    const auto millimeters = [&](double length) { return number(length * drawing.millimetersPerUnit()) + "mm"; };
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(drawing.width) + ' ' +
                       number(drawing.height) + '"' + attribute("width", millimeters(drawing.width)) +
                       attribute("height", millimeters(drawing.height)) + ">\n<title>" + xmlEscaped(drawing.title) +
                       "</title>\n";
     for (const ShapeGroup& group : drawing.groups) {
         out += "<g" + attribute("id", xmlEscaped(group.id)) + ">\n";
-        for (const Shape& shape : group.shapes) out += std::visit(ElementWriter(), shape);
+        for (const DrawnShape& shape : group.shapes) out += std::visit(ElementWriter(), shape);
         out += "</g>\n";
     }
     return out + "</svg>\n";

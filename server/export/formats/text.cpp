@@ -20,22 +20,22 @@ void appendShortest(std::string& out, Number number) {
 
 }  // namespace
 
-void append(std::string& out, double number) { appendShortest(out, number); }
-void append(std::string& out, float number) { appendShortest(out, number); }
+void appendDecimal(std::string& out, double number) { appendShortest(out, number); }
+void appendDecimal(std::string& out, float number) { appendShortest(out, number); }
 
-void append(std::string& out, const glm::dvec3& point) {
-    append(out, point.x);
+void appendDecimal(std::string& out, const glm::dvec3& point) {
+    appendDecimal(out, point.x);
     out += ' ';
-    append(out, point.y);
+    appendDecimal(out, point.y);
     out += ' ';
-    append(out, point.z);
+    appendDecimal(out, point.z);
 }
 
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin) {
     return "w = " + scene::labelNumber(origin + planes.w(i), scene::labelDecimals(planes));
 }
 
-std::string xmlCharacters(std::string_view text) {
+std::string onlyXmlCharacters(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const std::string_view rest = text.substr(i);
@@ -52,7 +52,7 @@ std::string xmlEscaped(std::string_view text) {
     constexpr auto kEntities = std::to_array<std::pair<char, std::string_view>>(
         {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}});
     std::string out;
-    for (const char c : xmlCharacters(text)) {
+    for (const char c : onlyXmlCharacters(text)) {
         const auto entity = std::ranges::find(kEntities, c, &std::pair<char, std::string_view>::first);
         if (entity != kEntities.end()) {
             out += entity->second;

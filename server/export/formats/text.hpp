@@ -11,10 +11,10 @@
 namespace oval4d::exports {
 
 /// Appends the shortest decimal text from which the same number can be read.
-void append(std::string& out, double number);
-void append(std::string& out, float number);
+void appendDecimal(std::string& out, double number);
+void appendDecimal(std::string& out, float number);
 /// Appends three numbers separated by spaces.
-void append(std::string& out, const glm::dvec3& point);
+void appendDecimal(std::string& out, const glm::dvec3& point);
 
 /// Returns a label of the hyperplane with the index i (from 0), such as "w = −0.25", with enough decimals (2 to 9) to
 /// distinguish the hyperplanes. `origin`, the w of ObjectInfo::originInFile, is added to w.
@@ -23,9 +23,9 @@ std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin =
 /// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters below U+0020,
 /// U+FFFE and U+FFFF. Also removes tabs and line ends, which XML allows, so that the result is one line in any text
 /// format. The text must be UTF-8.
-std::string xmlCharacters(std::string_view text);
+std::string onlyXmlCharacters(std::string_view text);
 
-/// Returns xmlCharacters(text) escaped for XML content and attributes: & < > and quotes become entities.
+/// Returns onlyXmlCharacters(text) escaped for XML content and attributes: & < > and quotes become entities.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace oval4d::exports

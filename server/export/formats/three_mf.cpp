@@ -19,12 +19,12 @@ void check(LIB3MFRESULT result, const char* what) {
 }
 
 template <typename Thing>
-using Owned = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
+using Lib3mfPointer = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 
 // Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to the object. `what`: the
 // message of the exception if this fails.
 template <typename Thing, typename Make>
-Owned<Thing> owned(const char* what, Make&& make) {
+Lib3mfPointer<Thing> owned(const char* what, Make&& make) {
     Thing* made = nullptr;
     check(make(&made), what);
     return {made, &lib3mf_release};
@@ -67,7 +67,7 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
     check(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
                                         triangles.data(), static_cast<DWORD>(triangles.size())),
           "cannot set the mesh");
-    check(lib3mf_object_setnameutf8(object.get(), xmlCharacters(solid.name).c_str()), "cannot name the object");
+    check(lib3mf_object_setnameutf8(object.get(), onlyXmlCharacters(solid.name).c_str()), "cannot name the object");
     owned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
         return lib3mf_model_addbuilditem(model, object.get(), nullptr, out);
     });
@@ -82,7 +82,7 @@ std::string threeMf(const MeshesToWrite& meshes) {
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
     for (const PlacedMesh& solid : meshes.solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         addMesh(model.get(), solid);
     }
     const auto writer = owned<PLib3MFModelWriter>(
@@ -92,7 +92,7 @@ std::string threeMf(const MeshesToWrite& meshes) {
     SeekableBuffer sink;
     const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&SeekableBuffer::write),
                                                       reinterpret_cast<void*>(&SeekableBuffer::seek), &sink);
-    meshes.budget.checkTime();
+    meshes.budget.checkTimeAndStop();
     check(result, "cannot write the file");
     return std::move(sink.bytes);
 }

@@ -64,7 +64,7 @@ std::string latexEscaped(std::string_view text) {
 /// A visitor that writes shapes as TikZ commands, and collects the colors of the shapes.
 class CommandWriter {
   public:
-    /// `unit`: as returned by Drawing::unit().
+    /// `unit`: as returned by Drawing::millimetersPerUnit().
     explicit CommandWriter(double unit) : unit_(unit) {}
 
     void operator()(const Line& line) {
@@ -144,17 +144,18 @@ class CommandWriter {
 }  // namespace
 
 std::string tikz(const Drawing& drawing) {
-    const double unit = drawing.unit(), farthest = kFarthestPoints / std::max(1.0, unit * kPointsPerMillimeter);
+    const double unit = drawing.millimetersPerUnit(),
+                 farthest = kFarthestPoints / std::max(1.0, unit * kPointsPerMillimeter);
     CommandWriter writer(unit);
     for (const ShapeGroup& group : drawing.groups) {
         writer.out += "% " + group.id + '\n';
-        for (const Shape& shape : group.shapes) {
+        for (const DrawnShape& shape : group.shapes) {
             if (const auto drawn = cutAtBounds(shape, farthest)) std::visit(writer, *drawn);
         }
     }
     const std::string across = decimals(unit, 6) + "mm";
-    return "% " + xmlCharacters(drawing.title) + "\n% A figure of " + decimals(drawing.width * unit, 1) + " mm by " +
-           decimals(drawing.height * unit, 1) +
+    return "% " + onlyXmlCharacters(drawing.title) + "\n% A figure of " + decimals(drawing.width * unit, 1) +
+           " mm by " + decimals(drawing.height * unit, 1) +
            " mm for LaTeX. In the preamble: \\usepackage{tikz}. In the text: \\input{this file}.\n" +
            "\\begin{tikzpicture}[x=" + across + ",y=-" + across + "]\n" + writer.colorDefinitions() +
            "\\clip (0,0) rectangle " + position({drawing.width, drawing.height}) + ";\n" + writer.out +

@@ -20,7 +20,7 @@ namespace oval4d::exports {
 namespace {
 
 /// A regular lattice in a slice: points origin + spacing · (i, j, k).
-struct Lattice {
+struct SliceLattice {
     glm::dvec3 origin{0}, spacing{1};
     glm::ivec3 points{1};
 
@@ -29,13 +29,13 @@ struct Lattice {
 
 /// Returns a lattice that fills the bounding box of the domain's slice. Along each axis, neighboring points are at most
 /// `step` apart.
-Lattice latticeOf(const slicing::SliceSet& slices, double step) {
+SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;
     for (const glm::dvec3& vertex : slices.vertices) {
         low = glm::min(low, vertex);
         high = glm::max(high, vertex);
     }
-    Lattice lattice;
+    SliceLattice lattice;
     lattice.origin = low;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = high[axis] - low[axis];
@@ -48,8 +48,8 @@ Lattice latticeOf(const slicing::SliceSet& slices, double step) {
 
 /// Returns the values at the points of the lattice in the hyperplane at `w`, x fastest; NaN outside of the domain.
 /// `toFunction` maps the coordinates of the rotated object to those of the function, relative to Field::center.
-std::vector<float> sample(const fields::Field& field, const Lattice& lattice, const glm::dmat4& toFunction, double w,
-                          const Budget& budget) {
+std::vector<float> sample(const fields::Field& field, const SliceLattice& lattice, const glm::dmat4& toFunction,
+                          double w, const Budget& budget) {
     std::vector<float> values(lattice.size());
     const auto row = static_cast<std::size_t>(lattice.points.x);
     std::array<std::vector<float>, 4> at;
@@ -58,7 +58,7 @@ std::vector<float> sample(const fields::Field& field, const Lattice& lattice, co
     std::vector<bool> isOutside(row);
     float* out = values.data();
     for (int k = 0; k < lattice.points.z; ++k) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         for (int j = 0; j < lattice.points.y; ++j, out += row) {
             for (std::size_t i = 0; i < row; ++i) {
                 const glm::dvec3 p = lattice.origin + lattice.spacing * glm::dvec3(static_cast<double>(i), j, k);
@@ -79,7 +79,7 @@ std::vector<float> sample(const fields::Field& field, const Lattice& lattice, co
 
 }  // namespace
 
-std::string vti(const SceneInput& source) {
+std::string vti(const SceneToWrite& source) {
     constexpr int kCells = 128;  // the number of lattice cells along the diameter of the circumscribed sphere
     const slicing::SliceSet& slices = *source.scene.slices;
     const auto refuse = [](std::string message) {
@@ -89,17 +89,17 @@ std::string vti(const SceneInput& source) {
         refuse("the slice at " + labelOfW(slices.planes, 0) + " is empty: move the focus or turn the field");
     }
     const fields::Field& field = *slicing::fieldIn(source.object);
-    const Lattice lattice = latticeOf(slices, 2 * field.circumradius / kCells);
-    source.budget.checkBytes(3 * sizeof(float) * lattice.size());  // enough for the values and their Base64 text
+    const SliceLattice lattice = latticeOf(slices, 2 * field.circumradius / kCells);
+    source.budget.checkFileSize(3 * sizeof(float) * lattice.size());  // enough for the values and their Base64 text
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     const std::vector<float> values = sample(field, lattice, toFunction, slices.planes.w(0), source.budget);
 
     std::string extent;
     for (int axis = 0; axis < 3; ++axis) extent += (axis > 0 ? " 0 " : "0 ") + std::to_string(lattice.points[axis] - 1);
     std::string attributes = " WholeExtent=\"" + extent + "\" Origin=\"";
-    append(attributes, lattice.origin);
+    appendDecimal(attributes, lattice.origin);
     attributes += "\" Spacing=\"";
-    append(attributes, lattice.spacing);
+    appendDecimal(attributes, lattice.spacing);
     attributes += "\"";
     std::string elements = "<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"value\">\n";
     appendVtkArray(elements, "value", 1, std::span<const float>(values));

@@ -18,7 +18,7 @@ void appendVtkArray(std::string& out, std::string_view type, std::string_view na
     // In VTK's format, the size of the data in bytes precedes the data, and both are encoded as one Base64 text.
     std::string data;
     data.reserve(sizeof(std::uint64_t) + bytes.size());
-    put(data, std::uint64_t{bytes.size()});
+    putLittleEndian(data, std::uint64_t{bytes.size()});
     data.append(bytes);
     out.append("<DataArray type=\"").append(type).append("\" Name=\"").append(xmlEscaped(name));
     out.append("\" NumberOfComponents=\"").append(std::to_string(components)).append("\" format=\"binary\">\n");

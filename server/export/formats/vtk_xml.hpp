@@ -31,11 +31,11 @@ void appendVtkArray(std::string& out, std::string_view name, int components, std
     bytes.reserve(numbers.size_bytes());
     for (const Number number : numbers) {
         if constexpr (kReal && sizeof(Number) == 8) {
-            put(bytes, std::bit_cast<std::uint64_t>(number));
+            putLittleEndian(bytes, std::bit_cast<std::uint64_t>(number));
         } else if constexpr (kReal) {
-            put(bytes, number);
+            putLittleEndian(bytes, number);
         } else {
-            put(bytes, static_cast<std::make_unsigned_t<Number>>(number));
+            putLittleEndian(bytes, static_cast<std::make_unsigned_t<Number>>(number));
         }
     }
     const std::string kind = kReal ? "Float" : std::is_signed_v<Number> ? "Int" : "UInt";

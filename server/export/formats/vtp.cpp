@@ -41,12 +41,12 @@ void appendVector(std::vector<float>& out, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(v[i]));
 }
 
-glm::dvec3 placeOf(const SceneInput& source, int slice) {
-    if (source.contents != ExportContents::oval) return glm::dvec3(0);
+glm::dvec3 placeOf(const SceneToWrite& source, int slice) {
+    if (source.contents != ExportContentsKind::oval) return glm::dvec3(0);
     return source.scene.placements[static_cast<std::size_t>(slice)].position / source.scene.scale;
 }
 
-void addElements(const SceneInput& source, int slice, PolyData& out) {
+void addElements(const SceneToWrite& source, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
     const glm::dvec3 place = placeOf(source, slice);
     const auto i = static_cast<std::size_t>(slice);
@@ -76,7 +76,7 @@ void addElements(const SceneInput& source, int slice, PolyData& out) {
                 for (std::uint32_t c = slices.cornerBegin[f]; c < slices.cornerBegin[f + 1]; ++c)
                     out.corners.push_back(first + slices.corners[c]);
                 endElement();
-                out.cell.push_back(static_cast<std::int32_t>(source.scene.cellOfFace(f)));
+                out.cell.push_back(static_cast<std::int32_t>(source.scene.coloringCellOfFace(f)));
             }
             break;
     }
@@ -131,7 +131,7 @@ std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std
     return copies;
 }
 
-void addSurface(const SceneInput& source, int slice, PolyData& out) {
+void addSurface(const SceneToWrite& source, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
     const slicing::SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(slice)];
     const std::int64_t first = addPoints(surface, placeOf(source, slice), out);
@@ -190,14 +190,14 @@ std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
 
 }  // namespace
 
-std::string vtp(const SceneInput& source) {
+std::string vtp(const SceneToWrite& source) {
     const fields::Field* const field = slicing::fieldIn(source.object);
     const bool isField = field != nullptr;
     PolyData data;
     if (!isField) data.elements = elementsOf(source.object);
     std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {
-        source.budget.checkTime();
+        source.budget.checkTimeAndStop();
         source.budget.checkTrianglesAndMemory(data.ends.size());
         const std::size_t before = data.ends.size();
         isField ? addSurface(source, i, data) : addElements(source, i, data);

@@ -48,35 +48,35 @@ std::string x3d(const MeshesToWrite& meshes);
 /// w, the level if there are several, volume, area of the level set without caps, centroid (empty if there is no
 /// volume), number of connected components, Euler characteristic of the surface (see slicing::SurfaceMeasurements), and
 /// the mean of the second function on the surface if there is such a function. Computes the surfaces anew by
-/// slicing::ClosedSurfaceSlicer, and ignores those of the scene. For ExportContents::critical, the file has instead one
-/// row per critical value of w (see slicing::findCriticalSections()): w, the name of the change, the level, the numbers
-/// of components and of cavities and the Euler characteristic below and above w, and
+/// slicing::ClosedSurfaceSlicer, and ignores those of the scene. For ExportContentsKind::critical, the file has instead
+/// one row per critical value of w (see slicing::findCriticalSections()): w, the name of the change, the level, the
+/// numbers of components and of cavities and the Euler characteristic below and above w, and
 /// slicing::CriticalSections::tolerance. Throws ExportRefused if a limit is exceeded or a stop is requested.
 ///
 /// For other objects, the file has one row per slice: n, w, the numbers of vertices, edges and faces, volume, area, and
 /// centroid (empty if the slice is empty). w and the centroid are in the coordinates of the object's file (see
-/// ObjectInfo::originInFile). For ExportContents::critical, the file has instead one row per critical value of w, at
-/// which the combinatorial type of the slices changes: w, and the number of the object's vertices there.
-std::string measurementsCsv(const SceneInput& source);
+/// ObjectInfo::originInFile). For ExportContentsKind::critical, the file has instead one row per critical value of w,
+/// at which the combinatorial type of the slices changes: w, and the number of the object's vertices there.
+std::string measurementsCsv(const SceneToWrite& source);
 
 /// Returns the rotated object, a polytope, surface or point cloud, as a 4OFF file in the units and coordinates of the
 /// object's file (see ObjectInfo::originInFile). Importing the file of a polytope or surface gives the rotated object;
 /// the file of a point cloud has vertices only.
-std::string off(const SceneInput& source);
+std::string off(const SceneToWrite& source);
 
 /// Returns a scene of POV-Ray 3.7, whose image has the slices of the picture with their faces, bars, balls, surfaces
 /// and labels, the projection if the picture shows it, and the camera, light and background of the picture. Lengths are
 /// in world units; the coordinates are right-handed. Adds a warning if the picture has fog. Throws ExportRefused if a
 /// limit is exceeded or a stop is requested.
-std::string pov(const SceneInput& source);
+std::string pov(const SceneToWrite& source);
 
 /// Returns a VTK XML file of the type ImageData: the values of a field in slice 0, on a regular lattice that fills the
 /// bounding box of the domain's slice, in the object's own units. The values of points outside the domain are NaN. The
-/// object must be a field, and the contents must be ExportContents::focus. Throws ExportRefused if the slice is empty,
-/// if a limit is exceeded, or if a stop is requested.
-std::string vti(const SceneInput& source);
+/// object must be a field, and the contents must be ExportContentsKind::focus. Throws ExportRefused if the slice is
+/// empty, if a limit is exceeded, or if a stop is requested.
+std::string vti(const SceneToWrite& source);
 
-/// Returns a VTK XML file of the type PolyData, in the object's own units. For ExportContents::oval, the slices are
+/// Returns a VTK XML file of the type PolyData, in the object's own units. For ExportContentsKind::oval, the slices are
 /// placed as in the picture. For a polytope, the file has the faces of the slices, with the array `cell`; for a
 /// surface, the edges of the slices; for a point cloud, the points. For a field, it has the surfaces of all levels,
 /// with the arrays `value`, `second_value` (if there is a second function), `normals` and `growth` (see
@@ -84,7 +84,7 @@ std::string vti(const SceneInput& source);
 /// each face, edge, point or triangle, the index n of the hyperplane of its slice, and the w of this hyperplane in the
 /// coordinates of the object's file. Infinite growth is written as NaN. Adds a warning about slices that have none of
 /// these elements. Throws ExportRefused if a limit is exceeded or a stop is requested.
-std::string vtp(const SceneInput& source);
+std::string vtp(const SceneToWrite& source);
 
 // --- Formats of drawings.
 
@@ -104,30 +104,30 @@ std::string tikz(const Drawing& drawing);
 
 /// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
 /// null. `readsSurfaces` and `showsPicture` are those of Format.
-struct Writer {
+struct FormatWriterRow {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
-    std::string (*ofScene)(const SceneInput&) = nullptr;
+    std::string (*ofScene)(const SceneToWrite&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
     bool readsSurfaces = false, showsPicture = false;
 };
 
 /// All writers. Each has a row of protocol/export_formats.json with the same name.
 inline constexpr auto kWriters =
-    std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
-                           {.name = "csv", .ofScene = measurementsCsv},
-                           {.name = "glb", .ofBodies = glb},
-                           {.name = "obj", .ofBodies = obj},
-                           {.name = "off", .ofScene = off},
-                           {.name = "pdf", .ofDrawing = pdf},
-                           {.name = "ply", .ofBodies = ply},
-                           {.name = "pov", .ofScene = pov, .readsSurfaces = true, .showsPicture = true},
-                           {.name = "scad", .ofBodies = scad},
-                           {.name = "stl", .ofBodies = stl},
-                           {.name = "svg", .ofDrawing = svg},
-                           {.name = "tikz", .ofDrawing = tikz},
-                           {.name = "vti", .ofScene = vti},
-                           {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
-                           {.name = "x3d", .ofBodies = x3d}});
+    std::to_array<FormatWriterRow>({{.name = "3mf", .ofBodies = threeMf},
+                                    {.name = "csv", .ofScene = measurementsCsv},
+                                    {.name = "glb", .ofBodies = glb},
+                                    {.name = "obj", .ofBodies = obj},
+                                    {.name = "off", .ofScene = off},
+                                    {.name = "pdf", .ofDrawing = pdf},
+                                    {.name = "ply", .ofBodies = ply},
+                                    {.name = "pov", .ofScene = pov, .readsSurfaces = true, .showsPicture = true},
+                                    {.name = "scad", .ofBodies = scad},
+                                    {.name = "stl", .ofBodies = stl},
+                                    {.name = "svg", .ofDrawing = svg},
+                                    {.name = "tikz", .ofDrawing = tikz},
+                                    {.name = "vti", .ofScene = vti},
+                                    {.name = "vtp", .ofScene = vtp, .readsSurfaces = true},
+                                    {.name = "x3d", .ofBodies = x3d}});
 
 }  // namespace oval4d::exports

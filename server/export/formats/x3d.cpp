@@ -10,7 +10,7 @@ constexpr double kMeter = 1e-3;  // meters per millimeter
 
 void appendColor(std::string& out, scene::Color color) {
     for (const unsigned shift : {16U, 8U, 0U}) {
-        append(out, static_cast<float>(color >> shift & 0xffU) / 255.0F);
+        appendDecimal(out, static_cast<float>(color >> shift & 0xffU) / 255.0F);
         out += ' ';
     }
 }
@@ -28,7 +28,7 @@ std::string quotedString(std::string_view text) {
 
 void appendBody(std::string& out, const PlacedMesh& solid, const MeshesToWrite& meshes) {
     out += "<Transform translation=\"";
-    append(out, glm::dvec3(solid.at * kMeter));
+    appendDecimal(out, glm::dvec3(solid.at * kMeter));
     const std::vector<scene::Color>& colors = solid.mesh.pointColors;
     out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet ";
     out += colors.empty() ? "colorPerVertex=\"false\"" : "creaseAngle=\"0.7\"";
@@ -37,7 +37,7 @@ void appendBody(std::string& out, const PlacedMesh& solid, const MeshesToWrite& 
         out += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + " -1 ";
     out += "\">\n<Coordinate point=\"";
     for (const glm::dvec3& point : solid.mesh.points) {
-        append(out, glm::dvec3(point * kMeter));
+        appendDecimal(out, glm::dvec3(point * kMeter));
         out += ' ';
     }
     out += "\"/>\n<Color color=\"";
@@ -56,7 +56,7 @@ std::string x3d(const MeshesToWrite& meshes) {
         "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +
         xmlEscaped(meshes.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
     for (const PlacedMesh& solid : meshes.solids) {
-        meshes.budget.checkTime();
+        meshes.budget.checkTimeAndStop();
         appendBody(out, solid, meshes);
     }
     return out + "</Scene>\n</X3D>\n";

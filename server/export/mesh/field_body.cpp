@@ -36,7 +36,7 @@ std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::si
 Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
                  const Budget& budget) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[static_cast<std::size_t>(i)];
-    const scene::SurfaceLook::Level& look = scene.surfaces.levels[level];
+    const scene::SurfaceLook::LevelLook& look = scene.surfaces.levels[level];
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         if (surface.levelIndex(t) == look.index) triangles.push_back(surface.triangles[t]);

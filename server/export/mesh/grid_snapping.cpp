@@ -24,15 +24,15 @@ std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edg
 std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
 /// A closed surface as half-edges. Each half-edge has a twin, which leads the opposite way.
-class HalfEdges {
+class HalfEdgeMesh {
   public:
-    HalfEdges(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-              const RoundingGrid& grid, const Budget& budget)
+    HalfEdgeMesh(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+                 const RoundingGrid& grid, const Budget& budget)
         : grid_(grid), budget_(budget) {
         for (const auto& triangle : triangles) origins_.insert(origins_.end(), triangle.begin(), triangle.end());
         removed_.assign(triangles.size(), false);
         pairTwins();
-        budget_.checkTime();
+        budget_.checkTimeAndStop();
         separateFans(points);
     }
 
@@ -67,7 +67,7 @@ class HalfEdges {
             for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
                 if (!removed_[triangleOf(edge)] && at_[origins_[edge]] == at_[endOf(edge)]) changed |= collapse(edge);
             }
-            budget_.checkTime();
+            budget_.checkTimeAndStop();
         }
     }
 
@@ -82,7 +82,7 @@ class HalfEdges {
                     longest = lengthOf(edge) > lengthOf(longest) ? edge : longest;
                 flip(longest);
             }
-            budget_.checkTime();
+            budget_.checkTimeAndStop();
         }
     }
 
@@ -279,7 +279,7 @@ class HalfEdges {
 SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
                            const RoundingGrid& grid, const Budget& budget) {
     constexpr int kLeastSteps = 4;
-    HalfEdges surface(points, triangles, grid, budget);
+    HalfEdgeMesh surface(points, triangles, grid, budget);
     surface.removeSmallParts(kLeastSteps);
     surface.collapseEdges();
     surface.flipDegenerate();

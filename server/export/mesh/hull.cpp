@@ -15,9 +15,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Incremental convex hull: for each point, the triangles that are visible from the point are removed, and a fan of
 // triangles from the point to the boundary of the hole replaces them. Triangles coplanar with the point are kept, so
 // that no new triangle is degenerate.
-class Hull {
+class IncrementalHull {
   public:
-    Hull(const std::vector<glm::dvec3>& points, double step) {
+    IncrementalHull(const std::vector<glm::dvec3>& points, double step) {
         for (const glm::dvec3& p : points) {
             points_.push_back({std::llround(p.x / step), std::llround(p.y / step), std::llround(p.z / step)});
         }
@@ -26,7 +26,7 @@ class Hull {
     std::vector<Triangle> run(const Budget* budget) {
         if (!begin()) return {};
         for (std::uint32_t p = 0; p < points_.size(); ++p) {
-            if (budget != nullptr) budget->checkTime();
+            if (budget != nullptr) budget->checkTimeAndStop();
             add(p);
         }
         return std::move(triangles_);
@@ -99,7 +99,7 @@ Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, con
         }
         return *numbers[point];
     };
-    for (const auto& [a, b, c] : Hull(points, grid.step()).run(budget)) {
+    for (const auto& [a, b, c] : IncrementalHull(points, grid.step()).run(budget)) {
         const std::uint32_t first = number(a);
         const std::uint32_t second = number(b);
         mesh.add(first, second, number(c), kNoCell);

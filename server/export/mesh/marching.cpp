@@ -58,13 +58,13 @@ constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
 
 class MarchingTetrahedra {
   public:
-    MarchingTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+    MarchingTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                        const Budget& budget)
         : field_(field), crossing_(crossing), grid_(grid), budget_(budget) {}
 
     Mesh run() {
-        for (const SampledField::Block* block : field_.blocks()) {
-            budget_.checkTime();
+        for (const SampledField::ValueBlock* block : field_.blocks()) {
+            budget_.checkTimeAndStop();
             budget_.checkTrianglesAndMemory(mesh_.triangles.size());
             load(block->corner);
             for (int i = 0; i < kPoints; ++i) cube(block->corner, {i & 7, i >> 3 & 7, i >> 6});
@@ -79,7 +79,7 @@ class MarchingTetrahedra {
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
-            const SampledField::Block* block = field_.find(corner + kSide * offset(c));
+            const SampledField::ValueBlock* block = field_.find(corner + kSide * offset(c));
             if (block == nullptr) continue;
             const glm::ivec3 shift = kSide * offset(c);
             const glm::ivec3 count = glm::mix(glm::ivec3(kSide), glm::ivec3(1), glm::bvec3(offset(c)));
@@ -153,16 +153,16 @@ class MarchingTetrahedra {
         }
     }
 
-    using Ids = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
+    using EdgePointIndices = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
     // Returns the table of mesh points of the block that contains `point`. For each field point of the block, the table
     // has seven entries, one for each edge from the point in a direction of offset(): the index of the mesh point on
     // the edge, or kNone. Creates the table on first use.
-    Ids& blockIdsOf(const glm::ivec3& point) {
+    EdgePointIndices& blockIdsOf(const glm::ivec3& point) {
         const std::uint64_t key = keyOf(point);
         if (last_ == nullptr || lastKey_ != key) {
             auto& ids = ids_[key];
             if (!ids) {
-                ids = std::make_unique<Ids>();
+                ids = std::make_unique<EdgePointIndices>();
                 ids->fill(kNone);
             }
             last_ = ids.get();
@@ -172,14 +172,14 @@ class MarchingTetrahedra {
     }
 
     const SampledField& field_;
-    const FindCrossing& crossing_;
+    const CrossingFinder& crossing_;
     const RoundingGrid& grid_;
     const Budget& budget_;
     Mesh mesh_;
     std::vector<std::uint32_t> pointCells_;
     std::array<bool, (kSide + 1) * (kSide + 1) * (kSide + 1)> inside_{};
-    std::unordered_map<std::uint64_t, std::unique_ptr<Ids>> ids_;
-    Ids* last_ = nullptr;
+    std::unordered_map<std::uint64_t, std::unique_ptr<EdgePointIndices>> ids_;
+    EdgePointIndices* last_ = nullptr;
     std::uint64_t lastKey_ = 0;
 };
 
@@ -192,7 +192,7 @@ float& SampledField::operator[](const glm::ivec3& point) {
     if (last_ == nullptr || last_->corner != corner) {
         auto& block = blocks_[keyOf(point)];
         if (!block) {
-            block = std::make_unique<Block>();
+            block = std::make_unique<ValueBlock>();
             block->corner = corner;
             block->values.fill(std::numeric_limits<float>::infinity());
         }
@@ -201,31 +201,31 @@ float& SampledField::operator[](const glm::ivec3& point) {
     return last_->values[indexIn(point)];
 }
 
-const SampledField::Block* SampledField::find(const glm::ivec3& point) const {
+const SampledField::ValueBlock* SampledField::find(const glm::ivec3& point) const {
     const auto found = blocks_.find(keyOf(point));
     return found == blocks_.end() ? nullptr : found->second.get();
 }
 
 float SampledField::value(const glm::ivec3& point) const {
-    const Block* block = find(point);
+    const ValueBlock* block = find(point);
     return block != nullptr ? block->values[indexIn(point)] : std::numeric_limits<float>::infinity();
 }
 
-std::vector<const SampledField::Block*> SampledField::blocks() const {
-    std::vector<std::pair<std::uint64_t, const Block*>> sorted;
+std::vector<const SampledField::ValueBlock*> SampledField::blocks() const {
+    std::vector<std::pair<std::uint64_t, const ValueBlock*>> sorted;
     for (const auto& [key, block] : blocks_) sorted.emplace_back(key, block.get());
     std::ranges::sort(sorted);
-    std::vector<const Block*> out;
+    std::vector<const ValueBlock*> out;
     for (const auto& [key, block] : sorted) out.push_back(block);
     return out;
 }
 
-Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                      const Budget& budget) {
     return MarchingTetrahedra(field, crossing, grid, budget).run();
 }
 
-FindCrossing linearCrossing(const SampledField& field) {
+CrossingFinder linearCrossing(const SampledField& field) {
     return [&field](const glm::ivec3& inside, const glm::ivec3& outside) {
         const double in = field.value(inside);
         const double out = field.value(outside);

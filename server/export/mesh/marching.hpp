@@ -45,20 +45,20 @@ class SampledField {
     /// Returns the value at a point.
     float value(const glm::ivec3& point) const;
 
-    struct Block {
+    struct ValueBlock {
         glm::ivec3 corner;                                ///< the indices of the block's point with the least x, y, z
         std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, z slowest
     };
     /// Returns all blocks, in an order that depends only on their positions and not on the order of their creation.
-    std::vector<const Block*> blocks() const;
+    std::vector<const ValueBlock*> blocks() const;
     /// Returns the block that contains the point, or nullptr if the block does not exist.
-    const Block* find(const glm::ivec3& point) const;
+    const ValueBlock* find(const glm::ivec3& point) const;
 
   private:
     glm::dvec3 origin_;
     double step_;
-    std::unordered_map<std::uint64_t, std::unique_ptr<Block>> blocks_;
-    Block* last_ = nullptr;  // the block last written to
+    std::unordered_map<std::uint64_t, std::unique_ptr<ValueBlock>> blocks_;
+    ValueBlock* last_ = nullptr;  // the block last written to
 };
 
 /// The point where the surface crosses an edge of a tetrahedron. `fraction` is the position of the point on the edge,
@@ -69,7 +69,7 @@ struct EdgeCrossing {
     std::uint32_t cell = kNoCell;
 };
 /// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
-using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
+using CrossingFinder = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
 inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid steps; see marchTetrahedra()
 
@@ -79,11 +79,11 @@ inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid
 /// mesh are rounded to `grid`. The field's step must be at least kLeastFieldStep steps of `grid`: then no two crossings
 /// coincide after rounding, because crossings are kept away from the ends of their edges. From kGoodFieldStep on,
 /// crossings are far enough apart that the triangles keep their shapes. Throws ExportRefused if `budget` is exceeded.
-Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const RoundingGrid& grid,
+Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 
 /// Returns a function that finds crossings by linear interpolation of the values of `field` at the ends of an edge. The
 /// EdgeCrossing::cell of these crossings is kNoCell. `field` must outlive the function.
-FindCrossing linearCrossing(const SampledField& field);
+CrossingFinder linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

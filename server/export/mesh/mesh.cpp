@@ -106,13 +106,13 @@ std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
     return normals;
 }
 
-void Box::include(const glm::dvec3& point) {
+void BoundingBox::include(const glm::dvec3& point) {
     min = glm::min(min, point);
     max = glm::max(max, point);
 }
 
-Box boxOf(const Mesh& mesh) {
-    Box box;
+BoundingBox boxOf(const Mesh& mesh) {
+    BoundingBox box;
     for (const glm::dvec3& point : mesh.points) box.include(point);
     return box;
 }

@@ -80,12 +80,12 @@ glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh);
 
 /// An axis-aligned bounding box. It is empty until it includes a point.
-struct Box {
+struct BoundingBox {
     glm::dvec3 min{1e300}, max{-1e300};
     void include(const glm::dvec3& point);
     glm::dvec3 size() const { return max - min; }
 };
 /// Returns the bounding box of the mesh's points.
-Box boxOf(const Mesh& mesh);
+BoundingBox boxOf(const Mesh& mesh);
 
 }  // namespace oval4d::exports

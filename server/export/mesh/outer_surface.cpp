@@ -25,9 +25,9 @@ struct FanTriangle {
     std::uint32_t cell;
 };
 
-class OuterSurface {
+class OuterSurfaceMesher {
   public:
-    OuterSurface(const slicing::SliceSet& slices, int i, double scale, const Budget& budget) : budget_(budget) {
+    OuterSurfaceMesher(const slicing::SliceSet& slices, int i, double scale, const Budget& budget) : budget_(budget) {
         for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
             points_.push_back(slices.vertices[v] * scale);
             box_.include(points_.back());
@@ -61,7 +61,7 @@ class OuterSurface {
     // A crossing of a line with a triangle. `at` is the position of the crossing on the line: in fill(), its x; in
     // findCrossing(), the fraction of the way from the outside point to the inside point. `windingChange` is the change
     // of the winding number at the crossing.
-    struct Hit {
+    struct LineCrossing {
         double at;
         int windingChange;
         std::uint32_t cell;
@@ -83,10 +83,10 @@ class OuterSurface {
 
     /// Sets the values of all points inside the surface to −1, line by line along x.
     void fill(SampledField& field) const {
-        std::unordered_map<std::uint64_t, std::vector<Hit>> lines;
+        std::unordered_map<std::uint64_t, std::vector<LineCrossing>> lines;
         for (const FanTriangle& triangle : triangles_) {
             const auto [a, b, c] = triangle.corners;
-            Box box;
+            BoundingBox box;
             for (const std::uint32_t corner : triangle.corners) box.include(points_[corner]);
             const glm::ivec3 least = field.floorIndex(box.min);
             const glm::ivec3 most = field.floorIndex(box.max) + 1;
@@ -104,8 +104,8 @@ class OuterSurface {
             }
         }
         for (auto& [where, hits] : lines) {
-            budget_.checkTime();
-            std::ranges::sort(hits, {}, &Hit::at);
+            budget_.checkTimeAndStop();
+            std::ranges::sort(hits, {}, &LineCrossing::at);
             const int j = static_cast<int>(where >> 32U) - kShift;
             const int k = static_cast<int>(where & 0xffffffffU) - kShift;
             int winding = 0;
@@ -131,9 +131,9 @@ class OuterSurface {
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
-            budget_.checkTime();
+            budget_.checkTimeAndStop();
             const auto& corners = triangles_[p].corners;
-            Box box;
+            BoundingBox box;
             for (const std::uint32_t corner : corners) box.include(points_[corner]);
             const glm::dvec3 base = points_[corners[0]];
             const glm::dvec3 normal = glm::cross(points_[corners[1]] - base, points_[corners[2]] - base);
@@ -167,7 +167,7 @@ class OuterSurface {
         }
         std::ranges::sort(near);
         near.erase(std::unique(near.begin(), near.end()), near.end());
-        std::vector<Hit> hits;
+        std::vector<LineCrossing> hits;
         const glm::dvec3 way = inside - outside;
         for (const std::uint32_t p : near) {
             // T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
@@ -185,9 +185,9 @@ class OuterSurface {
             if (s < 0 || t < 0 || s + t > 1 || at < 0 || at > 1) continue;
             hits.push_back({at, determinant > 0 ? 1 : -1, triangles_[p].cell});
         }
-        std::ranges::sort(hits, {}, &Hit::at);
+        std::ranges::sort(hits, {}, &LineCrossing::at);
         int winding = 0;
-        for (const Hit& hit : hits) {
+        for (const LineCrossing& hit : hits) {
             winding += hit.windingChange;
             if (winding != 0) return {1 - hit.at, hit.cell};
         }
@@ -207,7 +207,7 @@ class OuterSurface {
     const Budget& budget_;
     std::vector<glm::dvec3> points_;
     std::vector<FanTriangle> triangles_;
-    Box box_;
+    BoundingBox box_;
     double width_ = 1;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> boxes_;
 };
@@ -216,7 +216,7 @@ class OuterSurface {
 
 Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
                     const Budget& budget) {
-    return OuterSurface(slices, i, scale, budget).mesh(grid);
+    return OuterSurfaceMesher(slices, i, scale, budget).mesh(grid);
 }
 
 }  // namespace oval4d::exports

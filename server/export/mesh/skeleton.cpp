@@ -105,7 +105,7 @@ Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Skel
     // 0 at once, and triangles with corners at such points degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         addCapsule(capsule, field);
     }
     return marchTetrahedra(field, linearCrossing(field), grid, budget);

@@ -48,7 +48,7 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], points[0]));
     constexpr double kFlat = 1e-7;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = doubleAreaNormalOfFace(slices, i, f);
         // The normal of a sliver, a face with almost no area, is unreliable. The tests of the neighboring faces
@@ -98,7 +98,7 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& b
     std::size_t best = 0;
     double bestLeast = -1;
     for (std::size_t apex = 0; apex < n; ++apex) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         double least = 1e300;
         for (std::size_t c = 1; c + 1 < n; ++c) {
             const glm::dvec3 normal =
@@ -134,7 +134,7 @@ Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
         normals.emplace_back(unitNormalOfFace(slices, i, f), slices.faceSource[f]);
     for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
-        budget.checkTime();
+        budget.checkTimeAndStop();
         const glm::dvec3 normal = doubleAreaNormalOf(hull, hull.triangles[t]);
         hull.cells[t] = std::ranges::max_element(normals, {}, [&](const auto& face) {
                             return glm::dot(face.first, normal);

@@ -12,7 +12,7 @@ namespace {
 // The data that the callbacks of GLU's tessellator share. (This tessellator needs no OpenGL context.) The tessellator
 // passes pointers to elements of `corners` to the callback `vertex`: the pointers that tessellate() gave to it, and
 // those that the callback `combine` made where contours cross.
-struct Tessellation {
+struct TessellatorData {
     // Each corner has its position and its index; corners made by `combine` have the index 0xffffffff. The container is
     // a deque, because pointers to its elements remain valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
@@ -22,13 +22,13 @@ struct Tessellation {
     bool failed = false;
 };
 
-using Corner = decltype(Tessellation::corners)::value_type;
+using TessellatorCorner = decltype(TessellatorData::corners)::value_type;
 
-void begin(GLenum /*kind*/, void* to) { static_cast<Tessellation*>(to)->contours.emplace_back(); }
+void begin(GLenum /*kind*/, void* to) { static_cast<TessellatorData*>(to)->contours.emplace_back(); }
 
 void vertex(void* data, void* to) {
-    auto* tessellation = static_cast<Tessellation*>(to);
-    const auto* corner = static_cast<Corner*>(data);
+    auto* tessellation = static_cast<TessellatorData*>(to);
+    const auto* corner = static_cast<TessellatorCorner*>(data);
     tessellation->out.push_back(corner->second);
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
@@ -37,21 +37,21 @@ void vertex(void* data, void* to) {
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {
-    auto* tessellation = static_cast<Tessellation*>(to);
+    auto* tessellation = static_cast<TessellatorData*>(to);
     tessellation->crossed = true;
     tessellation->corners.push_back({{at[0], at[1], at[2]}, 0xffffffffU});
     *made = &tessellation->corners.back();
 }
 
-void fail(GLenum /*code*/, void* to) { static_cast<Tessellation*>(to)->failed = true; }
+void fail(GLenum /*code*/, void* to) { static_cast<TessellatorData*>(to)->failed = true; }
 
 template <typename Function>
 _GLUfuncptr callback(Function* function) {
     return reinterpret_cast<_GLUfuncptr>(function);
 }
 
-Tessellation tessellate(const std::vector<Contour>& contours, bool outline) {
-    Tessellation tessellation;
+TessellatorData tessellate(const std::vector<Contour>& contours, bool outline) {
+    TessellatorData tessellation;
     const std::unique_ptr<GLUtesselator, decltype(&gluDeleteTess)> tess(gluNewTess(), &gluDeleteTess);
     gluTessProperty(tess.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_NONZERO);
     gluTessProperty(tess.get(), GLU_TESS_BOUNDARY_ONLY, outline ? GL_TRUE : GL_FALSE);
@@ -77,12 +77,12 @@ Tessellation tessellate(const std::vector<Contour>& contours, bool outline) {
 }  // namespace
 
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours) {
-    Tessellation tessellation = tessellate(contours, true);
+    TessellatorData tessellation = tessellate(contours, true);
     return tessellation.failed ? std::vector<Contour>{} : std::move(tessellation.contours);
 }
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours) {
-    const Tessellation tessellation = tessellate(contours, false);
+    const TessellatorData tessellation = tessellate(contours, false);
     std::vector<std::array<std::uint32_t, 3>> triangles;
     if (tessellation.failed || tessellation.crossed) return triangles;
     for (std::size_t i = 0; i + 2 < tessellation.out.size(); i += 3)

@@ -53,13 +53,13 @@ void ArrayFunction::evaluateWithGradient(const PointBatch& points, std::span<flo
     interpolateWithGradient({lattice_, samples_.values().data()}, points, values, gradients, fastestInstructions());
 }
 
-Bounds ArrayFunction::boundsIn(const Box& region) const {
+ValueBounds ArrayFunction::boundsIn(const Box& region) const {
     SampleIndexRange range{};
     for (std::size_t i = 0; i < 4; ++i) {
         const auto axis = static_cast<glm::length_t>(i);
         std::tie(range.first[i], range.last[i]) = samplesBetween(lattice_.axes[i], region.min[axis], region.max[axis]);
     }
-    Bounds bounds = bricks_.boundsOf(range);
+    ValueBounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
     // An interpolated value is the result of four linear interpolations, each with a rounding error of at most 4.3 ·
     // 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). The summand 2⁻¹⁴⁶ covers underflow. If max −
@@ -85,8 +85,8 @@ const ArrayFunction& ArrayFunction::selection() const {
     return *selection_;
 }
 
-const ScalarFunction& ArrayFunction::forSteps(std::span<const glm::dvec4> steps) const {
-    if (!isEager()) return selection().forSteps(steps);
+const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4> steps) const {
+    if (!isEager()) return selection().versionForSteps(steps);
     const bool areLong = std::ranges::all_of(steps, [this](const glm::dvec4& step) {
         double squaredLength = 0;  // of the step, in cells
         for (std::size_t i = 0; i < 4; ++i) {
@@ -95,7 +95,7 @@ const ScalarFunction& ArrayFunction::forSteps(std::span<const glm::dvec4> steps)
         }
         return squaredLength >= 4;
     });
-    return coarser_ != nullptr && areLong ? coarser_->forSteps(steps) : *this;
+    return coarser_ != nullptr && areLong ? coarser_->versionForSteps(steps) : *this;
 }
 
 void ArrayFunction::releasePages() const {

@@ -31,8 +31,8 @@ class ArrayFunction final : public ScalarFunction {
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
     /// Arrays of up to this many samples have no coarser version, because slicing them is fast anyway.
     static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;
-    /// The maximum number of samples in the selection that forSteps() returns for an array that the constructor does
-    /// not read.
+    /// The maximum number of samples in the selection that versionForSteps() returns for an array that the constructor
+    /// does not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
     /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all samples if there are at
@@ -55,12 +55,12 @@ class ArrayFunction final : public ScalarFunction {
     /// rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks may be missing,
     /// or if the difference of the bounds exceeds the largest float. If the minimum or maximum of the region along an
     /// axis is NaN, the region is taken to extend along the whole axis.
-    Bounds boundsIn(const Box& region) const override;
+    ValueBounds boundsIn(const Box& region) const override;
 
     /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long;
     /// this array itself if a step is shorter than a cell of this array. If the constructor has not read the array,
     /// returns a selection of at most kSelectedSamples of its samples, or a coarser version of the selection.
-    const ScalarFunction& forSteps(std::span<const glm::dvec4> steps) const override;
+    const ScalarFunction& versionForSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:
     /// see MappedFile::releasePages().
@@ -70,7 +70,7 @@ class ArrayFunction final : public ScalarFunction {
 
     /// Returns the sum of the memory, in bytes, of the BrickBounds, of the coarser versions (at most about 1/15 of that
     /// of the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
-    /// read, the sum contains the maximum that the BrickBounds and the selection of forSteps() may take.
+    /// read, the sum contains the maximum that the BrickBounds and the selection of versionForSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }

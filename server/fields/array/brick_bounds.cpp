@@ -28,7 +28,7 @@ std::uint64_t pack(const SampleStatistics& brick) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(min)} << 32U | std::bit_cast<std::uint32_t>(max);
 }
 
-void join(Bounds& bounds, std::uint64_t entry) {
+void join(ValueBounds& bounds, std::uint64_t entry) {
     const auto maxBits = static_cast<std::uint32_t>(entry);
     bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
     bounds.max = std::max(bounds.max, double{std::bit_cast<float>(maxBits)});
@@ -128,7 +128,7 @@ std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t,
 }  // namespace
 
 BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), eager_(eager) {
-    Level bricks;
+    PyramidLevel bricks;
     for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t cells = from.lattice.shape[i] - 1;
         bricks.size[i] = std::max<std::size_t>(1, (cells + kCells - 1) / kCells);
@@ -141,16 +141,17 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
         while (levels_.back().entries.size() > 1) joinBricks();
         return;
     }
-    slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(Slot));
+    slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(CacheSlot));
     // With calloc, unlike with new, the slots take memory only when they are written.
-    slots_.reset(static_cast<Slot*>(std::calloc(slotCount_, sizeof(Slot))));  // NOLINT(cppcoreguidelines-no-malloc)
+    slots_.reset(
+        static_cast<CacheSlot*>(std::calloc(slotCount_, sizeof(CacheSlot))));  // NOLINT(cppcoreguidelines-no-malloc)
     if (!slots_) throw std::bad_alloc();
     levels_.push_back(bricks);
     estimateStatistics();
 }
 
 void BrickBounds::readAll() {
-    const Level& level = levels_.front();
+    const PyramidLevel& level = levels_.front();
     const BrickIndex& size = level.size;
     std::array<SampleStatistics, kRun> run;
     auto entry = level.entries.begin();
@@ -186,10 +187,10 @@ void BrickBounds::estimateStatistics() {
 
 // Adds the next coarser level to the pyramid.
 void BrickBounds::joinBricks() {
-    const Level fine = levels_.back();
-    Level coarse;
+    const PyramidLevel fine = levels_.back();
+    PyramidLevel coarse;
     for (std::size_t i = 0; i < 4; ++i) coarse.size[i] = (fine.size[i] + 1) / 2;
-    std::vector<Bounds> joined(coarse.size[0] * coarse.size[1] * coarse.size[2] * coarse.size[3]);
+    std::vector<ValueBounds> joined(coarse.size[0] * coarse.size[1] * coarse.size[2] * coarse.size[3]);
     auto entry = fine.entries.begin();
     for (std::size_t l = 0; l < fine.size[3]; ++l) {
         for (std::size_t k = 0; k < fine.size[2]; ++k) {
@@ -200,19 +201,19 @@ void BrickBounds::joinBricks() {
         }
     }
     coarse.entries = eagerEntries_.emplace_back(joined.size());
-    std::transform(joined.begin(), joined.end(), coarse.entries.begin(), [](const Bounds& bounds) {
+    std::transform(joined.begin(), joined.end(), coarse.entries.begin(), [](const ValueBounds& bounds) {
         return pack(
             {static_cast<float>(bounds.min), static_cast<float>(bounds.max), bounds.hasValueEverywhere ? 0U : 1U});
     });
     levels_.push_back(coarse);
 }
 
-std::uint64_t BrickBounds::entryAt(const Level& level, const BrickIndex& brick) const {
+std::uint64_t BrickBounds::entryAt(const PyramidLevel& level, const BrickIndex& brick) const {
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
     constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; as a factor, spreads neighbors over the slots
-    Slot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
+    CacheSlot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
@@ -223,7 +224,7 @@ std::uint64_t BrickBounds::entryAt(const Level& level, const BrickIndex& brick) 
     return known;
 }
 
-Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
+ValueBounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
     BrickIndex first{}, last{};
     for (std::size_t i = 0; i < 4; ++i) {
         first[i] = std::min(range.first[i] / kCells, levels_.front().size[i] - 1);
@@ -242,7 +243,7 @@ Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
             last[i] /= 2;
         }
     }
-    Bounds bounds;
+    ValueBounds bounds;
     BrickIndex at{};
     for (at[3] = first[3]; at[3] <= last[3]; ++at[3]) {
         for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
@@ -257,7 +258,7 @@ Bounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
 std::size_t BrickBounds::memoryBytes() const {
     std::size_t bytes = 0;
     for (const auto& entries : eagerEntries_) bytes += entries.size() * sizeof(std::uint64_t);
-    return bytes + slotCount_ * sizeof(Slot);
+    return bytes + slotCount_ * sizeof(CacheSlot);
 }
 
 }  // namespace oval4d::fields

@@ -51,7 +51,7 @@ class BrickBounds {
 
     /// Returns bounds of the samples in `range`, which must lie within the lattice. In the result, `hasValueEverywhere`
     /// is false if a sample may be missing.
-    Bounds boundsOf(const SampleIndexRange& range) const;
+    ValueBounds boundsOf(const SampleIndexRange& range) const;
 
     /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
     const SampleStatistics& statistics() const { return statistics_; }
@@ -63,7 +63,7 @@ class BrickBounds {
     using BrickIndex = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
 
     // A level of the pyramid; `entries` are the packed bounds of its bricks, empty unless eager_.
-    struct Level {
+    struct PyramidLevel {
         BrickIndex size;  // the number of bricks along each axis
         std::span<std::uint64_t> entries;
     };
@@ -73,7 +73,7 @@ class BrickBounds {
     /// evenly over the array.
     void estimateStatistics();
     void joinBricks();
-    std::uint64_t entryAt(const Level& level, const BrickIndex& brick) const;
+    std::uint64_t entryAt(const PyramidLevel& level, const BrickIndex& brick) const;
 
     const SampledLattice from_;
     const bool eager_;
@@ -82,15 +82,16 @@ class BrickBounds {
     // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
     // implementation for parallel search": `check` is the brick's index XOR its entry. Therefore, a slot whose two
     // members were written by different threads is practically never taken for the entry of a brick.
-    struct Slot {
+    struct CacheSlot {
         std::uint64_t check, entry;
     };
     struct FreeDeleter {
-        void operator()(Slot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
+        void operator()(CacheSlot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
     };
-    std::unique_ptr<Slot[], FreeDeleter> slots_;  // zero-initialized: the entry 0 means an empty slot; null if eager
-    std::size_t slotCount_ = 0;                   // a power of 2
-    std::vector<Level> levels_;                   // from fine to coarse; only the finest one unless eager_
+    std::unique_ptr<CacheSlot[], FreeDeleter>
+        slots_;                         // zero-initialized: the entry 0 means an empty slot; null if eager
+    std::size_t slotCount_ = 0;         // a power of 2
+    std::vector<PyramidLevel> levels_;  // from fine to coarse; only the finest one unless eager_
 };
 
 }  // namespace oval4d::fields

@@ -66,9 +66,12 @@ struct CellPoint {
 
     /// Returns the interpolated value, or NaN if a corner with a nonzero weight is not finite.
     float value() const {
-        const float plain = reduce(mix);  // not finite if a corner is not finite, even a corner with the weight 0
+        const float plain =
+            interpolateCorners(mix);  // not finite if a corner is not finite, even a corner with the weight 0
         if (isFinite(plain)) return plain;
-        const float weighted = reduce([](float a, float b, float s) { return s == 0 ? a : s == 1 ? b : mix(a, b, s); });
+        const float weighted = interpolateCorners([](float a, float b, float s) {
+            return s == 0 ? a : s == 1 ? b : mix(a, b, s);
+        });
         return isFinite(weighted) ? weighted : kNoValue;
     }
 
@@ -95,7 +98,7 @@ struct CellPoint {
   private:
     // Interpolates along w, z, y, and then x. Each step calls `mixed`, which is mix() or a variant of it.
     template <typename Mix>
-    float reduce(const Mix& mixed) const {
+    float interpolateCorners(const Mix& mixed) const {
         std::array<float, 2> ends{};
         for (std::size_t x = 0; x < 2; ++x) {
             const float* const c = &corners[x * kRows];

@@ -12,7 +12,7 @@ namespace oval4d::fields {
 namespace {
 
 // The weight with which a fine sample contributes to the coarse sample with the index `coarse`.
-struct Weight {
+struct CoarseSampleWeight {
     std::uint32_t coarse;
     float weight;
 };
@@ -20,10 +20,10 @@ struct Weight {
 // The weights of each fine sample along an axis: those of sample i are items[begin[i]] … items[begin[i + 1] − 1].
 struct AxisWeights {
     std::vector<std::uint32_t> begin{0};  // size() + 1 entries
-    std::vector<Weight> items;
+    std::vector<CoarseSampleWeight> items;
 
     std::size_t size() const { return begin.size() - 1; }
-    std::span<const Weight> operator[](std::size_t i) const {
+    std::span<const CoarseSampleWeight> operator[](std::size_t i) const {
         return std::span(items).subspan(begin[i], begin[i + 1] - begin[i]);
     }
 };
@@ -67,7 +67,7 @@ struct RowSums {
         std::fill(weights.begin(), weights.end(), 0.F);
         for (std::size_t i = 0; i < weightsOfX.size(); ++i) {
             if (!isFinite(row[i])) continue;
-            for (const Weight& each : weightsOfX[i]) {
+            for (const CoarseSampleWeight& each : weightsOfX[i]) {
                 values[each.coarse] += row[i] * each.weight;
                 weights[each.coarse] += each.weight;
             }
@@ -108,9 +108,9 @@ std::vector<float> downsample(const Shape& shape, std::span<const float> samples
             for (std::size_t j = 0; j < shape[1]; ++j) {
                 row.assign(from, weights[0]);
                 from += shape[0];
-                for (const Weight& w : weights[3][l]) {
-                    for (const Weight& z : weights[2][k]) {
-                        for (const Weight& y : weights[1][j]) {
+                for (const CoarseSampleWeight& w : weights[3][l]) {
+                    for (const CoarseSampleWeight& z : weights[2][k]) {
+                        for (const CoarseSampleWeight& y : weights[1][j]) {
                             const float weight = w.weight * z.weight * y.weight;
                             const std::size_t at = ((w.coarse * size[2] + z.coarse) * size[1] + y.coarse) * size[0];
                             addWeighted(row.values, weight, &sums[at]);

@@ -27,25 +27,25 @@ constexpr std::size_t kLanes = ScalarFunction::kLanes;
 constexpr std::size_t kAhead = 4;
 
 // The members of LatticeAxis, each copied to all lanes.
-struct Axis {
+struct AxisLanes {
     __m256 origin, scale, shift, last, lastCell;
     __m256d stride;
 };
 
 // The cells of eight points: for each point, the index of the cell's first sample, the position in the cell, and
 // whether a coordinate of the point is NaN.
-struct Cells {
+struct CellLanes {
     std::array<std::int64_t, kLanes> first;
     __m256 t[4], nan;
 };
 
 // One row of samples from each of four cells, or numbers interpolated from such rows. Each pair of numbers belongs to
 // one cell: the number at the lower x, then the one at the upper x.
-using Pairs = __m256;
+using PairLanes = __m256;
 
 // The results of the interpolation along w, z and y in four cells: the values and the derivatives along y, z and w.
 struct InterpolatedAlongWzy {
-    Pairs value, dy, dz, dw;
+    PairLanes value, dy, dz, dw;
 };
 
 OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
@@ -61,13 +61,13 @@ OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
 }
 
 // Finds the cells of the kLanes points from index `begin` on.
-OVAL4D_AVX2 inline void locate(const Axis* axes, const PointBatch& points, std::size_t begin, Cells& cells) {
+OVAL4D_AVX2 inline void locate(const AxisLanes* axes, const PointBatch& points, std::size_t begin, CellLanes& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
     cells.nan = _mm256_or_ps(_mm256_cmp_ps(at[0], at[1], _CMP_UNORD_Q), _mm256_cmp_ps(at[2], at[3], _CMP_UNORD_Q));
     __m256d low = _mm256_setzero_pd(), high = low;
     for (std::size_t i = 0; i < 4; ++i) {
-        const Axis& axis = axes[i];
+        const AxisLanes& axis = axes[i];
         __m256 position = _mm256_add_ps(_mm256_mul_ps(_mm256_sub_ps(at[i], axis.origin), axis.scale), axis.shift);
         position = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), axis.last);  // NaN becomes 0
         const __m256 cell = _mm256_min_ps(_mm256_floor_ps(position), axis.lastCell);
@@ -81,7 +81,7 @@ OVAL4D_AVX2 inline void locate(const Axis* axes, const PointBatch& points, std::
     putIntegers(high, cells.first.data() + 4);
 }
 
-inline void prefetch(const float* samples, const RowOffsets& offsets, const Cells& cells) {
+inline void prefetch(const float* samples, const RowOffsets& offsets, const CellLanes& cells) {
     for (std::size_t i = 0; i < kLanes; i += 2) {
         for (const std::size_t offset : offsets) __builtin_prefetch(samples + cells.first[i] + offset);
     }
@@ -94,7 +94,7 @@ inline double pairAt(const float* at) {
 }
 
 // Loads one row from each of four cells. On some processors, gather instructions are slower than these loads.
-OVAL4D_AVX2 inline Pairs rowAt(const float* samples, const std::int64_t* first) {
+OVAL4D_AVX2 inline PairLanes rowAt(const float* samples, const std::int64_t* first) {
     return _mm256_castpd_ps(_mm256_set_pd(pairAt(samples + first[3]), pairAt(samples + first[2]),
                                           pairAt(samples + first[1]), pairAt(samples + first[0])));
 }
@@ -105,14 +105,14 @@ template <bool kGradient>
 OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
                                             const __m256& y, const __m256& z, const __m256& w,
                                             InterpolatedAlongWzy& out) {
-    Pairs rows[kRows];
+    PairLanes rows[kRows];
     for (std::size_t row = 0; row < kRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
-    Pairs v[4];  // at the lower and upper y of the lower z, then of the upper z
+    PairLanes v[4];  // at the lower and upper y of the lower z, then of the upper z
     for (std::size_t i = 0; i < 4; ++i) v[i] = mix(rows[i], rows[i + 4], w);
-    const Pairs y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
+    const PairLanes y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
     out.value = mix(y0, y1, y);
     if constexpr (kGradient) {
-        Pairs dw[4];
+        PairLanes dw[4];
         for (std::size_t i = 0; i < 4; ++i) dw[i] = _mm256_sub_ps(rows[i + 4], rows[i]);
         out.dy = _mm256_sub_ps(y1, y0);
         out.dz = mix(_mm256_sub_ps(v[2], v[0]), _mm256_sub_ps(v[3], v[1]), y);
@@ -125,14 +125,14 @@ struct ValuesAtXEnds {
     __m256 low, high;
 };
 
-OVAL4D_AVX2 inline void split(const Pairs& firstFour, const Pairs& lastFour, ValuesAtXEnds& ends) {
+OVAL4D_AVX2 inline void split(const PairLanes& firstFour, const PairLanes& lastFour, ValuesAtXEnds& ends) {
     const __m256i evenThenOdd = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
     const __m256 a = _mm256_permutevar8x32_ps(firstFour, evenThenOdd);
     const __m256 b = _mm256_permutevar8x32_ps(lastFour, evenThenOdd);
     ends = {_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31)};
 }
 
-OVAL4D_AVX2 inline __m256 mixEnds(const Pairs& firstFour, const Pairs& lastFour, const __m256& x) {
+OVAL4D_AVX2 inline __m256 mixEnds(const PairLanes& firstFour, const PairLanes& lastFour, const __m256& x) {
     ValuesAtXEnds ends;
     split(firstFour, lastFour, ends);
     return mix(ends.low, ends.high, x);
@@ -144,7 +144,7 @@ OVAL4D_AVX2 inline __m256 isFinite(const __m256& numbers) {
 }
 
 // Returns the lanes in which the point lies on a face of its cell, so that some corners have the weight 0.
-OVAL4D_AVX2 inline __m256 onFaces(const Cells& cells) {
+OVAL4D_AVX2 inline __m256 onFaces(const CellLanes& cells) {
     __m256 faces = _mm256_setzero_ps();
     for (const __m256& t : cells.t) {
         const __m256 lower = _mm256_cmp_ps(t, _mm256_setzero_ps(), _CMP_EQ_OQ);
@@ -157,7 +157,7 @@ OVAL4D_AVX2 inline __m256 onFaces(const Cells& cells) {
 template <bool kGradient>
 OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                                   const GradientBatch& gradients) {
-    Axis axes[4];
+    AxisLanes axes[4];
     for (std::size_t i = 0; i < 4; ++i) {
         const LatticeAxis& axis = from.lattice.axes[i];
         axes[i] = {_mm256_set1_ps(axis.origin),   _mm256_set1_ps(axis.scale),
@@ -167,12 +167,12 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
     const RowOffsets offsets = rowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
-    Cells upcoming[kAhead];  // the cells of the next kAhead groups; those of group g are at g % kAhead
+    CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; those of group g are at g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
         locate(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {
-        Cells& next = upcoming[i / kLanes % kAhead];
-        const Cells cells = next;
+        CellLanes& next = upcoming[i / kLanes % kAhead];
+        const CellLanes cells = next;
         if (const std::size_t ahead = i + kAhead * kLanes; ahead < points.size()) {
             locate(axes, points, ahead, next);
             prefetch(from.samples, offsets, next);

@@ -54,7 +54,7 @@ SampleStorage::SampleStorage(MappedFilePtr file, std::size_t offset, std::size_t
     values_ = {reinterpret_cast<const float*>(bytes.data() + offset), count};
 }
 
-std::size_t SampleStorage::offset() const {
+std::size_t SampleStorage::byteOffsetInFile() const {
     return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(values_.data()) - file_->bytes().data());
 }
 

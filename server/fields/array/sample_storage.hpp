@@ -30,7 +30,7 @@ class SampleStorage {
     /// Returns the mapped file that contains the samples; null if they are in memory.
     const MappedFilePtr& file() const { return file_; }
     /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
-    std::size_t offset() const;
+    std::size_t byteOffsetInFile() const;
 
     /// Returns these samples, followed by `others`. Normally copies these samples and `others` into new memory, which
     /// has room for 1.5 times as many samples. However, if these samples are the result of an earlier call, nothing has

@@ -128,22 +128,22 @@ double nanosecondsOf(Operation operation) {
 
 }  // namespace
 
-Bounds FormulaFunction::boundsIn(const Box& region) const {
+ValueBounds FormulaFunction::boundsIn(const Box& region) const {
     const auto& [instructions, registers] = formula_.tape();
-    thread_local std::vector<Bounds> intervals;
+    thread_local std::vector<ValueBounds> intervals;
     if (intervals.size() < Tape::kFirstScratch + registers) intervals.resize(Tape::kFirstScratch + registers);
     for (int axis = 0; axis < 4; ++axis)
         intervals[static_cast<std::size_t>(axis)] = intervalOfCoordinate(region.min[axis], region.max[axis]);
     for (const Instruction& next : instructions) {
         using OperandForm = Instruction::OperandForm;
-        const Bounds number = next.form != OperandForm::two_registers || next.operation == Operation::constant
-                                  ? intervalOf(next.number)
-                                  : Bounds{};
+        const ValueBounds number = next.form != OperandForm::two_registers || next.operation == Operation::constant
+                                       ? intervalOf(next.number)
+                                       : ValueBounds{};
         const bool isFirst = next.operation == Operation::constant || next.form == OperandForm::number_and_register;
-        const Bounds& a = isFirst ? number : intervals[next.a];
-        const Bounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
+        const ValueBounds& a = isFirst ? number : intervals[next.a];
+        const ValueBounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
         const int exponent = next.operation == Operation::integer_power ? static_cast<int>(next.number) : 0;
-        const Bounds result = intervalOf(next.operation, a, b, exponent);
+        const ValueBounds result = intervalOf(next.operation, a, b, exponent);
         // Copying the members one by one, not by a vector instruction, is faster: see fields/CMakeLists.txt.
         intervals[next.result].min = result.min;
         intervals[next.result].max = result.max;

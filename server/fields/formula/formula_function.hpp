@@ -24,7 +24,7 @@ class FormulaFunction final : public ScalarFunction {
                               const GradientBatch& gradients) const override;
     /// The bounds contain the values that evaluate() returns and the exact real values: the values at all points of the
     /// region, and the values at these points rounded to floats.
-    Bounds boundsIn(const Box& region) const override;
+    ValueBounds boundsIn(const Box& region) const override;
     EvaluationCost cost() const override;
     std::size_t memoryBytes() const override;
 

@@ -26,7 +26,7 @@ class GradientLoops : private ValueLoops<Math> {
                 compute(*next, outputRegister(block, next->result), a, b, block.size);
                 continue;
             }
-            ValuesAndPartials partials;
+            BlockValuesAndPartials partials;
             computePartials(*next, partials, a, b, block.size);
             for (unsigned axis = 0; axis < 4; ++axis) {
                 const bool byA = (next->axesOfA >> axis & 1U) != 0, byB = (next->axesOfB >> axis & 1U) != 0;
@@ -34,26 +34,26 @@ class GradientLoops : private ValueLoops<Math> {
                 float* out = outputDerivative(block, next->result, axis);
                 const float* ofA = inputDerivative(block, ones, next->a, axis);
                 const float* ofB = inputDerivative(block, ones, next->b, axis);
-                combine(*next, partials, byA, byB, out, ofA, ofB, block.size);
+                applyChainRule(*next, partials, byA, byB, out, ofA, ofB, block.size);
             }
             map([](float x) { return x; }, outputRegister(block, next->result), partials.value, block.size);
         }
-        finish(instructions[count - 1], block);
+        zeroInvalidGradients(instructions[count - 1], block);
     }
 
   private:
     using OperandForm = Instruction::OperandForm;
-    using Size = std::size_t;
+    using SizeType = std::size_t;
     using Base::choosesFirst;
     using Base::compute;
     using Base::halfIntegerPower;
     using Base::integerPower;
-    using Base::isHalfInteger;
     using Base::map;
     using Base::powerOrAtan2;
     using Base::sign;
-    using typename Base::Array;
-    using typename Base::Number;
+    using Base::usesHalfIntegerPower;
+    using typename Base::ArrayOperand;
+    using typename Base::NumberOperand;
 
     static float* outputRegister(const GradientBlock& block, unsigned index) {
         return index == Tape::kResult ? block.values
@@ -72,7 +72,7 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     // The values of an operation, and its partial derivatives with respect to its operands.
-    struct ValuesAndPartials {
+    struct BlockValuesAndPartials {
         float value[kGradientBlockPoints], byA[kGradientBlockPoints], byB[kGradientBlockPoints];
     };
     struct ValueAndPartials {
@@ -82,30 +82,30 @@ class GradientLoops : private ValueLoops<Math> {
     // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
     // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that cannot is not read.
     // min and max take the derivative of one operand, even if the other derivative is not finite.
-    static void combine(const Instruction& instruction, const ValuesAndPartials& partials, bool byA, bool byB,
-                        float* out, const float* ofA, const float* ofB, Size size) {
-        const Number zero{0};
+    static void applyChainRule(const Instruction& instruction, const BlockValuesAndPartials& partials, bool byA,
+                               bool byB, float* out, const float* ofA, const float* ofB, SizeType size) {
+        const NumberOperand zero{0};
         if (instruction.operation == Operation::min || instruction.operation == Operation::max) {
             const auto choose = [&](auto left, auto right) {
 #pragma omp simd
-                for (Size i = 0; i < size; ++i) {
+                for (SizeType i = 0; i < size; ++i) {
                     const float first = left[i], second = right[i];
                     out[i] = partials.byA[i] != 0 ? first : second;
                 }
             };
-            if (byA && byB) return choose(Array{ofA}, Array{ofB});
-            return byA ? choose(Array{ofA}, zero) : choose(zero, Array{ofB});
+            if (byA && byB) return choose(ArrayOperand{ofA}, ArrayOperand{ofB});
+            return byA ? choose(ArrayOperand{ofA}, zero) : choose(zero, ArrayOperand{ofB});
         }
         const auto product = [](float x, float y) { return x * y; };
-        if (!byB) return map(product, out, Array{partials.byA}, Array{ofA}, size);
-        if (!byA) return map(product, out, Array{partials.byB}, Array{ofB}, size);
+        if (!byB) return map(product, out, ArrayOperand{partials.byA}, ArrayOperand{ofA}, size);
+        if (!byA) return map(product, out, ArrayOperand{partials.byB}, ArrayOperand{ofB}, size);
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
+        for (SizeType i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
     // Sets to 0 the derivatives that the last instruction has not written, and then each gradient that is not finite or
     // whose value is not finite.
-    static void finish(const Instruction& last, const GradientBlock& block) {
+    static void zeroInvalidGradients(const Instruction& last, const GradientBlock& block) {
         for (unsigned axis = 0; axis < 4; ++axis) {
             if ((last.axes >> axis & 1U) == 0)
                 map([](float) { return 0.0F; }, block.gradients[axis], block.gradients[axis], block.size);
@@ -113,7 +113,7 @@ class GradientLoops : private ValueLoops<Math> {
         float *x = block.gradients[0], *y = block.gradients[1], *z = block.gradients[2], *w = block.gradients[3];
         const float* values = block.values;
 #pragma omp simd
-        for (Size i = 0; i < block.size; ++i) {
+        for (SizeType i = 0; i < block.size; ++i) {
             // 0 · a is 0 if a is finite, otherwise NaN.
             const float zero = (0 * values[i] + 0 * x[i]) + (0 * y[i] + 0 * z[i]) + 0 * w[i];
             const bool isFinite = zero == zero;
@@ -125,9 +125,9 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     template <typename F, typename A, typename B>
-    static void fill(F f, ValuesAndPartials& out, A a, B b, Size size) {
+    static void fill(F f, BlockValuesAndPartials& out, A a, B b, SizeType size) {
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) {
+        for (SizeType i = 0; i < size; ++i) {
             const ValueAndPartials partial = f(a[i], b[i]);
             out.value[i] = partial.value;
             out.byA[i] = partial.byA;
@@ -135,27 +135,27 @@ class GradientLoops : private ValueLoops<Math> {
         }
     }
     template <typename F>
-    static void fill(F f, const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
-                     Size size) {
-        const Number number{static_cast<float>(instruction.number)};
+    static void fill(F f, const Instruction& instruction, BlockValuesAndPartials& out, const float* a, const float* b,
+                     SizeType size) {
+        const NumberOperand number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
-                return fill(f, out, Array{a}, Array{b}, size);
+                return fill(f, out, ArrayOperand{a}, ArrayOperand{b}, size);
             case OperandForm::register_and_number:
-                return fill(f, out, Array{a}, number, size);
+                return fill(f, out, ArrayOperand{a}, number, size);
             case OperandForm::number_and_register:
-                return fill(f, out, number, Array{b}, size);
+                return fill(f, out, number, ArrayOperand{b}, size);
         }
     }
     // Sets out.byA to f(operand, out.value) for an operation with one operand.
     template <typename F>
-    static void derive(F f, ValuesAndPartials& out, const float* a, Size size) {
+    static void setPartialByA(F f, BlockValuesAndPartials& out, const float* a, SizeType size) {
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
+        for (SizeType i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
     }
 
-    static void computePartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
-                                Size size) {
+    static void computePartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
+                                const float* b, SizeType size) {
         switch (instruction.operation) {
             case Operation::add:
                 return fill([](float x, float y) { return ValueAndPartials{x + y, 1, 1}; }, instruction, out, a, b,
@@ -195,8 +195,8 @@ class GradientLoops : private ValueLoops<Math> {
         return {choosesFirst ? x : y, choosesFirst ? 1.0F : 0.0F, 0};
     }
 
-    static void arctangent2Partials(const Instruction& instruction, ValuesAndPartials& out, const float* a,
-                                    const float* b, Size size) {
+    static void arctangent2Partials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
+                                    const float* b, SizeType size) {
         fill(
             [](float y, float x) {
                 const float squares = x * x + y * y;
@@ -207,8 +207,8 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a, which is 0 for a = 0 < b.
-    static void powerPartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, const float* b,
-                              Size size) {
+    static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
+                              const float* b, SizeType size) {
         if (instruction.axesOfB != 0) {
             fill([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b, size);
             Math::unary(Operation::log, out.byB, out.byB, size);
@@ -216,65 +216,66 @@ class GradientLoops : private ValueLoops<Math> {
         powerOrAtan2(instruction, out.value, a, b, size);
         if (instruction.axesOfB != 0) {
 #pragma omp simd
-            for (Size i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
+            for (SizeType i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
         }
         if (instruction.axesOfA == 0) return;
         const auto number = static_cast<float>(instruction.number);
         const bool isConstant = instruction.form == OperandForm::register_and_number;
-        if (isConstant && isHalfInteger(number - 1)) {
+        if (isConstant && usesHalfIntegerPower(number - 1)) {
             halfIntegerPower(number - 1, out.byA, a, size);
             return map([number](float x) { return number * x; }, out.byA, out.byA, size);
         }
         float exponents[kGradientBlockPoints];
-        for (Size i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
+        for (SizeType i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
         Math::powerOrAtan2(Operation::power, out.byA, a, exponents, size);
-        for (Size i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
+        for (SizeType i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
     }
 
-    static void unaryPartials(const Instruction& instruction, ValuesAndPartials& out, const float* a, Size size) {
+    static void unaryPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
+                              SizeType size) {
         switch (instruction.operation) {
             case Operation::copy:
-                return derive([](float, float) { return 1.0F; }, out, a, size);
+                return setPartialByA([](float, float) { return 1.0F; }, out, a, size);
             case Operation::negate:
-                return derive([](float, float) { return -1.0F; }, out, a, size);
+                return setPartialByA([](float, float) { return -1.0F; }, out, a, size);
             case Operation::abs:
-                return derive([](float x, float) { return sign(x); }, out, a, size);
+                return setPartialByA([](float x, float) { return sign(x); }, out, a, size);
             case Operation::square:
-                return derive([](float x, float) { return 2 * x; }, out, a, size);
+                return setPartialByA([](float x, float) { return 2 * x; }, out, a, size);
             case Operation::integer_power: {
                 const int n = static_cast<int>(instruction.number);
                 integerPower(n - 1, out.byA, a, size);
                 return map([n](float x) { return static_cast<float>(n) * x; }, out.byA, out.byA, size);
             }
             case Operation::sqrt:
-                return derive([](float, float value) { return 0.5F / value; }, out, a, size);
+                return setPartialByA([](float, float value) { return 0.5F / value; }, out, a, size);
             case Operation::cbrt:
-                return derive([](float, float value) { return 1 / (3 * value * value); }, out, a, size);
+                return setPartialByA([](float, float value) { return 1 / (3 * value * value); }, out, a, size);
             case Operation::exp:
-                return derive([](float, float value) { return value; }, out, a, size);
+                return setPartialByA([](float, float value) { return value; }, out, a, size);
             case Operation::log:
-                return derive([](float x, float) { return 1 / x; }, out, a, size);
+                return setPartialByA([](float x, float) { return 1 / x; }, out, a, size);
             case Operation::sin:
                 return Math::unary(Operation::cos, out.byA, a, size);
             case Operation::cos:
                 Math::unary(Operation::sin, out.byA, a, size);
                 return map([](float x) { return -x; }, out.byA, out.byA, size);
             case Operation::tan:
-                return derive([](float, float value) { return 1 + value * value; }, out, a, size);
+                return setPartialByA([](float, float value) { return 1 + value * value; }, out, a, size);
             case Operation::asin:
-                return derive([](float x, float) { return 1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
+                return setPartialByA([](float x, float) { return 1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
             case Operation::acos:
-                return derive([](float x, float) { return -1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
+                return setPartialByA([](float x, float) { return -1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
             case Operation::atan:
-                return derive([](float x, float) { return 1 / (1 + x * x); }, out, a, size);
+                return setPartialByA([](float x, float) { return 1 / (1 + x * x); }, out, a, size);
             case Operation::sinh:
                 return Math::unary(Operation::cosh, out.byA, a, size);
             case Operation::cosh:
                 return Math::unary(Operation::sinh, out.byA, a, size);
             case Operation::tanh:
-                return derive([](float, float value) { return 1 - value * value; }, out, a, size);
+                return setPartialByA([](float, float value) { return 1 - value * value; }, out, a, size);
             default:
-                return derive([](float, float) { return 0.0F; }, out, a, size);
+                return setPartialByA([](float, float) { return 0.0F; }, out, a, size);
         }
     }
 };

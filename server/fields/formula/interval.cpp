@@ -22,11 +22,11 @@ struct RoundingError {
 };
 constexpr RoundingError kCorrectlyRounded{0x1p-23, 0x1p-148}, kFunction{0x1p-20, 0x1p-125};
 
-constexpr Bounds kEmpty{.min = kInfinity, .max = -kInfinity, .hasValueEverywhere = false};
+constexpr ValueBounds kEmpty{.min = kInfinity, .max = -kInfinity, .hasValueEverywhere = false};
 
-bool isEmpty(const Bounds& a) { return a.min > a.max; }
-bool contains(const Bounds& a, double value) { return a.min <= value && value <= a.max; }
-bool mayBeInfinite(const Bounds& a) { return a.min == -kInfinity || a.max == kInfinity; }
+bool isEmpty(const ValueBounds& a) { return a.min > a.max; }
+bool contains(const ValueBounds& a, double value) { return a.min <= value && value <= a.max; }
+bool mayBeInfinite(const ValueBounds& a) { return a.min == -kInfinity || a.max == kInfinity; }
 
 // Returns an upper bound of the floats computed for real results up to `max`.
 double upperBound(double max, RoundingError error) {
@@ -37,14 +37,14 @@ double upperBound(double max, RoundingError error) {
 }
 
 // Returns the interval of floats computed for the real results [min, max]. An end that is NaN becomes infinite.
-Bounds widened(double min, double max, bool hasValueEverywhere, RoundingError error) {
+ValueBounds widened(double min, double max, bool hasValueEverywhere, RoundingError error) {
     return {std::isnan(min) ? -kInfinity : -upperBound(-min, error),
             std::isnan(max) ? kInfinity : upperBound(max, error), hasValueEverywhere};
 }
 
 // Returns the interval from the smallest to the largest of the candidates, widened by `error`. If a candidate is NaN,
 // the interval is unbounded.
-Bounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
+ValueBounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
     double min = kInfinity, max = -kInfinity;
     for (const double candidate : candidates) {
         if (std::isnan(candidate)) return {-kInfinity, kInfinity, hasValueEverywhere};
@@ -56,19 +56,19 @@ Bounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, R
 
 // Returns the interval of f on `a`. f must be monotonic.
 template <typename F>
-Bounds monotonic(F f, const Bounds& a, RoundingError error = kFunction) {
+ValueBounds monotonic(F f, const ValueBounds& a, RoundingError error = kFunction) {
     return hull({f(a.min), f(a.max)}, a.hasValueEverywhere, error);
 }
 
-Bounds add(const Bounds& a, const Bounds& b) {
+ValueBounds add(const ValueBounds& a, const ValueBounds& b) {
     const bool mayCancel = (a.max == kInfinity && b.min == -kInfinity) || (a.min == -kInfinity && b.max == kInfinity);
     return widened(a.min + b.min, a.max + b.max, a.hasValueEverywhere && b.hasValueEverywhere && !mayCancel,
                    kCorrectlyRounded);
 }
 
-Bounds negate(const Bounds& a) { return {-a.max, -a.min, a.hasValueEverywhere}; }
+ValueBounds negate(const ValueBounds& a) { return {-a.max, -a.min, a.hasValueEverywhere}; }
 
-Bounds multiply(const Bounds& a, const Bounds& b) {
+ValueBounds multiply(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
                                     !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
     // An infinite end stands for large finite numbers, whose products with 0 are 0. `hasValueEverywhere` covers 0 · ∞,
@@ -78,52 +78,52 @@ Bounds multiply(const Bounds& a, const Bounds& b) {
                 hasValueEverywhere, kCorrectlyRounded);
 }
 
-Bounds divide(const Bounds& a, const Bounds& b) {
+ValueBounds divide(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
                                     !(contains(a, 0) && contains(b, 0)) && !(mayBeInfinite(a) && mayBeInfinite(b));
     if (contains(b, 0)) return {-kInfinity, kInfinity, hasValueEverywhere};
     return hull({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, hasValueEverywhere, kCorrectlyRounded);
 }
 
-Bounds abs(const Bounds& a) {
+ValueBounds abs(const ValueBounds& a) {
     const double min = contains(a, 0) ? 0 : std::min(std::abs(a.min), std::abs(a.max));
     return {min, std::max(std::abs(a.min), std::abs(a.max)), a.hasValueEverywhere};
 }
 
-Bounds square(const Bounds& a) {
-    const Bounds size = abs(a);
+ValueBounds square(const ValueBounds& a) {
+    const ValueBounds size = abs(a);
     return widened(size.min * size.min, size.max * size.max, a.hasValueEverywhere, kCorrectlyRounded);
 }
 
-Bounds integerPower(const Bounds& a, int exponent) {
+ValueBounds integerPower(const ValueBounds& a, int exponent) {
     const int n = std::abs(exponent);
-    const Bounds base = n % 2 == 0 ? abs(a) : a;
-    const Bounds power = widened(std::pow(base.min, n), std::pow(base.max, n), a.hasValueEverywhere,
-                                 {n * kCorrectlyRounded.relative, n * 0x1p-148});
+    const ValueBounds base = n % 2 == 0 ? abs(a) : a;
+    const ValueBounds power = widened(std::pow(base.min, n), std::pow(base.max, n), a.hasValueEverywhere,
+                                      {n * kCorrectlyRounded.relative, n * 0x1p-148});
     return exponent > 0 ? power : divide({1, 1, true}, power);
 }
 
-Bounds sqrt(const Bounds& a) {
+ValueBounds sqrt(const ValueBounds& a) {
     if (a.max < 0) return kEmpty;
     return widened(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.hasValueEverywhere && a.min >= 0,
                    kCorrectlyRounded);
 }
 
-Bounds log(const Bounds& a) {
+ValueBounds log(const ValueBounds& a) {
     if (a.max < 0) return kEmpty;
     return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
 }
 
 // Returns whether, for some integer k, phase + k · period is in `a`, or outside of `a` by no more than rounding errors
 // may be.
-bool containsPhase(const Bounds& a, double phase, double period) {
+bool containsPhase(const ValueBounds& a, double phase, double period) {
     const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
 }
 
 // Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where it is greatest.
 template <typename F>
-Bounds sine(F f, double top, const Bounds& a) {
+ValueBounds sine(F f, double top, const ValueBounds& a) {
     constexpr double kLarge = 1e6;  // beyond ±kLarge, the slack of containsPhase() is too large to be useful
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
     if (a.min < -kLarge || a.max > kLarge) return widened(-1, 1, hasValueEverywhere, kFunction);
@@ -133,7 +133,7 @@ Bounds sine(F f, double top, const Bounds& a) {
                    kFunction);
 }
 
-Bounds tangent(const Bounds& a) {
+ValueBounds tangent(const ValueBounds& a) {
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
     if (mayBeInfinite(a) || a.max - a.min >= pi || containsPhase(a, pi / 2, pi))
         return {-kInfinity, kInfinity, hasValueEverywhere};
@@ -142,20 +142,20 @@ Bounds tangent(const Bounds& a) {
 
 // Returns the interval of `f`, which must be asin or acos, on `a`.
 template <typename F>
-Bounds arc(F f, const Bounds& a) {
+ValueBounds arc(F f, const ValueBounds& a) {
     if (a.max < -1 || a.min > 1) return kEmpty;
     const bool hasValueEverywhere = a.hasValueEverywhere && a.min >= -1 && a.max <= 1;
     return hull({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, hasValueEverywhere, kFunction);
 }
 
-Bounds hyperbolicCosine(const Bounds& a) {
-    const Bounds size = abs(a);
+ValueBounds hyperbolicCosine(const ValueBounds& a) {
+    const ValueBounds size = abs(a);
     return widened(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
 // Returns the interval of a^b for a ≥ 0. The extrema of a^b over the rectangle of all (a, b) are at its corners,
 // because a^b has no extrema inside, and is monotonic along each side.
-Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
+ValueBounds powerOfPositive(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
     // A zero in `a` may be −0, which to the power of an odd negative number is −∞, not ∞.
     if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, hasValueEverywhere};
@@ -163,13 +163,13 @@ Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
                 hasValueEverywhere, kFunction);
 }
 
-Bounds power(const Bounds& a, const Bounds& b) {
+ValueBounds power(const ValueBounds& a, const ValueBounds& b) {
     if (a.min >= 0) return powerOfPositive(a, b);
     const bool mayBeInteger = std::floor(b.max) >= b.min;
     if (!mayBeInteger) {
         // `b` contains no integers. For such exponents, pow(−∞, b) is pow(∞, b) in C, not NaN.
         if (a.max < 0 && a.min > -kInfinity) return kEmpty;
-        const Bounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
+        const ValueBounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
         return powerOfPositive(positive, b);
     }
     const double largest = powerOfPositive(abs(a), b).max;
@@ -178,7 +178,7 @@ Bounds power(const Bounds& a, const Bounds& b) {
             a.hasValueEverywhere && b.hasValueEverywhere && isInteger};
 }
 
-Bounds arctangent2(const Bounds& y, const Bounds& x) {
+ValueBounds arctangent2(const ValueBounds& y, const ValueBounds& x) {
     const bool hasValueEverywhere = y.hasValueEverywhere && x.hasValueEverywhere;
     const bool containsCut = contains(y, 0) && x.min <= 0;
     if (containsCut) return widened(-pi, pi, hasValueEverywhere, kFunction);
@@ -189,15 +189,15 @@ Bounds arctangent2(const Bounds& y, const Bounds& x) {
 
 // Returns the interval of a − b⌊q⌋, where q is the computed quotient: a/b times a factor from 1 − 2⁻²⁴ to 1 + 2⁻²⁴. The
 // value is between 0 and b, except for a few rounding errors of numbers that are at most |a| + |b|.
-Bounds modulo(const Bounds& a, const Bounds& b) {
-    const Bounds quotient = divide(a, b);
+ValueBounds modulo(const ValueBounds& a, const ValueBounds& b) {
+    const ValueBounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};
     const double slack = 0x1p-22 * (abs(a).max + abs(b).max) + kFunction.absolute;
-    Bounds result{std::min(b.min, 0.0) - slack, std::max(b.max, 0.0) + slack,
-                  a.hasValueEverywhere && b.hasValueEverywhere};
+    ValueBounds result{std::min(b.min, 0.0) - slack, std::max(b.max, 0.0) + slack,
+                       a.hasValueEverywhere && b.hasValueEverywhere};
     if (std::floor(quotient.min) == std::floor(quotient.max)) {
-        const Bounds whole{std::floor(quotient.min), std::floor(quotient.min), true};
-        const Bounds exact = add(a, negate(multiply(b, whole)));
+        const ValueBounds whole{std::floor(quotient.min), std::floor(quotient.min), true};
+        const ValueBounds exact = add(a, negate(multiply(b, whole)));
         result.min = std::max(result.min, exact.min);
         result.max = std::min(result.max, exact.max);
     }
@@ -206,18 +206,18 @@ Bounds modulo(const Bounds& a, const Bounds& b) {
 
 }  // namespace
 
-Bounds intervalOf(double number) {
+ValueBounds intervalOf(double number) {
     if (std::isnan(number)) return kEmpty;
     const double rounding = static_cast<float>(number);
     return {std::min(number, rounding), std::max(number, rounding), true};
 }
 
-Bounds intervalOfCoordinate(double min, double max) {
+ValueBounds intervalOfCoordinate(double min, double max) {
     if (std::isnan(min) || std::isnan(max)) return {-kInfinity, kInfinity, false};
     return {std::min<double>(min, static_cast<float>(min)), std::max<double>(max, static_cast<float>(max)), true};
 }
 
-Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent) {
+ValueBounds intervalOf(Operation operation, const ValueBounds& a, const ValueBounds& b, int exponent) {
     if (isEmpty(a) || (isBinary(operation) && isEmpty(b))) return kEmpty;
     switch (operation) {
         case Operation::constant:

@@ -25,16 +25,16 @@ namespace oval4d::fields {
 
 /// Returns the interval of a number in a formula: it contains both the number and the float that evaluate() uses in
 /// place of the number. For NaN, returns an empty interval (min > max).
-Bounds intervalOf(double number);
+ValueBounds intervalOf(double number);
 
 /// Returns the interval of a coordinate between `min` and `max`. The ends are rounded outward to floats, so the
 /// interval also contains coordinates that were rounded to floats. If `min` or `max` is NaN, the interval is unbounded,
 /// and its `hasValueEverywhere` is false.
-Bounds intervalOfCoordinate(double min, double max);
+ValueBounds intervalOfCoordinate(double min, double max);
 
 /// Returns the interval of the results of an operation, which must be neither `constant` nor `variable`. `a` and `b`
 /// are the intervals of the operands; `b` is ignored if there is only one. `exponent` is the exponent of integer_power.
 /// In the result, `hasValueEverywhere` is false if a result of the operation may be NaN.
-Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent);
+ValueBounds intervalOf(Operation operation, const ValueBounds& a, const ValueBounds& b, int exponent);
 
 }  // namespace oval4d::fields

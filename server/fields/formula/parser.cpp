@@ -25,17 +25,17 @@ constexpr auto kUnits = std::to_array<std::string_view>({"deg", "rad"});
 constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
 constexpr std::size_t kMaxNameLength = 32;
 
-struct Comparison {
+struct ComparisonSymbol {
     std::string_view symbol;
     Relation relation;
 };
-constexpr auto kComparisons = std::to_array<Comparison>({{"<=", Relation::less_equal},
-                                                         {"≤", Relation::less_equal},
-                                                         {">=", Relation::greater_equal},
-                                                         {"≥", Relation::greater_equal},
-                                                         {"<", Relation::less},
-                                                         {">", Relation::greater},
-                                                         {"=", Relation::equal}});
+constexpr auto kComparisons = std::to_array<ComparisonSymbol>({{"<=", Relation::less_equal},
+                                                               {"≤", Relation::less_equal},
+                                                               {">=", Relation::greater_equal},
+                                                               {"≥", Relation::greater_equal},
+                                                               {"<", Relation::less},
+                                                               {">", Relation::greater},
+                                                               {"=", Relation::equal}});
 
 using text::isDigit;
 using text::isLetter;
@@ -363,7 +363,7 @@ class Parser {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);
         return std::any_of(kComparisons.begin(), kComparisons.end(),
-                           [rest](const Comparison& comparison) { return rest.starts_with(comparison.symbol); });
+                           [rest](const ComparisonSymbol& comparison) { return rest.starts_with(comparison.symbol); });
     }
     void skipBlanks() {
         while (at_ < text_.size() &&

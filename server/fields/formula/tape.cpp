@@ -26,7 +26,7 @@ class Compiler {
         for (Ref node = 0; node <= result_; ++node) {
             if (nodes_[node].operation == Operation::variable) {
                 registers_[node] = static_cast<std::uint16_t>(nodes_[node].number);
-                axes_[node] = static_cast<Instruction::Axes>(1U << registers_[node]);
+                axes_[node] = static_cast<Instruction::AxisSet>(1U << registers_[node]);
             } else if (lastUse_[node] != kNever && !isLeaf(nodes_[node])) {
                 emit(node);
             }
@@ -70,7 +70,7 @@ class Compiler {
                 instruction.number = nodes_[isConstant(node.a) ? node.a : node.b].number;
         }
         if (!isPiecewiseConstant(node.operation))
-            instruction.axes = static_cast<Instruction::Axes>(instruction.axesOfA | instruction.axesOfB);
+            instruction.axes = static_cast<Instruction::AxisSet>(instruction.axesOfA | instruction.axesOfB);
         forEachOperand(node, [&](Ref operand) { release(operand, number); });
         instruction.result = number == result_ ? Tape::kResult : allocate();
         registers_[number] = instruction.result;
@@ -107,7 +107,7 @@ class Compiler {
     Ref result_;
     std::vector<Ref> lastUse_;
     std::vector<std::uint16_t> registers_;
-    std::vector<Instruction::Axes> axes_;
+    std::vector<Instruction::AxisSet> axes_;
     std::vector<std::uint16_t> free_;
     Tape tape_;
 };

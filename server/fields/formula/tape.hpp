@@ -15,12 +15,12 @@ struct Instruction {
     /// two_registers.
     enum class OperandForm : std::uint8_t { two_registers, register_and_number, number_and_register };
     /// A set of axes, as bits: the axis i is 1 << i.
-    using Axes = std::uint8_t;
+    using AxisSet = std::uint8_t;
 
     Operation operation;
     OperandForm form = OperandForm::two_registers;
-    Axes axes = 0;                  ///< the axes along which the derivative of the result can differ from 0
-    Axes axesOfA = 0, axesOfB = 0;  ///< like `axes`, for the operands a and b
+    AxisSet axes = 0;                  ///< the axes along which the derivative of the result can differ from 0
+    AxisSet axesOfA = 0, axesOfB = 0;  ///< like `axes`, for the operands a and b
     std::uint16_t result = 0;
     std::uint16_t a = 0, b = 0;  ///< the registers of the operands; unused for a number
     double number = 0;           ///< the operand that is a number, or the exponent of integer_power

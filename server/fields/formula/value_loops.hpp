@@ -25,15 +25,15 @@ class ValueLoops {
 
   protected:
     using OperandForm = Instruction::OperandForm;
-    using Size = std::size_t;
+    using SizeType = std::size_t;
 
-    struct Array {
+    struct ArrayOperand {
         const float* data;
-        float operator[](Size i) const { return data[i]; }
+        float operator[](SizeType i) const { return data[i]; }
     };
-    struct Number {
+    struct NumberOperand {
         float value;
-        float operator[](Size) const { return value; }
+        float operator[](SizeType) const { return value; }
     };
 
     static constexpr float kNotANumber = __builtin_nanf("");
@@ -46,29 +46,29 @@ class ValueLoops {
     }
 
     template <typename F>
-    static void map(F f, float* out, const float* a, Size size) {
+    static void map(F f, float* out, const float* a, SizeType size) {
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) out[i] = f(a[i]);
+        for (SizeType i = 0; i < size; ++i) out[i] = f(a[i]);
     }
     template <typename F, typename A, typename B>
-    static void map(F f, float* out, A a, B b, Size size) {
+    static void map(F f, float* out, A a, B b, SizeType size) {
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) out[i] = f(a[i], b[i]);
+        for (SizeType i = 0; i < size; ++i) out[i] = f(a[i], b[i]);
     }
     template <typename F>
-    static void map(F f, const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
-        const Number number{static_cast<float>(instruction.number)};
+    static void map(F f, const Instruction& instruction, float* out, const float* a, const float* b, SizeType size) {
+        const NumberOperand number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
-                return map(f, out, Array{a}, Array{b}, size);
+                return map(f, out, ArrayOperand{a}, ArrayOperand{b}, size);
             case OperandForm::register_and_number:
-                return map(f, out, Array{a}, number, size);
+                return map(f, out, ArrayOperand{a}, number, size);
             case OperandForm::number_and_register:
-                return map(f, out, number, Array{b}, size);
+                return map(f, out, number, ArrayOperand{b}, size);
         }
     }
 
-    static void compute(const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
+    static void compute(const Instruction& instruction, float* out, const float* a, const float* b, SizeType size) {
         switch (instruction.operation) {
             case Operation::constant:
                 return map([value = static_cast<float>(instruction.number)](float) { return value; }, out, a, size);
@@ -125,30 +125,31 @@ class ValueLoops {
     static float sign(float x) { return x != x ? x : (x < 0 ? -1.0F : (x > 0 ? 1.0F : 0.0F)); }
 
     // Returns whether a power with this exponent is computed as an integer power times the square root of the base.
-    static bool isHalfInteger(float exponent) {
+    static bool usesHalfIntegerPower(float exponent) {
         return exponent >= 0.5F && exponent <= 8.5F && 2 * exponent == __builtin_floorf(2 * exponent) &&
                exponent != __builtin_floorf(exponent);
     }
-    static void halfIntegerPower(float exponent, float* out, const float* a, Size size) {
+    static void halfIntegerPower(float exponent, float* out, const float* a, SizeType size) {
         float power[kBlockPoints];
         integerPower(static_cast<int>(exponent), power, a, size);
-        map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, Array{power}, Array{a}, size);
+        map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, ArrayOperand{power}, ArrayOperand{a}, size);
     }
 
     // Computes power or atan2. The result is NaN if an operand is NaN, unlike that of C's pow.
-    static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b, Size size) {
+    static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b,
+                             SizeType size) {
         const auto number = static_cast<float>(instruction.number);
         if (instruction.operation == Operation::power && instruction.form == OperandForm::register_and_number &&
-            isHalfInteger(number))
+            usesHalfIntegerPower(number))
             return halfIntegerPower(number, out, a, size);
         float numbers[kBlockPoints], results[kBlockPoints];
         if (instruction.form != OperandForm::two_registers) {
-            for (Size i = 0; i < size; ++i) numbers[i] = number;
+            for (SizeType i = 0; i < size; ++i) numbers[i] = number;
             (instruction.form == OperandForm::register_and_number ? b : a) = numbers;
         }
         Math::powerOrAtan2(instruction.operation, results, a, b, size);
 #pragma omp simd
-        for (Size i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
+        for (SizeType i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
     }
 
     // Returns aⁿ, computed by repeated squaring.
@@ -163,7 +164,7 @@ class ValueLoops {
             return n % 2 == 0 ? half * half : half * half * a;
         }
     }
-    static void integerPower(int exponent, float* out, const float* a, Size size) {
+    static void integerPower(int exponent, float* out, const float* a, SizeType size) {
         switch (exponent) {
             case 3:
                 return map([](float x) { return integerPower<3>(x); }, out, a, size);
@@ -184,7 +185,8 @@ class ValueLoops {
         map([](float x) { return x; }, power, a, size);
         for (unsigned bit = (1U << (31U - static_cast<unsigned>(__builtin_clz(n | 1U)))) >> 1U; bit != 0; bit >>= 1U) {
             map([](float x) { return x * x; }, power, power, size);
-            if ((n & bit) != 0) map([](float x, float y) { return x * y; }, power, Array{power}, Array{a}, size);
+            if ((n & bit) != 0)
+                map([](float x, float y) { return x * y; }, power, ArrayOperand{power}, ArrayOperand{a}, size);
         }
         if (n == 0) map([](float) { return 1.0F; }, power, power, size);
         if (exponent < 0) {

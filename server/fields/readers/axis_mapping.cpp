@@ -10,7 +10,7 @@
 
 namespace oval4d::fields {
 
-Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimensions) {
+Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t dimensions) {
     constexpr std::size_t kAxes = 4;
     if (dimensions == 0 || dimensions > kAxes) {
         return Error{ErrorCode::bad_field, "the array has " + std::to_string(dimensions) +

@@ -34,7 +34,7 @@ struct Dimension {
 /// letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, uses "tzyx", "zyx", "yx" or "x", depending on
 /// the number of dimensions. Errors: `bad_field` if there are no dimensions or more than 4; `out_of_range` if `axes`
 /// does not have as many letters as there are dimensions, or contains another letter, or an axis twice.
-Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimensions);
+Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t dimensions);
 
 /// A part of an array that is read at once.
 struct Slab {
@@ -59,7 +59,7 @@ class AxisMapping {
     /// dimensions gets leading dimensions of size 1.
     const StridedLayout& layout() const { return layout_; }
     /// Returns the index of the array's first number among the samples; 0 unless a dimension is reversed.
-    std::size_t first() const { return first_; }
+    std::size_t firstSampleIndex() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
     /// Lattice).

@@ -61,7 +61,7 @@ bool comesBefore(const std::string& a, const std::string& b) {
 }
 
 // Sets the box of a series (see readSeries()). `times` has the value of w of each file.
-void setSeriesBox(ReadField& series, std::span<const double> times, const ReadOptions& options) {
+void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
@@ -90,7 +90,7 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start) {
     return format == kFormats.end() ? nullptr : format;
 }
 
-Result<ReadField> readField(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readField(const FileContents& file, const ReadOptions& options) {
     const FieldFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
     if (format == nullptr) {
         std::vector<std::string_view> names;
@@ -101,11 +101,11 @@ Result<ReadField> readField(const FileContents& file, const ReadOptions& options
     return format->read(file, options);
 }
 
-Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOptions& options) {
+Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options) {
     if (files.empty()) return Error{ErrorCode::bad_field, "the series has no files"};
     ReadOptions ofFile = options;
     ofFile.box.reset();
-    ReadField series;
+    FieldArray series;
     std::optional<SampleBuffer> all;
     std::vector<double> times;
     // All files after the first one are decompressed into the same new file: the samples of each of them are copied to

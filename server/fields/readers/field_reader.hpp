@@ -17,7 +17,7 @@ namespace oval4d::fields {
 struct FieldFormat {
     std::string_view name;                              ///< the name in messages and on the command line
     bool (*isStart)(std::span<const std::byte> start);  ///< whether the bytes are the start of such a file
-    Result<ReadField> (*read)(const FileContents& file, const ReadOptions& options);
+    Result<FieldArray> (*read)(const FileContents& file, const ReadOptions& options);
 };
 
 /// The number of bytes at the start of a file from which its format is recognized.
@@ -32,7 +32,7 @@ std::span<const FieldFormat> fieldFormats();
 const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
 /// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of FieldFormat::read.
-Result<ReadField> readField(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readField(const FileContents& file, const ReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. If the files do not state their boxes, the box is
 /// defaultBox(). If they state their boxes, these give x, y and z. If the values of w in these boxes increase from file
@@ -41,7 +41,7 @@ Result<ReadField> readField(const FileContents& file, const ReadOptions& options
 /// along w, and the same box in x, y and z. `options.axes` names the axes of each file; `options.box` is the box of the
 /// whole field. Errors: those of readField(), with the number of the file; `bad_field` if there are no files or if they
 /// differ; `too_large` if there are more than `options.maxSamples` samples in all.
-Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOptions& options);
+Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:
 /// t2 comes before t10. Does not follow symbolic links, and leaves out names that begin with a dot. Error: `not_found`

@@ -69,7 +69,7 @@ hid_t openBytes(std::span<const std::byte> bytes) {
     return H5Fopen("field", H5F_ACC_RDONLY, *access);
 }
 
-struct Contents {
+struct DatasetListing {
     std::vector<std::string> datasets;
     bool refers = false;     // whether a link or a dataset refers to another file
     bool hasScales = false;  // whether a dataset has dimension scales, as all variables of NetCDF-4 files have
@@ -78,13 +78,13 @@ struct Contents {
 // The library calls visitLink() for each link and visitObject() for each object, until a call returns a number other
 // than 0. These functions must not throw, because the library is written in C.
 herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
-    auto& contents = *static_cast<Contents*>(to);
+    auto& contents = *static_cast<DatasetListing*>(to);
     contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
     return contents.refers ? 1 : 0;
 }
 
 herr_t visitObject(hid_t file, const char* name, const H5O_info_t* info, void* to) noexcept {
-    auto& contents = *static_cast<Contents*>(to);
+    auto& contents = *static_cast<DatasetListing*>(to);
     if (info->type != H5O_TYPE_DATASET) return 0;
     try {
         contents.datasets.emplace_back(name);
@@ -219,9 +219,9 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
     return chosen;
 }
 
-Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vector<std::string>& datasets,
-                              const ReadOptions& options) {
-    ReadField field;
+Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::vector<std::string>& datasets,
+                               const ReadOptions& options) {
+    FieldArray field;
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
@@ -240,7 +240,7 @@ Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vec
     const auto format = type ? formatOf(*type) : std::nullopt;
     const auto size = sizeOfDataset(*dataset);
     if (!format || !size) return badField("the dataset " + text::inQuotes(name) + " is not an array of real numbers");
-    const auto axes = axesOf(options.axes, size->size());
+    const auto axes = parseAxes(options.axes, size->size());
     if (!axes) return axes.error();
     std::vector<Dimension> dimensions;
     for (std::size_t i = 0; i < size->size(); ++i) dimensions.push_back({(*size)[i], (*axes)[i]});
@@ -269,12 +269,12 @@ bool isHdf5Start(std::span<const std::byte> start) {
     return std::string_view(reinterpret_cast<const char*>(start.data()), start.size()).starts_with("\x89HDF\r\n\x1a\n");
 }
 
-Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readHdf5(const FileContents& file, const ReadOptions& options) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // print no messages
     H5PLset_loading_state(0);                     // load no plug-ins
     const Handle id(openBytes(file.bytes), H5Fclose);
     if (!id) return badField("the file is not a valid HDF5 file");
-    Contents contents;
+    DatasetListing contents;
     const bool visited = H5Lvisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitLink, &contents) >= 0 &&
                          (contents.refers || H5Ovisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitObject, &contents) >= 0);
     if (!visited) return badField("the file is not a valid HDF5 file: its groups cannot be read");

@@ -24,6 +24,6 @@ bool isHdf5Start(std::span<const std::byte> start);
 ///
 /// The HDF5 library is not made for hostile files: files from strangers should be read in a confined process.
 /// Thread-safe only if the HDF5 library is thread-safe.
-Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readHdf5(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

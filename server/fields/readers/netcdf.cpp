@@ -213,7 +213,7 @@ std::string pathOf(const Variable& variable, int file) {
     return path.substr(path.starts_with('/') ? 1 : 0) + '/' + variable.name;
 }
 
-Result<Variable> defaultVariable(int file, ReadField& field) {
+Result<Variable> defaultVariable(int file, FieldArray& field) {
     Variable chosen;
     std::size_t candidates = 0;
     for (const int group : groupsOf(file)) {
@@ -252,7 +252,7 @@ Result<Variable> variableAtPath(int file, const std::string& path) {
 }
 
 std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t size, const std::string& name,
-                                     ReadField& field) {
+                                     FieldArray& field) {
     const TypeRow* const row = rowOf(coordinate.type);
     if (row == nullptr) return {};
     const std::size_t start = 0;
@@ -264,7 +264,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
 }
 
 // Assigns dimensions to axes, and finds the box and the units.
-Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, ReadField& field) {
+Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
     std::vector<std::optional<Variable>> coordinates;
     std::vector<Dimension> dimensions;
@@ -284,7 +284,7 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
         if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
         dimensions.push_back({size});
     }
-    auto axes = axesOf(options.axes, dimensions.size());  // also checks the number of dimensions
+    auto axes = parseAxes(options.axes, dimensions.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
     if (options.axes.empty()) *axes = axisOfEachDimension(stated);
     field.box = {glm::dvec4(0), glm::dvec4(0)};
@@ -336,12 +336,12 @@ bool isNetcdfStart(std::span<const std::byte> start) {
     return text.size() >= 4 && text.starts_with("CDF") && (text[3] == 1 || text[3] == 2 || text[3] == 5);
 }
 
-Result<ReadField> readNetcdf(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& options) {
     const OpenFile open(file);
     if (open.status() != NC_NOERR)
         return badField("the file is not a valid NetCDF file: " +
                         text::printable(nc_strerror(open.status()), kMaxNetcdfText));
-    ReadField field;
+    FieldArray field;
     const auto variable =
         options.variable.empty() ? defaultVariable(open.id(), field) : variableAtPath(open.id(), options.variable);
     if (!variable) return variable.error();

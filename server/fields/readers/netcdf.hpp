@@ -28,6 +28,6 @@ bool isNetcdfStart(std::span<const std::byte> start);
 ///
 /// Errors: `bad_field`, `too_large`, `not_found` for the variable, `out_of_range` for the other options. The library
 /// NetCDF is neither thread-safe nor made for hostile files: files from strangers should be read in a confined process.
-Result<ReadField> readNetcdf(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

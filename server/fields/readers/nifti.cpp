@@ -169,17 +169,17 @@ double spacingAlong(const NiftiHeader& header, std::size_t dimension) {
     return spacing > 0 && std::isfinite(spacing) ? spacing : 1;
 }
 
-using Matrix = std::array<std::array<double, 4>, 3>;  // from indices to coordinates in space
+using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // from indices to coordinates in space
 
 // Returns the orientation by method 3 of nifti1.h, or else by method 2; an empty optional if the file states neither.
-std::optional<Matrix> orientation(const NiftiHeader& header) {
+std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};
     const auto& [b, c, d] = header.quaternion;
     const double a = std::sqrt(std::max(0., 1 - b * b - c * c - d * d));
-    Matrix matrix{{{a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
-                   {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)},
-                   {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c}}};
+    IndexToSpaceMatrix matrix{{{a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
+                               {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)},
+                               {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c}}};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
             matrix[i][j] *= spacingAlong(header, j) * (j == 2 && header.spacing[0] < 0 ? -1 : 1);
@@ -190,7 +190,7 @@ std::optional<Matrix> orientation(const NiftiHeader& header) {
 
 // Returns the axis of space to which each of the first three dimensions of the array is parallel; an empty optional if
 // one of them is oblique.
-std::optional<std::array<std::size_t, 3>> parallelAxes(const Matrix& matrix) {
+std::optional<std::array<std::size_t, 3>> parallelAxes(const IndexToSpaceMatrix& matrix) {
     constexpr double kTolerance = 1e-3;
     std::array<std::size_t, 3> axes{};
     for (std::size_t j = 0; j < 3; ++j) {
@@ -209,7 +209,7 @@ std::optional<std::array<std::size_t, 3>> parallelAxes(const Matrix& matrix) {
     return axes;
 }
 
-void setUnits(const NiftiHeader& header, ReadField& field) {
+void setUnits(const NiftiHeader& header, FieldArray& field) {
     static constexpr std::array<std::string_view, 4> kLengths{"", "m", "mm", "µm"};
     static constexpr std::array<std::string_view, 7> kTimes{"", "s", "ms", "µs", "Hz", "ppm", "rad/s"};
     const auto length = static_cast<std::size_t>(header.units & 7),
@@ -221,12 +221,12 @@ void setUnits(const NiftiHeader& header, ReadField& field) {
 // Sets the box and the units of `field`, and the axes and directions of `dimensions`, which must be in the order from
 // the fastest to the slowest.
 std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions& options,
-                                   std::vector<Dimension>& dimensions, ReadField& field) {
+                                   std::vector<Dimension>& dimensions, FieldArray& field) {
     setUnits(header, field);
     const auto matrix = orientation(header);
     auto parallel = matrix ? parallelAxes(*matrix) : std::nullopt;
     if (!options.axes.empty()) {
-        auto axes = axesOf(options.axes, dimensions.size());
+        auto axes = parseAxes(options.axes, dimensions.size());
         if (!axes) return axes.error();
         std::reverse(axes->begin(), axes->end());
         for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].axis = (*axes)[i];
@@ -304,7 +304,7 @@ bool isNiftiStart(std::span<const std::byte> start) {
     return magic == "n+1" || magic == "n+2" || magic == "ni1" || magic == "ni2";
 }
 
-Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options) {
     std::vector<std::byte> unzipped;
     std::optional<GzipReader> gzip;
     if (isGzipStart(file.bytes)) {
@@ -327,7 +327,7 @@ Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options
     if (!format)
         return badField("the numbers are of the type " + std::to_string(header->type) + " of NIfTI; they must be real");
 
-    ReadField field;
+    FieldArray field;
     std::vector<Dimension> dimensions(static_cast<std::size_t>(header->dimensions));
     for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].size = static_cast<std::size_t>(header->size[i]);
     if (auto error = mapDimensions(*header, options, dimensions, field)) return *error;

@@ -20,6 +20,6 @@ bool isNiftiStart(std::span<const std::byte> start);
 /// three dimensions, and uses the file's distances between samples; if `options.axes` is empty and the voxels' axes are
 /// oblique, there is a warning. The fourth dimension begins at the file's first time. Errors: `bad_field`, `too_large`;
 /// `out_of_range` for the options.
-Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

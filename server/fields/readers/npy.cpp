@@ -116,7 +116,7 @@ bool isNpyStart(std::span<const std::byte> start) {
     return std::string_view(reinterpret_cast<const char*>(start.data()), start.size()).starts_with(kMagic);
 }
 
-Result<ReadField> readNpy(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNpy(const FileContents& file, const ReadOptions& options) {
     const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
     if (!isNpyStart(file.bytes)) return badField("the file is not in NumPy's format .npy");
     const auto byteAt = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(bytes[i])}; };
@@ -143,7 +143,7 @@ Result<ReadField> readNpy(const FileContents& file, const ReadOptions& options) 
     }
     auto shape = header->shape;
     if (header->fortranOrder) std::reverse(shape.begin(), shape.end());  // from the slowest dimension to the fastest
-    auto axes = axesOf(options.axes, shape.size());
+    auto axes = parseAxes(options.axes, shape.size());
     if (!axes) return axes.error();
     // `options.axes` is in the order of the shape in the header, so it is reversed as the shape is.
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
@@ -157,7 +157,7 @@ Result<ReadField> readNpy(const FileContents& file, const ReadOptions& options) 
         return badField("the array should take " + std::to_string(size) +
                         " bytes after the header, but the file has only " + std::to_string(data.size()));
     }
-    ReadField field;
+    FieldArray field;
     if (data.size() > size) field.warnings.emplace_back("the file is longer than its array; the rest is ignored");
     field.shape = mapping->shape();
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;

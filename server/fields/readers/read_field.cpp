@@ -4,7 +4,7 @@
 
 namespace oval4d::fields {
 
-Result<std::shared_ptr<const ArrayFunction>> ReadField::function() const {
+Result<std::shared_ptr<const ArrayFunction>> FieldArray::function() const {
     try {
         return std::shared_ptr<const ArrayFunction>(std::make_shared<ArrayFunction>(shape, box, samples));
     } catch (const std::invalid_argument& fault) {

@@ -41,7 +41,7 @@ struct ReadOptions {
 };
 
 /// A field read from a file. If the samples lie in the bytes of the file, they keep these bytes valid.
-struct ReadField {
+struct FieldArray {
     Shape shape{1, 1, 1, 1};
     Box box;
     bool boxIsKnown = false;  ///< whether the file or the options state the box; else it is defaultBox()

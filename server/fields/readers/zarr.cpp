@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
 constexpr std::size_t kMaxZarrText = 60;                      // maximum number of bytes that are kept of a text
 
-TextReader textsOf(const FolderReader& folder) {
+FolderTextReader textsOf(const FolderFileReader& folder) {
     return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
         auto file = folder(path);
         if (!file) return file.error();
@@ -34,7 +34,7 @@ TextReader textsOf(const FolderReader& folder) {
 // Reads the chunks of an array.
 class ChunkReader {
   public:
-    ChunkReader(const FolderReader& folder, const ZarrArray& array) : folder_(folder), array_(array) {}
+    ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array) : folder_(folder), array_(array) {}
 
     // Converts all chunks. `stride` has, for each dimension, the distance in `to` between neighbors along this
     // dimension; `first` is the place of the array's first number in `to`. `to` must contain only zeros before the
@@ -52,7 +52,7 @@ class ChunkReader {
             for (std::size_t i = 0; i < rank; ++i)
                 at += static_cast<std::ptrdiff_t>(index[i] * array_.chunk[i]) * stride[i];
             if (auto chunk = readChunk(index, stride, to + at); !chunk) return chunk;
-            numbers += array_.chunkBytes() / sizeOf(array_.format.type);
+            numbers += array_.decompressedChunkBytes() / sizeOf(array_.format.type);
             if (numbers >= kNumbers) {
                 afterward();
                 numbers = 0;
@@ -75,13 +75,13 @@ class ChunkReader {
         }
         std::span<const std::byte> bytes = (*file)->bytes;
         if (array_.codec) {
-            chunk_.resize(array_.chunkBytes());
+            chunk_.resize(array_.decompressedChunkBytes());
             if (const auto done = decompress(*array_.codec, bytes, chunk_); !done)
                 return badField("the chunk " + text::inQuotes(path) + " cannot be read: " + done.error().message);
             bytes = chunk_;
-        } else if (bytes.size() != array_.chunkBytes()) {
+        } else if (bytes.size() != array_.decompressedChunkBytes()) {
             return badField("the chunk " + text::inQuotes(path) + " has " + std::to_string(bytes.size()) +
-                            " bytes; it must have " + std::to_string(array_.chunkBytes()));
+                            " bytes; it must have " + std::to_string(array_.decompressedChunkBytes()));
         }
         copy(index, stride, bytes.data(), to);
         if ((*file)->file && (*file)->file->isLost())
@@ -140,20 +140,20 @@ class ChunkReader {
         }
     }
 
-    const FolderReader& folder_;
-    const ZarrArray& array_;
+    const FolderFileReader& folder_;
+    const ZarrArrayMetadata& array_;
     std::vector<std::byte> chunk_;
 };
 
 // Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
 // dimension's name. Sets `units` and `stated` from its attributes. Returns an empty optional if there is no such array,
 // if it cannot be read, or if the dimension is empty.
-std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
+std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {
     const auto found = zarr.array(path);
     if (!found || !*found) return {};
-    ZarrArray array = **found;
+    ZarrArrayMetadata array = **found;
     if (array.shape != std::vector{size} || size == 0 || size > kMaxSamplesPerAxis) return {};
     units = text::printable(array.text("units"), kMaxZarrText);
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
@@ -177,7 +177,7 @@ std::optional<std::vector<double>> coordinates(const FolderReader& folder, const
 
 // Sets `kept` to the dimensions that are read. If there are more than four dimensions, leaves out dimensions of size 1
 // until four remain.
-void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
+void squeeze(ZarrArrayMetadata& array, std::vector<std::size_t>& kept) {
     kept.resize(array.shape.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
     for (std::size_t i = 0; i < kept.size() && kept.size() > 4;) {
@@ -190,10 +190,10 @@ void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
 }
 
 // Assigns dimensions to axes, and finds the box and the units.
-Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const ZarrFolder& zarr, const ZarrArray& array,
-                                             const std::vector<std::size_t>& kept, const ReadOptions& options,
-                                             ReadField& field) {
-    auto axes = axesOf(options.axes, kept.size());  // also checks the number of dimensions
+Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
+                                             const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
+                                             const ReadOptions& options, FieldArray& field) {
+    auto axes = parseAxes(options.axes, kept.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
     const bool imageStatesCoordinates = ofImage && ofImage->dimensions.size() == array.shape.size();
@@ -249,9 +249,9 @@ Result<std::vector<Dimension>> mapDimensions(const FolderReader& folder, const Z
 
 }  // namespace
 
-Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& options) {
+Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options) {
     const ZarrFolder zarr(textsOf(folder));
-    ReadField field;
+    FieldArray field;
     std::string path = options.variable;
     while (path.starts_with('/')) path.erase(0, 1);
     auto found = zarr.array(path);
@@ -273,7 +273,7 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
         return Error{ErrorCode::not_found,
                      "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
     }
-    ZarrArray& array = **found;
+    ZarrArrayMetadata& array = **found;
     std::vector<std::size_t> kept;
     squeeze(array, kept);
     const auto dimensions = mapDimensions(folder, zarr, array, kept, options, field);
@@ -289,9 +289,10 @@ Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& option
     if (!buffer) return buffer.error();
     std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for the dimensions that are left out
     for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = mapping->layout().stride.at(4 - kept.size() + i);
-    const auto read = ChunkReader(folder, array).read(stride, mapping->first(), buffer->values().data(), [&] {
-        buffer->releasePages();
-    });
+    const auto read =
+        ChunkReader(folder, array).read(stride, mapping->firstSampleIndex(), buffer->values().data(), [&] {
+            buffer->releasePages();
+        });
     if (!read) return read.error();
     field.samples = buffer->take();
     field.quantity = text::printable(array.text("long_name"), kMaxZarrText);

@@ -15,7 +15,7 @@ namespace oval4d::fields {
 
 /// Returns the contents of a file in a folder by its relative path, such as "temperature/c/0/0"; an empty optional if
 /// there is no such file. Errors: those of FileContents::map().
-using FolderReader = std::function<Result<std::optional<FileContents>>(const std::string& path)>;
+using FolderFileReader = std::function<Result<std::optional<FileContents>>(const std::string& path)>;
 
 /// A Zarr folder contains at least one of these files.
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
@@ -36,6 +36,6 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// `not_found` if there is no array at `options.variable`; `out_of_range` if a group does not list its arrays, or if
 /// `options.axes` does not fit the array; `unsupported_format` for other types, compressors and filters; `too_large`;
 /// and those of `folder`.
-Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& options);
+Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options);
 
 }  // namespace oval4d::fields

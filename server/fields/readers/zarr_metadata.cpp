@@ -86,8 +86,8 @@ std::optional<NumberType> typeNamed(std::string_view name) {
     return found->second;
 }
 
-Result<ZarrArray> parseVersion2(const json& metadata) {
-    ZarrArray array;
+Result<ZarrArrayMetadata> parseVersion2(const json& metadata) {
+    ZarrArrayMetadata array;
     if (const json* const filters = member(metadata, "filters"); filters != nullptr && !filters->empty())
         return unsupported("filters");
     const std::string type = textIn(metadata, "dtype");
@@ -119,7 +119,7 @@ Result<ZarrArray> parseVersion2(const json& metadata) {
     return array;
 }
 
-Result<std::monostate> parseCodecs(const json& metadata, ZarrArray& array) {
+Result<std::monostate> parseCodecs(const json& metadata, ZarrArrayMetadata& array) {
     const json* const codecs = member(metadata, "codecs");
     if (codecs == nullptr || !codecs->is_array()) return badMetadata("codecs must be a list");
     bool hasBytes = false;
@@ -154,8 +154,8 @@ Result<std::monostate> parseCodecs(const json& metadata, ZarrArray& array) {
     return std::monostate{};
 }
 
-Result<ZarrArray> parseVersion3(const json& metadata) {
-    ZarrArray array;
+Result<ZarrArrayMetadata> parseVersion3(const json& metadata) {
+    ZarrArrayMetadata array;
     const json* const stated = member(metadata, "data_type");
     const auto type = typeNamed(textIn(metadata, "data_type"));
     if (!type) return unsupported("the type " + (stated == nullptr ? "null" : quoted(*stated)));
@@ -193,7 +193,7 @@ Result<ZarrArray> parseVersion3(const json& metadata) {
 }
 
 // Applies the attributes of the CF conventions, version 1.10, sections 2.5 and 8.1.
-void applyAttributes(ZarrArray& array) {
+void applyAttributes(ZarrArrayMetadata& array) {
     const auto numbers = [&](std::string_view attribute) {
         std::vector<double> found;
         const json* const value = member(array.attributes, attribute);
@@ -224,7 +224,7 @@ void applyAttributes(ZarrArray& array) {
     array.format.offset = first("add_offset", 0);
 }
 
-Result<ZarrArray> checked(ZarrArray array) {
+Result<ZarrArrayMetadata> checked(ZarrArrayMetadata array) {
     if (array.chunk.size() != array.shape.size())
         return badMetadata("the shapes of the array and of its chunks differ in length");
     if (array.separator != "." && array.separator != "/") return badMetadata("the separator must be . or /");
@@ -274,15 +274,15 @@ std::string within(const std::string& folder, std::string_view name) {
 
 }  // namespace
 
-std::string ZarrArray::text(std::string_view attribute) const { return textIn(attributes, attribute); }
+std::string ZarrArrayMetadata::text(std::string_view attribute) const { return textIn(attributes, attribute); }
 
-std::string ZarrArray::chunkPath(const std::vector<std::size_t>& indices) const {
+std::string ZarrArrayMetadata::chunkPath(const std::vector<std::size_t>& indices) const {
     std::string name = chunkPrefix;
     for (std::size_t i = 0; i < indices.size(); ++i) name += (i == 0 ? "" : separator) + std::to_string(indices[i]);
     return within(path, name);
 }
 
-std::size_t ZarrArray::chunkBytes() const {
+std::size_t ZarrArrayMetadata::decompressedChunkBytes() const {
     return std::accumulate(chunk.begin(), chunk.end(), sizeOf(format.type), std::multiplies<>());
 }
 
@@ -295,7 +295,7 @@ Result<std::optional<json>> ZarrFolder::json(const std::string& path) const {
     return std::optional(std::move(value));
 }
 
-Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) const {
+Result<std::optional<ZarrArrayMetadata>> ZarrFolder::array(const std::string& path) const {
     if (!isInside(path)) {
         return Error{ErrorCode::out_of_range, "the path " + text::inQuotes(path) +
                                                   " must consist of names in the Zarr folder, without . and .."};
@@ -306,7 +306,8 @@ Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) cons
     if (!isVersion3) metadata = json(within(path, ".zarray"));
     if (!metadata) return metadata.error();
     const auto format = isVersion3 ? 3 : 2;
-    if (!*metadata || (isVersion3 && textIn(**metadata, "node_type") != "array")) return std::optional<ZarrArray>();
+    if (!*metadata || (isVersion3 && textIn(**metadata, "node_type") != "array"))
+        return std::optional<ZarrArrayMetadata>();
     const nlohmann::json* const stated = member(**metadata, "zarr_format");
     if (stated == nullptr || *stated != format) return badMetadata("zarr_format must be " + std::to_string(format));
     auto array = isVersion3 ? parseVersion3(**metadata) : parseVersion2(**metadata);
@@ -410,7 +411,7 @@ Result<ZarrFolder::ChosenArray> ZarrFolder::chooseArray() const {
     for (const std::string& path : paths) {
         const auto found = array(path);
         if (!found || !*found) continue;
-        const ZarrArray& each = **found;
+        const ZarrArrayMetadata& each = **found;
         chosen.all.push_back(path);
         const std::string name = path.substr(path.rfind('/') + 1);
         const bool isCoordinate = each.shape.size() == 1 && each.dimensionNames == std::vector{name};

@@ -17,10 +17,10 @@
 namespace oval4d::fields {
 
 /// Returns the text of a file in the folder by its relative path; an empty optional if there is no such file.
-using TextReader = std::function<Result<std::optional<std::string>>(const std::string& path)>;
+using FolderTextReader = std::function<Result<std::optional<std::string>>(const std::string& path)>;
 
 /// An array in a Zarr folder.
-struct ZarrArray {
+struct ZarrArrayMetadata {
     std::string path;  ///< of the array's folder, relative to the Zarr folder; empty for the Zarr folder itself
     std::vector<std::size_t> shape, chunk;    ///< the sizes of the array and of its chunks, in the order of its indices
     std::vector<std::size_t> order;           ///< the indices of the dimensions as they are stored, from the
@@ -38,27 +38,27 @@ struct ZarrArray {
     /// Returns the path of the chunk with these indices, relative to the Zarr folder.
     std::string chunkPath(const std::vector<std::size_t>& indices) const;
     /// Returns the size of a decompressed chunk in bytes.
-    std::size_t chunkBytes() const;
+    std::size_t decompressedChunkBytes() const;
 };
 
 /// The coordinates of the samples of an array of a multiscale image: for each dimension its name, its unit, the
 /// coordinate of the first sample, and the distance between samples.
 struct ZarrCoordinates {
-    struct Dimension {
+    struct DimensionCoordinates {
         std::string name, unit;
         double origin = 0, spacing = 1;
     };
-    std::vector<Dimension> dimensions;
+    std::vector<DimensionCoordinates> dimensions;
 };
 
 /// A Zarr folder: an array or a group.
 class ZarrFolder {
   public:
-    explicit ZarrFolder(TextReader read) : read_(std::move(read)) {}
+    explicit ZarrFolder(FolderTextReader read) : read_(std::move(read)) {}
 
     /// Returns the metadata of an array; an empty optional if there is none at this path. Errors: `bad_field`,
     /// `unsupported_format`, `too_large`; `out_of_range` if the path leads out of the folder.
-    Result<std::optional<ZarrArray>> array(const std::string& path) const;
+    Result<std::optional<ZarrArrayMetadata>> array(const std::string& path) const;
 
     /// The array of a group to read if none is requested.
     struct ChosenArray {
@@ -78,7 +78,7 @@ class ZarrFolder {
     Result<std::optional<nlohmann::json>> json(const std::string& path) const;
     nlohmann::json groupAttributes() const;
 
-    const TextReader read_;
+    const FolderTextReader read_;
 };
 
 }  // namespace oval4d::fields

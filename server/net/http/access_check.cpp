@@ -94,7 +94,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
     // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
     if (access.requiresToken() && !client.mayTryToken(now))
         return tooManyReply("too many wrong tokens; try again in a minute\n");
-    if (isCrossSiteRestricted(target) && access.isCrossSite(fields))
+    if (isCrossSiteRestricted(target) && access.isUnwantedCrossSite(fields))
         return refusalReply(403, "pages of other sites may not request this (--allow-origin)\n");
     cookie = access.cookieFor(fields);
     return {};

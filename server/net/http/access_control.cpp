@@ -131,7 +131,7 @@ bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view ho
     return false;
 }
 
-bool AccessControl::isCrossSite(const AccessCheckInput& fields) const {
+bool AccessControl::isUnwantedCrossSite(const AccessCheckInput& fields) const {
     const bool isLink =
         equalsIgnoringCase(fields.fetchMode, "navigate") && equalsIgnoringCase(fields.fetchDestination, "document");
     return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isLink && !isListedOrigin(fields.origin);

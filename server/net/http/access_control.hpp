@@ -46,7 +46,7 @@ class AccessControl {
     /// Returns whether the browser says that a page of another site makes the request, and the origin of that page is
     /// not an allowed foreign origin. Such a request must not cause expensive work. Returns false if a person has
     /// followed a link on a page of another site.
-    bool isCrossSite(const AccessCheckInput& fields) const;
+    bool isUnwantedCrossSite(const AccessCheckInput& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.
     bool isListedOrigin(std::string_view origin) const;

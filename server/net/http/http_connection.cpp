@@ -172,7 +172,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     if (client == client_) return;
     registration_.setClient(client);
     client_ = client;
-    admission_ = context_.connections.admit(*client_, 1);
+    admission_ = context_.connections.makeRoomFor(*client_, 1);
 }
 
 /// If this connection exceeds a limit, returns the refusal with which each of its requests is answered; otherwise an
@@ -265,7 +265,7 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> HttpConnectio
     try {
         auto work = parseStateFileJob(std::move(file), options().maxLoadMessageBytes);
         ParsedStateFile parsed = co_await runOnPool<ParsedStateFile>(
-            context_.services.pictureWorkers.workers(), std::move(work), client_->pictureLane(), kRoughCost);
+            context_.services.pictureWorkers.workers(), std::move(work), client_->pictureJobQueue(), kRoughCost);
         if (!*parsed) co_return parsed->error();
         co_return co_await session->apply(client_, std::move(**parsed));
     } catch (const parallel::QueueFull&) {
@@ -328,13 +328,13 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
     TransferDeadline deadline(options());
     if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
         constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-        stream_.expires_after(deadline.timeout());
+        stream_.expires_after(deadline.nextFragmentTimeout());
         const auto [fault, size] = co_await asio::async_write(stream_, asio::buffer(kContinue), kAsTuple);
         if (fault) stream_.close();
     }
     while (left > 0 && stream_.socket().is_open()) {
         if (buffer_.size() == 0) {
-            stream_.expires_after(deadline.timeout());
+            stream_.expires_after(deadline.nextFragmentTimeout());
             reading_ = true;
             const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
             reading_ = false;
@@ -413,7 +413,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     http::response_serializer<http::span_body<const char>> serializer(response);
     TransferDeadline deadline(options());
     while (!serializer.is_done()) {
-        stream_.expires_after(deadline.timeout());
+        stream_.expires_after(deadline.nextFragmentTimeout());
         const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kAsTuple);
         if (fault) {
             if (fault == beast::error::timeout) context_.services.metrics.droppedSlowClients.Increment();
@@ -467,7 +467,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
         // The limit of connections per client does not apply to a trusted proxy, because its connections serve many
         // clients: each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
-        const auto admission = context.connections.admit(*client, 0, isProxy);
+        const auto admission = context.connections.makeRoomFor(*client, 0, isProxy);
         co_await std::make_shared<HttpConnection>(std::move(socket), std::move(context), std::move(client), admission)
             ->run();
     } catch (const std::exception& failure) {

@@ -101,7 +101,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
                          slicing::Quality::full, png);
         metrics.observe(pipeline.times());
-        held->resize(png.capacity());
+        held->forceResize(png.capacity());
         return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
     };
 }
@@ -175,10 +175,10 @@ asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters q
     for (;;) {
         auto state = session::stateFromQuery(query, limits, *loader, session::initialState(), others);
         if (!loader->isPending()) co_return state;
-        const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
+        const auto reservation = client->byteAccount().reserve(loader->memoryNeeded());
         if (!reservation) co_return kTooManyBytes;
-        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->pictureLane(),
-                                           loader->estimatedDuration());
+        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
+                                           client->pictureJobQueue(), loader->estimatedDuration());
     }
 }
 
@@ -203,8 +203,8 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAcco
         const auto requested = co_await state(std::move(query), session::kPictureParameters, client);
         if (!requested) co_return countedError(requested.error());
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
-            services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
-            pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
+            services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics),
+            client->pictureJobQueue(), pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
         if (!png) co_return countedError(kTooManyBytes);
         co_return noCacheReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
@@ -225,7 +225,7 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
         const auto requested = co_await state(std::move(query), session::kFileParameters, client);
         if (!requested) co_return countedError(requested.error());
         const ExportResult made = co_await runOnPool<ExportResult>(
-            services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportLane(),
+            services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportJobQueue(),
             pipeline::exportCost(*requested, *exported));
         if (!*made) co_return countedError(made->error());
         const FinishedFile& finished = **made;
@@ -274,8 +274,8 @@ Reply Routes::metrics() {
     shown.bytesHeld.Set(static_cast<double>(services_.clients.bytesHeld()));
     shown.clients.Set(static_cast<double>(services_.clients.size()));
     shown.polytopes.Set(static_cast<double>(services_.polytopes.bytes()));
-    shown.dataFields.Set(static_cast<double>(services_.data.bytes()));
-    shown.fieldFiles.Set(static_cast<double>(services_.fieldCacheFiles.bytes()));
+    shown.dataFields.Set(static_cast<double>(services_.data.bytesInMemory()));
+    shown.fieldFiles.Set(static_cast<double>(services_.fieldCacheFiles.diskBytes()));
     shown.critical.Set(static_cast<double>(services_.critical.bytes()));
     return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }

@@ -153,7 +153,7 @@ std::optional<Error> UploadedBody::append(std::string_view bytes) {
 }
 
 std::shared_ptr<const fields::FileHandle> UploadedBody::finish() {
-    reservedFile_->bytes.resize(size_);
+    reservedFile_->bytes.forceResize(size_);
     // Prevent the process that reads the file from changing its size.
     fcntl(reservedFile_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
     return {reservedFile_, &reservedFile_->file};

@@ -22,7 +22,7 @@ std::function<Names(std::size_t worker)> listJob(const DataFolder& data) {
 
 boost::asio::awaitable<Names> dataNames(Services services, AddressAccountPtr client) {
     if (auto known = services.data.knownNames()) co_return *std::move(known);
-    co_return co_await runOnPool<Names>(services.loadWorkers, listJob(services.data), client->loadLane(), kListing);
+    co_return co_await runOnPool<Names>(services.loadWorkers, listJob(services.data), client->loadJobQueue(), kListing);
 }
 
 }  // namespace oval4d::net

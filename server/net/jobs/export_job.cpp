@@ -46,7 +46,7 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
             return Result<FinishedFile>(overBudget ? kTooManyBytes : made.error());
         }
         fileMetrics.markSucceeded();
-        held.resize(made->bytes.size());
+        held.forceResize(made->bytes.size());
         SharedBytes bytes = spool(std::move(made->bytes), services.options.spool)
                                 .keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(held)));
         return Result<FinishedFile>(FinishedFile{std::move(bytes), std::move(made->warnings)});

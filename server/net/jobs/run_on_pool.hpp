@@ -15,19 +15,20 @@
 
 namespace oval4d::net {
 
-/// Queues `work` in `lane` of `pool`, suspends the coroutine until a worker has run `work`, and returns the result.
+/// Queues `work` in `jobQueue` of `pool`, suspends the coroutine until a worker has run `work`, and returns the result.
 /// `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. The coroutine resumes on its own executor. Throws the
 /// exception that `work` threw, or QueueFull if the pool rejected the job. `cost`: the estimated running time. Create
 /// `work` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its captures twice.
 template <typename Value, typename Pool>
-boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::Argument)> work,
-                                        parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
+boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::JobArgument)> work,
+                                        parallel::WorkerPool::JobQueuePtr jobQueue,
+                                        parallel::WorkerPool::Seconds cost) {
     namespace asio = boost::asio;
-    auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::Argument)> job,
-                               parallel::WorkerPool::LanePtr in) {
+    auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::JobArgument)> job,
+                               parallel::WorkerPool::JobQueuePtr in) {
         // A completion handler is move-only, but std::function requires a copyable target.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
-        auto run = [shared, job = std::move(job)](typename Pool::Argument argument) mutable {
+        auto run = [shared, job = std::move(job)](typename Pool::JobArgument argument) mutable {
             std::exception_ptr failure;
             auto value = std::make_shared<Value>();
             try {
@@ -47,7 +48,7 @@ boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename
         });
     };
     return asio::async_initiate<const asio::use_awaitable_t<>, void(std::exception_ptr, Value)>(
-        start, asio::use_awaitable, std::move(work), std::move(lane));
+        start, asio::use_awaitable, std::move(work), std::move(jobQueue));
 }
 
 }  // namespace oval4d::net

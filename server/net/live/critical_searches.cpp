@@ -8,7 +8,7 @@ CriticalSearchHandle::CriticalSearchHandle(std::weak_ptr<Peer> by, const session
                                            std::stop_token workersStop)
     : by_(std::move(by)),
       arguments_(session::criticalSearchArguments(state)),
-      whenWorkersStop_(std::move(workersStop), RequestStop{stop_}) {}
+      whenWorkersStop_(std::move(workersStop), StopRequester{stop_}) {}
 
 std::shared_ptr<CriticalSearchHandle> CriticalSearches::add(const std::shared_ptr<Peer>& by,
                                                             const session::State& state, std::stop_token workersStop) {
@@ -24,7 +24,7 @@ void CriticalSearches::stop(const std::shared_ptr<Peer>& by) {
     }
 }
 
-void CriticalSearches::stopOthers(const session::State& state) {
+void CriticalSearches::stopUnneeded(const session::State& state) {
     if (searches_.empty()) return;
     const session::CriticalSearchArguments needed = session::criticalSearchArguments(state);
     for (const auto& search : running()) {

@@ -25,14 +25,14 @@ class CriticalSearchHandle {
     void stop() { stop_.request_stop(); }
 
   private:
-    struct RequestStop {
+    struct StopRequester {
         std::stop_source stop;
         void operator()() noexcept { stop.request_stop(); }
     };
     const std::weak_ptr<Peer> by_;
     const session::CriticalSearchArguments arguments_;
     std::stop_source stop_;
-    std::stop_callback<RequestStop> whenWorkersStop_;
+    std::stop_callback<StopRequester> whenWorkersStop_;
 };
 
 /// The searches of a session. Not thread-safe.
@@ -45,7 +45,7 @@ class CriticalSearches {
     /// Requests a stop of the searches that this connection has requested.
     void stop(const std::shared_ptr<Peer>& by);
     /// Requests a stop of the searches whose results this state does not need.
-    void stopOthers(const session::State& state);
+    void stopUnneeded(const session::State& state);
 
   private:
     std::vector<std::shared_ptr<CriticalSearchHandle>> running() const;

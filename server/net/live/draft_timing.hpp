@@ -28,9 +28,9 @@ class DraftTiming {
     /// Ends the period of quick changes if the session has rested for kRest.
     void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
 
-    bool isQuick() const { return isQuick_; }
+    bool hasQuickChanges() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
-    Clock::time_point changed() const { return changed_; }
+    Clock::time_point lastChangeTime() const { return changed_; }
     /// Returns the time from which endIfRested() ends a period of quick changes, if the session does not change before
     /// that time.
     Clock::time_point restEnds() const { return changed_ + kRest; }

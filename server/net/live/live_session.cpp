@@ -42,7 +42,7 @@ constexpr std::chrono::milliseconds kSaveDelay{250};
 
 constexpr const char* kTakenOverReason = "another server has taken over this session";
 
-Message textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
+OutgoingMessage textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
     return textMessage(wire::answerMessage(answer, id));
 }
 
@@ -77,7 +77,7 @@ std::shared_ptr<LiveSession> LiveSession::create(Services services, store::Write
     return session;
 }
 
-asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
+asio::awaitable<void> LiveSession::addAndWelcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     return execute(std::move(peer), {id, std::move(hello)});
 }
 
@@ -108,7 +108,7 @@ void LiveSession::save(std::shared_ptr<void> completion) {
     });
 }
 
-void LiveSession::disconnectAll() {
+void LiveSession::detachAndDisconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
         self->detached_ = true;
         self->streams_->closeAll(close_code::kStopping, kTakenOverReason);
@@ -127,7 +127,8 @@ void LiveSession::scheduleSave() {
     assertOnStrand();
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     writeBehind_.noteChange(credentials_.id, fence_);
-    saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
+    saveTimer_.startUnlessRunning(weak_from_this(), Clock::now() + kSaveDelay,
+                                  [](LiveSession& session) { session.saveNow(); });
 }
 
 /// Returns a function that writes the session as it is now, or only its head (the state and the revision), to the
@@ -148,28 +149,29 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
-    if (detached_) {  // disconnectAll() was called after this client had joined the session
+    if (detached_) {  // detachAndDisconnectAll() was called after this client had joined the session
         peer->close(close_code::kStopping, kTakenOverReason);
         co_return;
     }
     streams_->add(peer, {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
-    streams_->update();
+    streams_->sendAndRequestPictures();
     co_return;
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::PictureShown shown, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::PictureShown shown,
+                                                    RequestId id) {
     if (id) peer->send(textAnswer(wire::Done{revision()}, id));
     streams_->pictureShown(*peer, shown.revision);
     co_return;
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure measure, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Measure measure, RequestId id) {
     // Measure State::source, which has the coordinates of the object's file, and not State::object, which is
     // State::source transformed to the frame of reference.
     const slicing::Object& object = session_.current.source;
@@ -185,7 +187,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Measure
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*ping*/, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Ping /*ping*/, RequestId id) {
     const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
     peer->send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
                                      Seconds(Clock::now().time_since_epoch()).count()},
@@ -194,7 +196,8 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Ping /*
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Command command, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, session::Command command,
+                                                    RequestId id) {
     const auto applied = co_await applyCommand(peer->client(), peer, command, id.has_value());
     if (!applied) {
         sendError(*peer, services_.metrics, applied.error(), id);
@@ -202,14 +205,14 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, session::Comm
     }
     if (!applied->owned) co_return;  // this client is being disconnected
     if (id) peer->send(textAnswer(wire::Done{applied->revision, applied->warnings}, id));
-    streams_->update();
+    streams_->sendAndRequestPictures();
 }
 
 asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::applyOnStrand(
     AddressAccountPtr by, session::Command command) {
     const auto applied = co_await applyCommand(std::move(by), nullptr, command, true);
     if (applied && !applied->owned) co_return Result<CommandResult>(kInternalError);
-    streams_->update();
+    streams_->sendAndRequestPictures();
     co_return applied;
 }
 
@@ -246,14 +249,14 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
                 search = registerSearch(peer);
                 // Without this call, the connection would not read for some time while this command runs, and would
                 // notice too late that the client has left.
-                if (peer) peer->watchWhileExecuting();
+                if (peer) peer->watchForDisconnect();
             }
             if (auto refused = co_await completePending(by, loader, std::move(search))) {
                 done = std::move(*refused);
                 break;
             }
         }
-        if (done) metered_->updateReservation(session_.current.object != shown || session_.loaded != loaded);
+        if (done) metered_->adjustReservationOrTrimUndo(session_.current.object != shown || session_.loaded != loaded);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -266,7 +269,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(Clock::now());
-    searches_.stopOthers(session_.current);
+    searches_.stopUnneeded(session_.current);
     // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
@@ -298,25 +301,25 @@ std::shared_ptr<CriticalSearchHandle> LiveSession::registerSearch(const std::sha
 asio::awaitable<std::optional<Error>> LiveSession::completePending(AddressAccountPtr by,
                                                                    std::shared_ptr<session::ObjectLoader> loader,
                                                                    std::shared_ptr<CriticalSearchHandle> search) {
-    auto reservation = metered_->client()->byteAccount().reserve(loader->bytesNeeded());
+    auto reservation = metered_->client()->byteAccount().reserve(loader->memoryNeeded());
     if (!reservation) co_return kTooManyBytes;
     if (loader->pendingNeedsFile()) {
-        co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), metered_->client()->loadLane(),
+        co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), metered_->client()->loadJobQueue(),
                                            loader->estimatedDuration());
     } else if (search) {
         co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(loader, search->stopToken()),
-                                           streams_->lanesOf(by).exports, loader->estimatedDuration());
+                                           streams_->jobQueuesOf(by).exports, loader->estimatedDuration());
     } else {
         co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
-                                           streams_->lanesOf(by).pictures, loader->estimatedDuration());
+                                           streams_->jobQueuesOf(by).pictures, loader->estimatedDuration());
     }
-    const std::size_t bytes = loader->bytesLoaded();
+    const std::size_t bytes = loader->loadedObjectMemory();
     if (bytes > reservation->size() && !reservation->growTo(bytes)) co_return kTooManyBytes;
     co_return std::nullopt;
 }
 
 template <>
-asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
+asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
     const StreamKey* const stream = streams_->streamOf(*peer);
     if (stream == nullptr) co_return;
     StreamKey key = *stream;
@@ -337,7 +340,7 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
             peer->send(textMessage(wire::keymapMessage(id)));
             break;
         case wire::GetTarget::address:
-            answerWithAddress(*peer, id);
+            answerWithOpenAddress(*peer, id);
             break;
         case wire::GetTarget::slices:
             key.stream = Stream::geometry;
@@ -356,12 +359,12 @@ asio::awaitable<void> LiveSession::run(std::shared_ptr<Peer> peer, wire::Get get
             break;
         case wire::GetTarget::critical:
             // The search may take long, so the client's further messages do not wait for this answer.
-            asio::co_spawn(strand_, answerWithCritical(peer, id), KeepSessionAlive{shared_from_this()});
+            asio::co_spawn(strand_, answerWithCriticalValues(peer, id), KeepSessionAlive{shared_from_this()});
             break;
     }
 }
 
-void LiveSession::answerWithAddress(Peer& peer, RequestId id) {
+void LiveSession::answerWithOpenAddress(Peer& peer, RequestId id) {
     const auto query = session::queryFromState(session_.current, *makeLoader());
     if (query) {
         peer.send(textAnswer(session::OpenAddress{session::queryText(*query)}, id));
@@ -377,7 +380,7 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     try {
         made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, session_.current, request, peer->client()),
-            streams_->lanesOf(peer->client()).exports, pipeline::exportCost(session_.current, request));
+            streams_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(session_.current, request));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -388,19 +391,19 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
         co_return;
     }
     const FinishedFile& finished = **made;
-    Message message;
+    OutgoingMessage message;
     message.bytes = finished.bytes;
     message.binary = true;
     peer->send(std::move(message));
     peer->send(textAnswer(wire::Done{askedRevision, finished.warnings}, id));
 }
 
-asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer, RequestId id) {
+asio::awaitable<void> LiveSession::answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id) {
     const std::uint64_t askedRevision = revision();
     const double originW = slicing::infoOf(session_.current.object).originInFile.w;
     Result<slicing::CriticalPtr> found = kInternalError;
     try {
-        found = co_await findCritical(peer);
+        found = co_await findCriticalValues(peer);
     } catch (const parallel::QueueFull&) {
         found = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -415,7 +418,7 @@ asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer
 }
 
 /// Finds the critical values of w of the current object. Unless they are known, an export worker searches for them.
-asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCritical(std::shared_ptr<Peer> peer) {
+asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCriticalValues(std::shared_ptr<Peer> peer) {
     const auto loader = makeLoader();
     const session::State asked = session_.current;
     auto found = loader->criticalSections(asked);
@@ -430,9 +433,9 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedJob(key, id, point),
-                                                      streams_->lanesOf(peer->client()).pictures,
-                                                      pictureCost(session_.current, key, slicing::Quality::full));
+        OutgoingMessage picture = co_await runOnPool<OutgoingMessage>(
+            services_.pictureWorkers, requestedJob(key, id, point), streams_->jobQueuesOf(peer->client()).pictures,
+            pictureCost(session_.current, key, slicing::Quality::full));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
@@ -445,28 +448,28 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 
 /// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows at this
 /// point.
-std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
-                                                                      std::optional<glm::dvec2> point) const {
-    const SnapshotPtr known = streams_->newestSnapshot();
-    return [known, state = session_.current, askedRevision = revision(), changed = streams_->changed(), key, id, point,
-            &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+std::function<OutgoingMessage(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
+                                                                              std::optional<glm::dvec2> point) const {
+    const SnapshotPtr known = streams_->currentFullSnapshot();
+    return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
+            point, &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         const SnapshotPtr snapshot =
             suffices(known, key) ? known
                                  : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
         if (point)
             return textMessage(
                 pipeline.describePoint(state, snapshot->slices, askedRevision, id, key.viewport, *point));
-        Message picture = makePicture(pipeline, *snapshot, key, id);
+        OutgoingMessage picture = makePicture(pipeline, *snapshot, key, id);
         metrics.observe(pipeline.times());
         return picture;
     };
 }
 
-// This function is last in the file, because the specializations of run() must be declared before it.
+// This function is last in the file, because the specializations of executeAndAnswer() must be declared before it.
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
     // The body is moved, because that of a `load` message may be large.
-    co_await std::visit([&](auto& body) { return run(peer, std::move(body), request.id); }, request.body);
+    co_await std::visit([&](auto& body) { return executeAndAnswer(peer, std::move(body), request.id); }, request.body);
 }
 
 }  // namespace oval4d::net

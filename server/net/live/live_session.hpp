@@ -49,10 +49,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     /// Adds a client, or changes its stream if it was added before. Sends the client the message `welcome`; the state
     /// and a picture follow. If another server has taken over the session, closes the client's connection instead.
-    boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
+    boost::asio::awaitable<void> addAndWelcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
-    /// Executes a request of a client that was added with welcome(), and returns when the request is answered. However,
-    /// if the request asks for critical values of w, returns at once and answers later.
+    /// Executes a request of a client that was added with addAndWelcome(), and returns when the request is answered.
+    /// However, if the request asks for critical values of w, returns at once and answers later.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
     /// The result of a command.
@@ -83,7 +83,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     /// Closes all connections, and never writes the session to the store again. Must be called when another server has
     /// taken over the session.
-    void disconnectAll();
+    void detachAndDisconnectAll();
 
   private:
     using Clock = PictureStreams::Clock;
@@ -95,18 +95,18 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
     /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; if one
     /// is missing, the program does not link.
-    template <typename Body>
-    boost::asio::awaitable<void> run(std::shared_ptr<Peer> peer, Body /*body*/, RequestId id);
+    template <typename RequestBody>
+    boost::asio::awaitable<void> executeAndAnswer(std::shared_ptr<Peer> peer, RequestBody /*body*/, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
-    void answerWithAddress(Peer& peer, RequestId id);
+    void answerWithOpenAddress(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
-    boost::asio::awaitable<void> answerWithCritical(std::shared_ptr<Peer> peer, RequestId id);
-    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCritical(std::shared_ptr<Peer> peer);
+    boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);
+    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
     std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
-    std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
-                                                             std::optional<glm::dvec2> point) const;
+    std::function<OutgoingMessage(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
+                                                                     std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(AddressAccountPtr by,
                                                                                session::Command command);
     boost::asio::awaitable<Result<CommandResult>> applyCommand(AddressAccountPtr by, std::shared_ptr<Peer> peer,

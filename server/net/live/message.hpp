@@ -9,12 +9,12 @@
 namespace oval4d::net {
 
 /// A message to send over a WebSocket.
-struct Message {
+struct OutgoingMessage {
     SharedBytes bytes;
     bool binary = false;  ///< whether this is a binary message; otherwise it is a text message
 };
 
 /// Returns a text message.
-inline Message textMessage(std::string text) { return {SharedBytes(std::move(text)), false}; }
+inline OutgoingMessage textMessage(std::string text) { return {SharedBytes(std::move(text)), false}; }
 
 }  // namespace oval4d::net

@@ -12,14 +12,14 @@ MeteredSession::MeteredSession(AddressAccountPtr client, session::Session opened
       objectMemory_(session::ownObjectMemory(value)),
       reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemoryWithoutObjects(value))) {}
 
-void MeteredSession::updateReservation(bool objectsChanged) {
+void MeteredSession::adjustReservationOrTrimUndo(bool objectsChanged) {
     if (objectsChanged) objectMemory_ = session::ownObjectMemory(value);
     const std::size_t bytes = objectMemory_ + session::historyMemoryWithoutObjects(value);
     if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {
         session::forgetOlderHalf(value);
         objectMemory_ = session::ownObjectMemory(value);
     }
-    reservation_.resize(objectMemory_ + session::historyMemoryWithoutObjects(value));
+    reservation_.forceResize(objectMemory_ + session::historyMemoryWithoutObjects(value));
 }
 
 }  // namespace oval4d::net

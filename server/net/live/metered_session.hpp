@@ -20,7 +20,7 @@ class MeteredSession {
     /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
     /// account, forgets the older half of the undo steps, and reserves the memory that is left, even if it exceeds the
     /// limit. `objectsChanged`: whether the command may have added, removed or replaced objects of the session.
-    void updateReservation(bool objectsChanged);
+    void adjustReservationOrTrimUndo(bool objectsChanged);
 
     session::Session value;
 

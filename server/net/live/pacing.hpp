@@ -19,7 +19,7 @@ class Pacing {
     /// Returns whether one more picture may be sent, in addition to `pending` pictures that are still being made.
     bool hasRoom(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
     /// Returns the newest revision that was sent or skipped; an empty optional if there is none.
-    std::optional<std::uint64_t> newest() const { return newest_; }
+    std::optional<std::uint64_t> newestSentOrSkipped() const { return newest_; }
 
     /// Records that the picture of this revision was queued for the client.
     void recordSent(std::uint64_t revision);

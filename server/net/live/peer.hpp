@@ -18,7 +18,7 @@ class Peer {
 
     /// Queues a message. `written`, if not empty, is called on any thread once the whole message is written to the
     /// socket; it is not called if the connection ends before that.
-    virtual void send(Message message, std::function<void()> written = {}) = 0;
+    virtual void send(OutgoingMessage message, std::function<void()> written = {}) = 0;
 
     /// Returns the account of the client to whom the connection belongs. The worker pools charge the connection's jobs
     /// to this account.
@@ -27,7 +27,7 @@ class Peer {
     /// Makes the connection notice at once if its client leaves while the current request is being executed, and then
     /// call LiveSession::stopSearches(). Without this call, the connection may not notice that the client has left
     /// before the request is done.
-    virtual void watchWhileExecuting() = 0;
+    virtual void watchForDisconnect() = 0;
 
     /// Closes the connection with a WebSocket close code after the queued messages have been written.
     virtual void close(std::uint16_t code, std::string reason) = 0;

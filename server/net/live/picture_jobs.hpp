@@ -22,15 +22,15 @@ class PictureJobs {
     };
 
     /// Returns whether a job is queued or being drawn.
-    bool isDrawing() const { return drawing_ != 0; }
+    bool isQueuedOrDrawing() const { return drawing_ != 0; }
     /// Returns the number of the job that is queued or being drawn; if there is none, the number of the next job. Jobs
     /// are numbered from 1.
-    std::uint64_t job() const { return isDrawing() ? drawing_ : jobs_ + 1; }
-    /// Records that the job with the number job() was queued. The caller must ensure that no other job is queued or
-    /// being drawn.
+    std::uint64_t currentOrNextJobNumber() const { return isQueuedOrDrawing() ? drawing_ : jobs_ + 1; }
+    /// Records that the job with the number currentOrNextJobNumber() was queued. The caller must ensure that no other
+    /// job is queued or being drawn.
     void recordQueued() { drawing_ = ++jobs_; }
     /// Records that the last picture of a job has been drawn and is being encoded.
-    void recordDrawn(const PictureBeingEncoded& picture) {
+    void recordLastPictureDrawn(const PictureBeingEncoded& picture) {
         if (drawing_ == picture.job) drawing_ = 0;
         encoding_.push_back(picture);
     }

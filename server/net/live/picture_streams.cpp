@@ -38,8 +38,8 @@ PictureStreams::PictureStreams(Services services, Strand strand, std::string ses
 
 void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
     assertOnStrand();
-    ClientJobLanes lanes = lanesOf(peer->client());
-    subscribers_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
+    ClientJobQueues jobQueues = jobQueuesOf(peer->client());
+    subscribers_[peer.get()] = Subscriber{peer, std::move(jobQueues), key, {}};
 }
 
 const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
@@ -48,12 +48,12 @@ const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
     return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
-PictureStreams::ClientJobLanes PictureStreams::lanesOf(const AddressAccountPtr& own) const {
+PictureStreams::ClientJobQueues PictureStreams::jobQueuesOf(const AddressAccountPtr& own) const {
     for (const auto& [key, subscriber] : subscribers_) {
-        if (subscriber.lanes.client == own) return subscriber.lanes;
+        if (subscriber.jobQueues.client == own) return subscriber.jobQueues;
     }
-    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureFlow()),
-            std::make_shared<parallel::WorkerPool::Lane>(own->exportFlow())};
+    return {own, std::make_shared<parallel::WorkerPool::JobQueue>(own->pictureFlow()),
+            std::make_shared<parallel::WorkerPool::JobQueue>(own->exportFlow())};
 }
 
 void PictureStreams::closeAll(std::uint16_t code, const std::string& reason) {
@@ -68,25 +68,25 @@ void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
     const auto subscriber = subscribers_.find(&peer);
     if (subscriber == subscribers_.end()) return;
     subscriber->second.pacing.recordShown(ofRevision);
-    update();
+    sendAndRequestPictures();
 }
 
-void PictureStreams::update() {
+void PictureStreams::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
     std::vector<StreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
     for (auto& [key, subscriber] : subscribers_) {
-        if (subscriber.pacing.newest() == revision() && subscriber.quality >= wanted) continue;
+        if (subscriber.pacing.newestSentOrSkipped() == revision() && subscriber.quality >= wanted) continue;
         if (subscriber.streamKey.stream == Stream::none) {
             if (!subscriber.stateInFlight) sendState(subscriber);
             continue;
         }
         allServed = false;
         if (!subscriber.pacing.hasRoom()) continue;
-        if (const Message* picture = pictures_.find(subscriber.streamKey, revision(), wanted)) {
-            sendPicture(subscriber, *picture);
+        if (const OutgoingMessage* picture = pictures_.find(subscriber.streamKey, revision(), wanted)) {
+            sendStateAndPicture(subscriber, *picture);
         } else if (!inProgress_.isEncoding(subscriber.streamKey, revision(), wanted) &&
                    subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey)) &&
                    std::ranges::find(missing, subscriber.streamKey) == missing.end()) {
@@ -101,7 +101,8 @@ void PictureStreams::update() {
 /// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
 slicing::Quality PictureStreams::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
-    return session_.current.isMoving() || draftTiming_.isQuick() ? slicing::Quality::draft : slicing::Quality::full;
+    return session_.current.isMoving() || draftTiming_.hasQuickChanges() ? slicing::Quality::draft
+                                                                         : slicing::Quality::full;
 }
 
 /// Schedules pictures of full quality for the time when the period of quick changes ends (DraftTiming::restEnds()).
@@ -109,9 +110,9 @@ slicing::Quality PictureStreams::wantedQuality() const {
 /// to make it before that time.
 void PictureStreams::scheduleRefinement() {
     if (session_.current.isMoving()) return;
-    refineTimer_.start(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
+    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
         streams.draftTiming_.endIfRested(Clock::now());
-        streams.update();
+        streams.sendAndRequestPictures();
     });
 }
 
@@ -123,13 +124,13 @@ void PictureStreams::advanceMotion() {
         motionTiming_.stop();
         return;
     }
-    if (inProgress_.isDrawing() ||
+    if (inProgress_.isQueuedOrDrawing() ||
         std::ranges::none_of(subscribers_, [this](const auto& entry) { return readyForNext(entry.second); }))
         return;
     const auto now = Clock::now();
     const auto passed = motionTiming_.step(now);
     if (!passed) {
-        motionTimer_.start(weak_from_this(), motionTiming_.due(), &PictureStreams::update);
+        motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.due(), &PictureStreams::sendAndRequestPictures);
         return;
     }
     const std::uint64_t before = revision();
@@ -140,7 +141,7 @@ void PictureStreams::advanceMotion() {
 }
 
 bool PictureStreams::readyForNext(const Subscriber& subscriber) const {
-    const bool hasNewest = subscriber.pacing.newest() == revision();
+    const bool hasNewest = subscriber.pacing.newestSentOrSkipped() == revision();
     if (!hasNewest && !inProgress_.isEncoding(subscriber.streamKey, revision(), slicing::Quality::draft)) return false;
     return subscriber.streamKey.stream == Stream::none
                ? !subscriber.stateInFlight
@@ -148,17 +149,17 @@ bool PictureStreams::readyForNext(const Subscriber& subscriber) const {
 }
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
-/// are being drawn, because update() is called again afterward.
+/// are being drawn, because sendAndRequestPictures() is called again afterward.
 void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
-    const bool isNew = !inProgress_.isDrawing();
-    const parallel::WorkerPool::LanePtr lane = subscriberToCharge(wanted).lanes.pictures;
+    const bool isNew = !inProgress_.isQueuedOrDrawing();
+    const parallel::WorkerPool::JobQueuePtr jobQueue = subscriberToCharge(wanted).jobQueues.pictures;
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
-    PictureJob next{inProgress_.job(),      session_.current, revision(),
-                    draftTiming_.changed(), quality,          pictures_.find(revision(), quality),
-                    std::move(wanted)};
+    PictureJob next{
+        inProgress_.currentOrNextJobNumber(), session_.current, revision(), draftTiming_.lastChangeTime(), quality,
+        pictures_.find(revision(), quality),  std::move(wanted)};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
@@ -166,7 +167,7 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     }
     if (!isNew) return;
     const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
-    if (services_.pictureWorkers.post(job, lane, cost)) {
+    if (services_.pictureWorkers.post(job, jobQueue, cost)) {
         inProgress_.recordQueued();
     } else {
         queuedJob_.reset();
@@ -174,19 +175,20 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// Returns the client to whose lane a job for the pictures `wanted` is charged. If several clients receive these
+/// Returns the client to whose job queue a job for the pictures `wanted` is charged. If several clients receive these
 /// pictures, they are charged in turn, one for each job.
 const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
         if (std::ranges::find(wanted, subscriber.streamKey) != wanted.end()) payers.push_back(&subscriber);
     }
-    return *payers[inProgress_.job() % payers.size()];
+    return *payers[inProgress_.currentOrNextJobNumber() % payers.size()];
 }
 
 /// Schedules another attempt after the pool has rejected a job because its queue is full.
 void PictureStreams::scheduleRetry() {
-    retryTimer_.start(weak_from_this(), Clock::now() + kRetryInterval, &PictureStreams::update);
+    retryTimer_.startUnlessRunning(weak_from_this(), Clock::now() + kRetryInterval,
+                                   &PictureStreams::sendAndRequestPictures);
 }
 
 void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
@@ -202,7 +204,7 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
             if (!suffices(result.snapshot, key))
                 result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
             std::function<void()> whenDrawn;
-            if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onDrawn(job, key); };
+            if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onLastPictureDrawn(job, key); };
             result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
             services_.metrics.observe(pipeline.times());
         } catch (const std::exception& fault) {
@@ -216,11 +218,11 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
 
 /// Called on a worker when the last picture of a job is drawn, but not yet encoded. The next job may be queued as soon
 /// as this function has been called.
-void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
+void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& key) {
     asio::post(strand_, [self = shared_from_this(),
                          drawn = PictureJobs::PictureBeingEncoded{job.number, job.revision, job.quality, key}] {
-        self->inProgress_.recordDrawn(drawn);
-        self->update();
+        self->inProgress_.recordLastPictureDrawn(drawn);
+        self->sendAndRequestPictures();
     });
 }
 
@@ -230,13 +232,13 @@ void PictureStreams::onDrawn(const PictureJob& job, const StreamKey& key) {
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
-    pictures_.add(result.snapshot, std::move(result.pictures));
+    pictures_.addUnlessOlder(result.snapshot, std::move(result.pictures));
     for (auto& [key, subscriber] : subscribers_) {
         if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
-        const auto newest = subscriber.pacing.newest();
+        const auto newest = subscriber.pacing.newestSentOrSkipped();
         if (newest && std::tie(*newest, subscriber.quality) >= std::tie(result.revision, result.quality)) continue;
-        if (const Message* picture = pictures_.find(subscriber.streamKey, result.revision, result.quality)) {
-            sendPicture(subscriber, *picture);
+        if (const OutgoingMessage* picture = pictures_.find(subscriber.streamKey, result.revision, result.quality)) {
+            sendStateAndPicture(subscriber, *picture);
         } else if (const auto failed = std::ranges::find(result.failed, subscriber.streamKey, &FailedPicture::first);
                    failed != result.failed.end()) {
             subscriber.pacing.recordSkipped(result.revision);
@@ -244,11 +246,11 @@ void PictureStreams::onJobDone(JobResult result) {
             if (const auto peer = subscriber.peer.lock()) sendError(*peer, services_.metrics, failed->second, {});
         }
     }
-    update();
+    sendAndRequestPictures();
 }
 
 /// Sends the state of the newest snapshot, followed by `picture`, which was made of this snapshot.
-void PictureStreams::sendPicture(Subscriber& subscriber, const Message& picture) {
+void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
     const Snapshot& snapshot = *pictures_.snapshot();
@@ -266,7 +268,7 @@ void PictureStreams::sendPicture(Subscriber& subscriber, const Message& picture)
                        const auto written = self->subscribers_.find(to.lock().get());
                        if (written == self->subscribers_.end()) return;
                        written->second.pacing.recordWritten(sent, now);
-                       self->schedulePacing();
+                       self->scheduleShownTimeout();
                    });
                });
 }
@@ -296,26 +298,26 @@ void PictureStreams::sendState(Subscriber& subscriber) {
             const auto written = self->subscribers_.find(to.lock().get());
             if (written == self->subscribers_.end()) return;
             written->second.stateInFlight = false;
-            self->update();
+            self->sendAndRequestPictures();
         });
     });
 }
 
-/// Starts a timer that calls expirePictures(), which marks pictures as shown that clients have not acknowledged in
-/// time.
-void PictureStreams::schedulePacing() {
+/// Starts a timer that calls assumeOverduePicturesShown(), which marks pictures as shown that clients have not
+/// acknowledged in time.
+void PictureStreams::scheduleShownTimeout() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {
         const auto deadline = subscriber.pacing.deadline(shownTimeout());
         if (deadline && (!first || *deadline < *first)) first = deadline;
     }
-    if (first) paceTimer_.start(weak_from_this(), *first, &PictureStreams::expirePictures);
+    if (first) paceTimer_.startUnlessRunning(weak_from_this(), *first, &PictureStreams::assumeOverduePicturesShown);
 }
 
-void PictureStreams::expirePictures() {
+void PictureStreams::assumeOverduePicturesShown() {
     for (auto& [key, subscriber] : subscribers_) subscriber.pacing.assumeShown(Clock::now(), shownTimeout());
-    update();
-    schedulePacing();
+    sendAndRequestPictures();
+    scheduleShownTimeout();
 }
 
 PictureStreams::Clock::duration PictureStreams::shownTimeout() const {

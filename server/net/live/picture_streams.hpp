@@ -38,10 +38,10 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Clock = Pacing::Clock;
-    /// A client's lanes in the worker pools for its jobs in this session.
-    struct ClientJobLanes {
+    /// A client's job queues in the worker pools for its jobs in this session.
+    struct ClientJobQueues {
         AddressAccountPtr client;
-        parallel::WorkerPool::LanePtr pictures, exports;
+        parallel::WorkerPool::JobQueuePtr pictures, exports;
     };
 
     /// `sessionId`: for the log. `metered`: the session, whose owner calls sessionChanged() after each change.
@@ -56,9 +56,9 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     void remove(const Peer* peer) { subscribers_.erase(peer); }
     /// Returns the stream of a client; null if it was not added. The pointer is valid until the next add() or remove().
     const StreamKey* streamOf(const Peer& peer) const;
-    /// Returns the lanes of a client in this session. All connections of a client to a session share these lanes, so
-    /// that a client with several connections gets no larger share of the workers.
-    ClientJobLanes lanesOf(const AddressAccountPtr& own) const;
+    /// Returns the job queues of a client in this session. All connections of a client to a session share these job
+    /// queues, so that a client with several connections gets no larger share of the workers.
+    ClientJobQueues jobQueuesOf(const AddressAccountPtr& own) const;
     /// Closes the connections of all clients.
     void closeAll(std::uint16_t code, const std::string& reason);
 
@@ -72,18 +72,18 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// Sends every client the newest state or picture, if the picture is ready and the client can receive it. Requests
     /// pictures that are missing. Must be called whenever the session may have changed, a client may have become able
     /// to receive a picture, or a worker may have become available.
-    void update();
+    void sendAndRequestPictures();
 
     /// Returns the time at which the session reached its current revision.
-    Clock::time_point changed() const { return draftTiming_.changed(); }
+    Clock::time_point lastChangeTime() const { return draftTiming_.lastChangeTime(); }
     /// Returns the snapshot of the current revision, of full quality; null if there is none.
-    SnapshotPtr newestSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
+    SnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
   private:
     // A connected client of this session, and what it was sent.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
-        ClientJobLanes lanes;
+        ClientJobQueues jobQueues;
         StreamKey streamKey;
         Pacing pacing;
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
@@ -107,7 +107,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         std::uint64_t revision = 0;
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;
-        SnapshotPictureCache::List pictures;
+        SnapshotPictureCache::MessagesByStream pictures;
         std::vector<FailedPicture> failed;
     };
 
@@ -122,16 +122,16 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     const Subscriber& subscriberToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
     void onJobDone(JobResult result);
-    void sendPicture(Subscriber& subscriber, const Message& picture);
+    void sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture);
     void sendState(Subscriber& subscriber);
-    void schedulePacing();
-    void expirePictures();
+    void scheduleShownTimeout();
+    void assumeOverduePicturesShown();
     Clock::duration shownTimeout() const;
     bool readyForNext(const Subscriber& subscriber) const;
 
     // The following functions run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
-    void onDrawn(const PictureJob& job, const StreamKey& key);
+    void onLastPictureDrawn(const PictureJob& job, const StreamKey& key);
 
     // Constant after construction.
     const Services services_;  // declared first, because other members are initialized from it

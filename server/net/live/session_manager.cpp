@@ -19,7 +19,7 @@ namespace {
 
 const Error kTakenOver{ErrorCode::internal, "another server has taken over this session; try again"};
 
-store::WriteBehindStore::Settings settingsFrom(const Options& options) {
+store::WriteBehindStore::WriteBehindSettings settingsFrom(const Options& options) {
     return {std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry), options.keptUndo,
             options.storeQuota};
 }
@@ -79,19 +79,19 @@ WriteBehindStore::Listener SessionManager::listener() {
 /// Counts a new session against the client's limit of new sessions per minute. At a limit on the number of stored
 /// sessions, evicts an unmodified closed session to make room. Returns an error if the limit per minute is reached, or
 /// if there is no session to evict. Requires that mutex_ is held.
-std::optional<Error> SessionManager::admitSession(AddressAccount& client) {
+std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
     const auto now = SessionsByClient::Clock::now();
     const Options& options = services_.options;
     // Sessions are evicted only once no limit can refuse the new one anymore.
     std::optional<std::string> evicted;
-    if (byClient_.count(client.name(), now) >= options.client.sessions) {
-        evicted = byClient_.oldestUnmodified(now, &client.name());
+    if (byClient_.countSessionsOf(client.name(), now) >= options.client.sessions) {
+        evicted = byClient_.firstClosedUnmodified(now, &client.name());
         if (!evicted) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.client.sessions) +
                                                   " sessions for one address; reopen one of them or try again later"};
         }
     } else if (writeBehind_.sessionCount() >= options.maxSessions) {
-        evicted = byClient_.oldestUnmodified(now);
+        evicted = byClient_.firstClosedUnmodified(now);
         if (!evicted) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
                                                   " sessions, and none of them may be discarded now; try again later"};
@@ -115,7 +115,7 @@ void SessionManager::evict(const std::string& id) {
 
 void SessionManager::create(const AddressAccountPtr& client, const JoinHandler& done) {
     std::unique_lock lock(mutex_);
-    if (auto refused = admitSession(*client)) {
+    if (auto refused = admitSessionMakingRoom(*client)) {
         lock.unlock();
         done(std::move(*refused));
         return;
@@ -152,9 +152,9 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
         return;
     }
     lock.unlock();
-    writeBehind_.fetch(credentials,
-                       [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
-                           WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
+    writeBehind_.claimAndFetch(
+        credentials, [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
+                         WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
 }
 
 /// Runs on the thread of the write-behind store. A worker decodes the record, because decoding would block the thread
@@ -171,16 +171,17 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
         const bool opensFile = std::ranges::any_of(
             fetch->record.objects, [](const auto& object) { return store::refersToFile(object.second); });
         parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
-        const bool accepted = pool.post([self = shared_from_this(), pending, record = std::move(fetch->record)](
-                                            std::size_t /*worker*/) { self->decode(pending, record); },
-                                        opensFile ? pending.client->loadLane() : pending.client->pictureLane(), cost);
+        const bool accepted =
+            pool.post([self = shared_from_this(), pending, record = std::move(fetch->record)](
+                          std::size_t /*worker*/) { self->decodeAndFinishOpening(pending, record); },
+                      opensFile ? pending.client->loadJobQueue() : pending.client->pictureJobQueue(), cost);
         if (accepted) return;
         writeBehind_.discardFetched(pending.credentials.id);
         finishOpening(pending, kTooManyJobs);
     }
 }
 
-void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
+void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
     bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
     try {
@@ -241,7 +242,7 @@ std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials 
     auto session =
         LiveSession::create(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
-    byClient_.open(id, client->name());
+    byClient_.recordOpened(id, client->name());
     return session;
 }
 
@@ -252,7 +253,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
         const auto found = self->live_.find(id);
         if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
         const bool unmodified = value.revision == 0 && value.loaded.empty();
-        self->byClient_.close(id, unmodified, SessionsByClient::Clock::now());
+        self->byClient_.recordClosed(id, unmodified, SessionsByClient::Clock::now());
         self->writeBehind_.close(id, value);
         self->live_.erase(found);
         spdlog::info("session closed session={}", id);
@@ -273,7 +274,7 @@ void SessionManager::dropTakenSession(const std::string& id) {
     }
     services_.metrics.sessionsTaken.Increment();
     spdlog::info("session taken over by another server session={}", id);
-    session->disconnectAll();
+    session->detachAndDisconnectAll();
 }
 
 std::shared_ptr<LiveSession> SessionManager::find(const std::string& id) const {

@@ -61,10 +61,10 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
 
     store::WriteBehindStore::Listener listener();
     std::shared_ptr<LiveSession> find(const std::string& id) const;
-    std::optional<Error> admitSession(AddressAccount& client);
+    std::optional<Error> admitSessionMakingRoom(AddressAccount& client);
     void evict(const std::string& id);
     void onFetched(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
-    void decode(const PendingJoin& pending, const store::Record& record);
+    void decodeAndFinishOpening(const PendingJoin& pending, const store::Record& record);
     void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence = 0);
     std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, store::Fence fence,
                                           const AddressAccountPtr& client, session::Session value);

@@ -2,7 +2,7 @@
 
 namespace oval4d::net {
 
-void SessionsByClient::open(const std::string& id, const std::string& client) {
+void SessionsByClient::recordOpened(const std::string& id, const std::string& client) {
     const auto [found, isNew] = sessions_.try_emplace(id);
     if (isNew) {
         found->second.client = client;
@@ -12,7 +12,7 @@ void SessionsByClient::open(const std::string& id, const std::string& client) {
     }
 }
 
-void SessionsByClient::close(const std::string& id, bool unmodified, Clock::time_point now) {
+void SessionsByClient::recordClosed(const std::string& id, bool unmodified, Clock::time_point now) {
     const auto found = sessions_.find(id);
     if (found == sessions_.end()) return;
     SessionInfo& entry = found->second;
@@ -36,7 +36,7 @@ void SessionsByClient::remove(const std::string& id) {
     if (const auto found = sessions_.find(id); found != sessions_.end()) erase(found);
 }
 
-void SessionsByClient::erase(Sessions::iterator session) {
+void SessionsByClient::erase(SessionsById::iterator session) {
     reopen(session->second);
     const auto owner = clients_.find(session->second.client);
     if (--owner->second.sessions == 0) clients_.erase(owner);
@@ -51,13 +51,13 @@ void SessionsByClient::expire(Clock::time_point now) {
     }
 }
 
-std::size_t SessionsByClient::count(const std::string& client, Clock::time_point now) {
+std::size_t SessionsByClient::countSessionsOf(const std::string& client, Clock::time_point now) {
     expire(now);
     const auto owner = clients_.find(client);
     return owner == clients_.end() ? 0 : owner->second.sessions;
 }
 
-std::optional<std::string> SessionsByClient::oldestUnmodified(Clock::time_point now, const std::string* client) {
+std::optional<std::string> SessionsByClient::firstClosedUnmodified(Clock::time_point now, const std::string* client) {
     expire(now);
     const auto* sessions = &unmodified_;
     if (client != nullptr) {

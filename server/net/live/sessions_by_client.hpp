@@ -21,20 +21,20 @@ class SessionsByClient {
     explicit SessionsByClient(Clock::duration expiry) : expiry_(expiry) {}
 
     /// Records that a client has opened a session. A known session stays assigned to the client that opened it first.
-    void open(const std::string& id, const std::string& client);
+    void recordOpened(const std::string& id, const std::string& client);
 
     /// Records that a session has no client anymore. `unmodified`: whether the session was never changed.
-    void close(const std::string& id, bool unmodified, Clock::time_point now);
+    void recordClosed(const std::string& id, bool unmodified, Clock::time_point now);
 
     /// Removes a session that was deleted or was taken over by another server.
     void remove(const std::string& id);
 
     /// Returns the number of sessions that a client has opened, both open ones and closed ones that have not expired.
-    std::size_t count(const std::string& client, Clock::time_point now);
+    std::size_t countSessionsOf(const std::string& client, Clock::time_point now);
 
     /// Returns the id of the unmodified closed session that was closed first. Considers only the sessions of `client`,
     /// or those of all clients if `client` is null. Returns an empty optional if there is no such session.
-    std::optional<std::string> oldestUnmodified(Clock::time_point now, const std::string* client = nullptr);
+    std::optional<std::string> firstClosedUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
     struct SessionInfo {
@@ -47,14 +47,14 @@ class SessionsByClient {
         std::size_t sessions = 0;
         std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by SessionInfo::closed
     };
-    using Sessions = std::map<std::string, SessionInfo, std::less<>>;
+    using SessionsById = std::map<std::string, SessionInfo, std::less<>>;
 
     void expire(Clock::time_point now);
     void reopen(SessionInfo& entry);
-    void erase(Sessions::iterator session);
+    void erase(SessionsById::iterator session);
 
     const Clock::duration expiry_;
-    Sessions sessions_;
+    SessionsById sessions_;
     std::map<std::string, ClientSessions, std::less<>> clients_;  // by client name
     std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by SessionInfo::closed
     std::map<std::uint64_t, std::string> unmodified_;  // unmodified closed sessions: ids by SessionInfo::closed

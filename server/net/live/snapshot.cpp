@@ -36,8 +36,8 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
     return snapshot && (snapshot->sliced || key.stream == wire::Stream::frames);
 }
 
-Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
-                    std::optional<double> id, const std::function<void()>& whenDrawn) {
+OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+                            std::optional<double> id, const std::function<void()>& whenDrawn) {
     using scene::Background;
     session::State state = snapshot.state;
     if (key.background) state.look.background = *key.background;

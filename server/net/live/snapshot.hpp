@@ -55,8 +55,8 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 /// Makes a picture: a PNG file if the stream of `key` is frames, else a `slices` message with this request id. For a
 /// PNG file, calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
 /// std::runtime_error if the picture cannot be drawn.
-Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
-                    std::optional<double> id, const std::function<void()>& whenDrawn = {});
+OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+                            std::optional<double> id, const std::function<void()>& whenDrawn = {});
 
 /// Returns the `state` message of the current state of a session, with this request id.
 std::string stateText(const session::Session& session, std::optional<double> id, scene::Scheme scheme);

@@ -16,7 +16,7 @@ namespace oval4d::net {
 /// and sent to all clients with the same StreamKey. Not thread-safe.
 class SnapshotPictureCache {
   public:
-    using List = std::vector<std::pair<StreamKey, Message>>;
+    using MessagesByStream = std::vector<std::pair<StreamKey, OutgoingMessage>>;
 
     /// Returns the snapshot that is kept; null if there is none.
     const SnapshotPtr& snapshot() const { return snapshot_; }
@@ -26,16 +26,16 @@ class SnapshotPictureCache {
         return isKept ? snapshot_ : nullptr;
     }
     /// Returns the picture of this revision for `key`, if its quality is at least `atLeast`; null if there is none.
-    const Message* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
+    const OutgoingMessage* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         if (!snapshot_ || snapshot_->revision != revision || snapshot_->quality < atLeast) return nullptr;
-        const auto found = std::ranges::find(pictures_, key, &List::value_type::first);
+        const auto found = std::ranges::find(pictures_, key, &MessagesByStream::value_type::first);
         return found == pictures_.end() ? nullptr : &found->second;
     }
 
     /// Adds pictures of `snapshot`. Does nothing if the snapshot that is kept is newer: it has a later revision, or the
     /// same revision in a higher quality. If another snapshot is kept, first drops it and its pictures, and keeps
     /// `snapshot` instead. `snapshot` may be null if there are no pictures.
-    void add(const SnapshotPtr& snapshot, List pictures) {
+    void addUnlessOlder(const SnapshotPtr& snapshot, MessagesByStream pictures) {
         const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;
         if (snapshot != snapshot_) clear();
@@ -50,7 +50,7 @@ class SnapshotPictureCache {
 
   private:
     SnapshotPtr snapshot_;
-    List pictures_;
+    MessagesByStream pictures_;
 };
 
 }  // namespace oval4d::net

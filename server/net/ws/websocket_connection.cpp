@@ -133,7 +133,7 @@ void WebSocketConnection::startHandling(Incoming incoming) {
 
 /// Reads the next message. First waits until the current message has been executed, so that a client that closes the
 /// connection right after a request still receives the answer. Once the client has joined a session, this wait ends
-/// early when a pong of the client may be due, or when watchWhileExecuting() is called, as it is for long searches.
+/// early when a pong of the client may be due, or when watchForDisconnect() is called, as it is for long searches.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -176,7 +176,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
             checked = true;
             // Only one long message at a time may hold memory.
             co_await waitUntil(executedSignal_, [this] { return !executing_; });
-            checkLongMessage(incoming);
+            admitOrRefuseLongMessage(incoming);
         }
         if (incoming.refusal) {
             client_->countMessage(buffer_.size(), AddressAccount::Clock::now());
@@ -189,7 +189,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
 
 /// Decides from the beginning of a long message whether to keep the message. It is kept if its type is `load` or is not
 /// yet known, and if its memory fits in the client's byte account. Otherwise sets `incoming.refusal`.
-void WebSocketConnection::checkLongMessage(Incoming& incoming) {
+void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
     constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
     const auto seen =
         wire::peekRequest({static_cast<const char*>(buffer_.cdata().data()), services_.options.maxRequestBytes});
@@ -250,7 +250,7 @@ asio::awaitable<ParseResult> WebSocketConnection::parse(std::string_view text) {
         co_return wire::parseRequest(text, services_.options.maxDepth);
     auto work = parseLongMessageJob(text, services_.options);
     co_return co_await runOnPool<ParseResult>(services_.pictureWorkers.workers(), std::move(work),
-                                              client_->pictureLane(),
+                                              client_->pictureJobQueue(),
                                               Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
 
@@ -283,7 +283,7 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
     SessionManager::JoinResult joined = kInternalError;
     joining_ = true;
     try {
-        joined = co_await joinSession(hello);
+        joined = co_await joinOrCreateSession(hello);
     } catch (const std::exception& fault) {
         spdlog::error("session cannot be joined fault=\"{}\"", fault.what());
     }
@@ -302,12 +302,12 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
         stream_.read_message_max(services_.options.maxLoadMessageBytes);
         if (joined_) joined_();
     }
-    co_await session_->welcome(shared_from_this(), std::move(hello), id);
+    co_await session_->addAndWelcome(shared_from_this(), std::move(hello), id);
 }
 
 /// Joins or creates the session that a hello requests. If the connection has already joined a session, returns that
 /// session.
-asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinSession(wire::Hello hello) {
+asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinOrCreateSession(wire::Hello hello) {
     const std::string token = hello.token.value_or("");
     if (session_) {
         if (hello.token && !store::equalInConstantTime(token, session_->credentials().token)) {
@@ -344,7 +344,7 @@ void WebSocketConnection::sendError(const Error& error, RequestId id) {
     net::sendError(*this, services_.metrics, error, id);
 }
 
-void WebSocketConnection::send(Message message, std::function<void()> written) {
+void WebSocketConnection::send(OutgoingMessage message, std::function<void()> written) {
     asio::post(stream_.get_executor(),
                [self = shared_from_this(), message = std::move(message), written = std::move(written)]() mutable {
                    if (self->ended_ || self->closing_) return;
@@ -367,7 +367,7 @@ void WebSocketConnection::closeForUnreadBytes() {
     startClosing(close_code::kTryLater, "too many unread bytes");
 }
 
-void WebSocketConnection::watchWhileExecuting() {
+void WebSocketConnection::watchForDisconnect() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
         self->watching_ = true;
         self->executedSignal_.cancel();
@@ -408,7 +408,7 @@ void WebSocketConnection::writeNext() {
     if (writing_) {
         stream_.binary(outbox_.front().message.binary);
         transferDeadline_.emplace(services_.options);
-        writeFragment(0);
+        writeFragmentsFrom(0);
     } else if (closing_ && !ended_) {
         stream_.async_close(*closing_, [self = shared_from_this()](boost::system::error_code) {});
     }
@@ -416,7 +416,7 @@ void WebSocketConnection::writeNext() {
 
 /// Writes the first message in the queue from the offset `from` to its end, in fragments. Each fragment has a deadline
 /// of its own, so that a slow client is not dropped as long as it reads fast enough (see TransferDeadline).
-void WebSocketConnection::writeFragment(std::size_t from) {
+void WebSocketConnection::writeFragmentsFrom(std::size_t from) {
     const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
     const std::string_view fragment = rest.substr(0, kWriteFragment);
     const bool last = fragment.size() == rest.size();
@@ -425,16 +425,16 @@ void WebSocketConnection::writeFragment(std::size_t from) {
         last, asio::buffer(fragment),
         [self = shared_from_this(), last, to = from + fragment.size()](boost::system::error_code fault, std::size_t) {
             if (last || fault || self->ended_) {
-                self->onWritten(fault);
+                self->onMessageWritten(fault);
             } else {
                 ++self->writes_;
                 self->transferDeadline_->count(kWriteFragment);
-                self->writeFragment(to);
+                self->writeFragmentsFrom(to);
             }
         });
 }
 
-void WebSocketConnection::onWritten(boost::system::error_code fault) {
+void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
     ++writes_;
     deadline_.cancel();
     if (ended_ || fault) {
@@ -456,7 +456,7 @@ void WebSocketConnection::onWritten(boost::system::error_code fault) {
 
 /// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
 void WebSocketConnection::startWriteDeadline() {
-    deadline_.expires_after(transferDeadline_->timeout());
+    deadline_.expires_after(transferDeadline_->nextFragmentTimeout());
     deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code canceled) {
         if (canceled || self->writes_ != watched || !self->writing_ || self->ended_) return;
         self->services_.metrics.droppedSlowClients.Increment();

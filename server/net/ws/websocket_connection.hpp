@@ -45,9 +45,9 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
     boost::asio::awaitable<void> run(UpgradeRequest upgrade);
 
-    void send(Message message, std::function<void()> written = {}) override;
+    void send(OutgoingMessage message, std::function<void()> written = {}) override;
     const AddressAccountPtr& client() const override { return client_; }
-    void watchWhileExecuting() override;
+    void watchForDisconnect() override;
     void close(std::uint16_t code, std::string reason) override;
     /// Closes the connection with code kStopping, because the server stops. Discards the queued messages, except the
     /// one that is being written.
@@ -59,7 +59,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     using RequestId = LiveSession::RequestId;
     // A message in the send queue.
     struct Outgoing {
-        Message message;
+        OutgoingMessage message;
         std::function<void()> written;  // called once the message is written; may be empty
         ByteBudget::Reservation held;   // reserves the bytes of the message
     };
@@ -80,22 +80,22 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     boost::asio::awaitable<void> handleMessage(Incoming incoming);
     boost::asio::awaitable<Incoming> readAhead();
     boost::asio::awaitable<Incoming> read();
-    void checkLongMessage(Incoming& incoming);
+    void admitOrRefuseLongMessage(Incoming& incoming);
     boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
     boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
     boost::asio::awaitable<void> parseAndExecute(std::string_view text);
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);
     boost::asio::awaitable<void> handleHello(wire::Hello hello, RequestId id);
-    boost::asio::awaitable<SessionManager::JoinResult> joinSession(wire::Hello hello);
+    boost::asio::awaitable<SessionManager::JoinResult> joinOrCreateSession(wire::Hello hello);
     std::function<void(SessionManager::JoinHandler)> sessionOpener(const std::string& token);
     void sendError(const Error& error, RequestId id);
 
     void closeForUnreadBytes();
     void startClosing(std::uint16_t code, std::string reason);
     void writeNext();
-    void writeFragment(std::size_t from);
-    void onWritten(boost::system::error_code fault);
+    void writeFragmentsFrom(std::size_t from);
+    void onMessageWritten(boost::system::error_code fault);
     void startWriteDeadline();
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
@@ -109,7 +109,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed
-    // executing_: whether message_ is being handled. watching_: whether watchWhileExecuting() was called while message_
+    // executing_: whether message_ is being handled. watching_: whether watchForDisconnect() was called while message_
     // is being handled.
     bool executing_ = false, watching_ = false;
 

@@ -33,7 +33,7 @@ CatalogueEntry entryOf(Design design, std::string family, std::vector<std::strin
             std::move(design)};
 }
 
-CatalogueEntry entryOf(const UniformPolychoron& row) {
+CatalogueEntry entryOf(const NamedWythoffianPolychoron& row) {
     std::vector<std::string> aliases;
     for (const std::string_view name : text::splitAtCommas(row.otherNames)) aliases.emplace_back(name);
     aliases.insert(row.family == "regular" ? aliases.begin() + 1 : aliases.begin(), std::string(row.bowers));
@@ -77,7 +77,7 @@ constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>
 
 std::vector<CatalogueEntry> allEntries() {
     std::vector<CatalogueEntry> entries;
-    for (const UniformPolychoron& row : uniformPolychora()) entries.push_back(entryOf(row));
+    for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) entries.push_back(entryOf(row));
     entries.push_back(entryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
     entries.push_back(entryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
@@ -141,7 +141,7 @@ std::vector<NearMatch> nearest(std::string_view text) {
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
             // The distance is at least the difference of the lengths.
             if (longer > least.first || !isNear(longer, wanted)) return;
-            const std::pair distance(polytopes::editDistance(text, name), longer);
+            const std::pair distance(polytopes::editDistanceOfNames(text, name), longer);
             if (distance < least) best.clear();
             if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
             least = std::min(least, distance);
@@ -174,7 +174,7 @@ DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {
         error->message = text::inQuotes(text) + " is not the name of a polytope";
         std::vector<std::string> near;
-        for (const std::string_view name : nearestNames(text)) near.push_back(text::inQuotes(name));
+        for (const std::string_view name : equallyNearestNames(text)) near.push_back(text::inQuotes(name));
         const std::vector<std::string_view> views(near.begin(), near.end());
         if (!near.empty()) error->message += "; did you mean " + text::alternatives(views) + "?";
     }
@@ -210,7 +210,7 @@ DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     return described;
 }
 
-std::size_t editDistance(std::string_view one, std::string_view other) {
+std::size_t editDistanceOfNames(std::string_view one, std::string_view other) {
     const std::string a = text::normalizedName(one.substr(0, kMaxNameBytes));
     const std::string b = text::normalizedName(other.substr(0, kMaxNameBytes));
     std::vector<std::size_t> row(b.size() + 1);
@@ -231,7 +231,7 @@ std::string_view nearestName(std::string_view text) {
     return near.empty() ? std::string_view{} : near.front().name;
 }
 
-std::vector<std::string_view> nearestNames(std::string_view text) {
+std::vector<std::string_view> equallyNearestNames(std::string_view text) {
     constexpr std::size_t kMost = 3;
     std::vector<std::string_view> names;
     for (const NearMatch& near : nearest(text)) names.push_back(near.name);

@@ -55,10 +55,10 @@ std::string_view nearestName(std::string_view text);
 
 /// Returns the names and aliases to which nearestName() gives equal preference: at most three, and at most one for each
 /// polytope. Returns an empty list if nearestName() returns an empty text.
-std::vector<std::string_view> nearestNames(std::string_view text);
+std::vector<std::string_view> equallyNearestNames(std::string_view text);
 
 /// Returns the edit distance (Levenshtein) of two names. Before it compares them, cuts both to kMaxNameBytes, and
 /// converts them by text::normalizedName().
-std::size_t editDistance(std::string_view one, std::string_view other);
+std::size_t editDistanceOfNames(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

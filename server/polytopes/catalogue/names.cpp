@@ -66,7 +66,7 @@ std::string reasonFor(const std::vector<std::string>& words) {
 }  // namespace
 
 DesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup) {
-    const std::vector<std::string> words = text::wordsOf(text);
+    const std::vector<std::string> words = text::lowerCaseWords(text);
     if (words.empty()) return NameError{};
     if (const std::size_t count = constructionsIn(words); count > kMaxConstructions) {
         return NameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +

@@ -12,23 +12,23 @@ const std::shared_ptr<const Polytope>& fiveCell() {
     return shared;
 }
 
-PolytopeCache::Shared PolytopeCache::get(const Design& design) {
+PolytopeCache::SharedPolytope PolytopeCache::get(const Design& design) {
     if (design.name == fiveCell()->name) return fiveCell();
-    const auto slot = slotOf(design.name);
+    const auto slot = findOrAddSlot(design.name);
     const std::scoped_lock building(slot->building);
-    Shared polytope = peek(design);
+    SharedPolytope polytope = peek(design);
     if (!polytope) polytope = std::make_shared<const Polytope>(build(design));
     const std::scoped_lock lock(mutex_);
     slot->polytope = polytope;
-    markUsed(polytope);
+    markUsedAndEvict(polytope);
     return polytope;
 }
 
-PolytopeCache::Shared PolytopeCache::find(const Design& design) {
+PolytopeCache::SharedPolytope PolytopeCache::find(const Design& design) {
     if (design.name == fiveCell()->name) return fiveCell();
-    Shared polytope = peek(design);
+    SharedPolytope polytope = peek(design);
     const std::scoped_lock lock(mutex_);
-    if (polytope) markUsed(polytope);
+    if (polytope) markUsedAndEvict(polytope);
     return polytope;
 }
 
@@ -37,13 +37,13 @@ std::size_t PolytopeCache::bytes() const {
     return bytes_;
 }
 
-PolytopeCache::Shared PolytopeCache::peek(const Design& design) const {
+PolytopeCache::SharedPolytope PolytopeCache::peek(const Design& design) const {
     const std::scoped_lock lock(mutex_);
     const auto found = slots_.find(design.name);
     return found == slots_.end() ? nullptr : found->second->polytope.lock();
 }
 
-std::shared_ptr<PolytopeCache::Slot> PolytopeCache::slotOf(const std::string& name) {
+std::shared_ptr<PolytopeCache::PolytopeCacheEntry> PolytopeCache::findOrAddSlot(const std::string& name) {
     const std::scoped_lock lock(mutex_);
     // If there are many slots, drop each slot whose polytope has been destroyed, unless another thread uses the slot.
     constexpr std::size_t kMany = 1000;
@@ -52,11 +52,11 @@ std::shared_ptr<PolytopeCache::Slot> PolytopeCache::slotOf(const std::string& na
                       [](const auto& slot) { return slot.second.use_count() == 1 && slot.second->polytope.expired(); });
     }
     auto& slot = slots_[name];
-    if (!slot) slot = std::make_shared<Slot>();
+    if (!slot) slot = std::make_shared<PolytopeCacheEntry>();
     return slot;
 }
 
-void PolytopeCache::markUsed(const Shared& polytope) {
+void PolytopeCache::markUsedAndEvict(const SharedPolytope& polytope) {
     if (const auto at = std::ranges::find(recent_, polytope); at != recent_.end()) {
         recent_.splice(recent_.begin(), recent_, at);
         return;

@@ -21,7 +21,7 @@ const std::shared_ptr<const Polytope>& fiveCell();
 /// Thread-safe.
 class PolytopeCache {
   public:
-    using Shared = std::shared_ptr<const Polytope>;
+    using SharedPolytope = std::shared_ptr<const Polytope>;
 
     /// The default limit on the memory of the polytopes that the cache owns: 64 MiB.
     static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20U;
@@ -31,36 +31,36 @@ class PolytopeCache {
 
     /// Returns the polytope of this design. If the cache does not find it, builds it on the calling thread; concurrent
     /// calls for the same design wait until it is built. Throws std::invalid_argument as build() does.
-    Shared get(const Design& design);
+    SharedPolytope get(const Design& design);
 
     /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be
     /// built, except for the first use of the 5-cell.
-    Shared find(const Design& design);
+    SharedPolytope find(const Design& design);
 
     /// Returns the memory in bytes of the polytopes that the cache owns, which never exceeds the limit.
     std::size_t bytes() const;
 
   private:
     // The entry for one name. It does not keep the polytope alive.
-    struct Slot {
+    struct PolytopeCacheEntry {
         std::mutex building;  // held while the polytope is being built
         std::weak_ptr<const Polytope> polytope;
     };
 
     // Returns the polytope of this design if the cache finds it, else nullptr. The design must not be that of the
     // 5-cell, which is not in the cache. Unlike find(), does not mark the polytope as used.
-    Shared peek(const Design& design) const;
+    SharedPolytope peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
-    std::shared_ptr<Slot> slotOf(const std::string& name);
+    std::shared_ptr<PolytopeCacheEntry> findOrAddSlot(const std::string& name);
     // Moves the polytope to the front of recent_, and removes the least recently used polytopes until the limit is met.
     // Requires that the caller holds mutex_.
-    void markUsed(const Shared& polytope);
+    void markUsedAndEvict(const SharedPolytope& polytope);
 
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;  // guards the members below; not held while a polytope is being built
-    std::map<std::string, std::shared_ptr<Slot>> slots_;
-    std::list<Shared> recent_;  // the polytopes that the cache owns; the most recently used first
-    std::size_t bytes_ = 0;     // the memory of the polytopes in `recent_`
+    std::map<std::string, std::shared_ptr<PolytopeCacheEntry>> slots_;
+    std::list<SharedPolytope> recent_;  // the polytopes that the cache owns; the most recently used first
+    std::size_t bytes_ = 0;             // the memory of the polytopes in `recent_`
 };
 
 }  // namespace oval4d::polytopes

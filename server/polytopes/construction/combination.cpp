@@ -55,7 +55,7 @@ std::optional<std::size_t> findAnd(const Words& words) {
 std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
     Operand operand;
     std::size_t end = words.size();
-    // A number such as 5e-1 is two words, because text::wordsOf() divides it at the hyphen.
+    // A number such as 5e-1 is two words, because text::lowerCaseWords() divides it at the hyphen.
     const std::size_t numberWords = end > 1 && words[end - 2].ends_with('e') ? 2 : 1;
     const std::size_t suffix = 2 + numberWords;
     if (end > suffix && words[end - suffix] == "of" && words[end - suffix + 1] == "circumradius") {
@@ -77,9 +77,9 @@ std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLo
     return operand;
 }
 
-class HullOrIntersection : public Recipe {
+class CombinationRecipe : public Recipe {
   public:
-    HullOrIntersection(bool intersection, Operand first, Operand second)
+    CombinationRecipe(bool intersection, Operand first, Operand second)
         : intersection_(intersection), operands_{std::move(first), std::move(second)} {}
 
     ElementCounts counts() const override {
@@ -164,7 +164,7 @@ std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     auto& a = std::get<Operand>(first);
     auto& b = std::get<Operand>(second);
     return Design{words[0] + " of " + a.name() + " and " + b.name(),
-                  std::make_shared<HullOrIntersection>(words[0] == "intersection", a, b)};
+                  std::make_shared<CombinationRecipe>(words[0] == "intersection", a, b)};
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ struct Orbit {
 
 Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) {
     Orbit orbit;
-    geometry::PointIndex index(1e-5 * glm::length(seed));
+    geometry::EqualPointFinder index(1e-5 * glm::length(seed));
     index.findOrAdd(seed, orbit.points);
     for (std::size_t i = 0; i < orbit.points.size(); ++i) {
         for (const auto& mirror : mirrors) {

@@ -44,10 +44,10 @@ static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
 /// (cos(π/n) − cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no
 /// vertex lies between neighbors. It is a trigonometric polynomial of degree 2, that is, an affine function on the
 /// curve, so a hyperplane supports the polytope in the four vertices.
-class CyclicPolytope : public Recipe {
+class CyclicPolytopeRecipe : public Recipe {
   public:
     /// n must be at least 6.
-    explicit CyclicPolytope(std::uint32_t n) : n_(n) {}
+    explicit CyclicPolytopeRecipe(std::uint32_t n) : n_(n) {}
 
     ElementCounts counts() const override {
         const std::uint64_t n = n_;
@@ -143,7 +143,7 @@ std::optional<DesignOrError> cyclicPolytopeNamed(const NameWords& text) {
                                                            " vertices; at most " + std::to_string(kMostCyclicVertices) +
                                                            " are allowed"};
     }
-    return Design{name, std::make_shared<CyclicPolytope>(static_cast<std::uint32_t>(n))};
+    return Design{name, std::make_shared<CyclicPolytopeRecipe>(static_cast<std::uint32_t>(n))};
 }
 
 }  // namespace

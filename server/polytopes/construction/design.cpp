@@ -25,9 +25,9 @@ constexpr RegularPolygon kSquare{4, 1};
 Diagram parseValidDiagram(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
 
 /// Wythoff's construction from a Coxeter–Dynkin diagram.
-class Wythoffian : public Recipe {
+class WythoffianRecipe : public Recipe {
   public:
-    explicit Wythoffian(const Diagram& diagram) : diagram_(diagram) {}
+    explicit WythoffianRecipe(const Diagram& diagram) : diagram_(diagram) {}
 
     ElementCounts counts() const override { return elementCounts(diagram_); }
     std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * automorphismsOf(diagram_).size(); }
@@ -52,9 +52,9 @@ class Wythoffian : public Recipe {
 };
 
 /// The prism over the snub of {p, q}; for p = n and q = 2, the prism over the n-antiprism.
-class SnubPrism : public Recipe {
+class SnubPrismRecipe : public Recipe {
   public:
-    SnubPrism(Branch p, Branch q) : p_(p), q_(q) {}
+    SnubPrismRecipe(Branch p, Branch q) : p_(p), q_(q) {}
 
     ElementCounts counts() const override {
         const std::uint64_t vertices = rotations();
@@ -88,14 +88,14 @@ class SnubPrism : public Recipe {
     Branch p_, q_;
 };
 
-std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
+std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<WythoffianRecipe>(diagram); }
 
 // Returns the designs that have a name of their own, with the canonical diagram as the key. A design with several
 // diagrams has an entry for each of them.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
-        for (const UniformPolychoron& row : uniformPolychora()) {
+        for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
             const Design design{std::string(row.name), wythoffian(parseValidDiagram(row.linearNotation))};
             designs.emplace(canonical(parseValidDiagram(row.linearNotation)), design);
             for (const std::string_view other : text::splitAtCommas(row.otherDiagrams))
@@ -150,14 +150,15 @@ Design duoprism(RegularPolygon p, RegularPolygon q) {
 
 Design antiprismPrism(int sides) {
     if (sides == 3) return designOf(parseValidDiagram("o4o3x x"));
-    return {adjectiveOf({sides, 1}) + " antiprism prism", std::make_shared<SnubPrism>(Branch{sides, 1}, Branch{2, 1})};
+    return {adjectiveOf({sides, 1}) + " antiprism prism",
+            std::make_shared<SnubPrismRecipe>(Branch{sides, 1}, Branch{2, 1})};
 }
 
 Design prismOf(const NamedPolyhedron& base) {
     if (!base.linearNotation.starts_with('s'))
         return designOf(parseValidDiagram(std::string(base.linearNotation) + " x"));
     const auto digit = [&](std::size_t i) { return Branch{base.linearNotation[i] - '0', 1}; };
-    return {std::string(base.adjective) + " prism", std::make_shared<SnubPrism>(digit(1), digit(3))};
+    return {std::string(base.adjective) + " prism", std::make_shared<SnubPrismRecipe>(digit(1), digit(3))};
 }
 
 ElementCounts elementCounts(const Design& design) { return design.recipe->counts(); }

@@ -57,16 +57,16 @@ std::vector<Branch> branchesAlong(const Diagram& diagram, MirrorSet component) {
 }
 
 // A finite Coxeter group of three or four mirrors whose diagram is a chain: the branches of the chain, and the order.
-struct FiniteGroup {
+struct FiniteCoxeterGroup {
     std::vector<Branch> chain;
     std::uint64_t order;
 };
-const std::vector<FiniteGroup>& finiteGroups() {
+const std::vector<FiniteCoxeterGroup>& finiteGroups() {
     constexpr Branch three{3, 1};
     constexpr Branch four{4, 1};
     constexpr Branch five{5, 1};
     constexpr Branch star{5, 2};
-    static const std::vector<FiniteGroup> kGroups{
+    static const std::vector<FiniteCoxeterGroup> kGroups{
         {{three, three}, 24},          {{three, four}, 48},          {{three, five}, 120},
         {{three, star}, 120},          {{star, five}, 120},          {{three, three, three}, 120},
         {{three, three, four}, 384},   {{three, four, three}, 1152}, {{three, three, five}, 14400},
@@ -91,7 +91,7 @@ std::uint64_t orderOfComponent(const Diagram& diagram, MirrorSet component) {
         return component == 0xf ? kD4 : 0;
     }
     for (int turn = 0; turn < 2; ++turn) {
-        for (const FiniteGroup& group : finiteGroups()) {
+        for (const FiniteCoxeterGroup& group : finiteGroups()) {
             if (group.chain == chain) return group.order;
         }
         std::reverse(chain.begin(), chain.end());

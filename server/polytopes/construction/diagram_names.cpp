@@ -17,15 +17,15 @@ namespace oval4d::polytopes {
 
 namespace {
 
-using Rings = std::array<bool, 4>;
+using RingedNodes = std::array<bool, 4>;
 
 // An operation on a regular polychoron. The diagram of the result is the diagram of the polychoron with other rings:
 // around the nodes that `rings` selects.
-struct Operation {
+struct RingOperation {
     std::string_view name;
-    Rings rings;
+    RingedNodes rings;
 };
-constexpr auto kOperations = std::to_array<Operation>({
+constexpr auto kOperations = std::to_array<RingOperation>({
     {"rectified", {false, true, false, false}},
     {"birectified", {false, false, true, false}},
     {"trirectified", {false, false, false, true}},
@@ -43,11 +43,11 @@ constexpr auto kOperations = std::to_array<Operation>({
     {"runcicantitruncated", {true, true, true, true}},
 });
 
-Diagram diagramOf(const UniformPolychoron& row) { return std::get<Diagram>(parseDiagram(row.linearNotation)); }
+Diagram diagramOf(const NamedWythoffianPolychoron& row) { return std::get<Diagram>(parseDiagram(row.linearNotation)); }
 
-bool isRegular(const UniformPolychoron& row) { return row.family == "regular" || row.family == "star"; }
+bool isRegular(const NamedWythoffianPolychoron& row) { return row.family == "regular" || row.family == "star"; }
 
-bool isCalled(const UniformPolychoron& row, std::string_view name) {
+bool isCalled(const NamedWythoffianPolychoron& row, std::string_view name) {
     const std::string wanted = text::normalizedName(name);
     if (text::normalizedName(row.name) == wanted || row.bowers == wanted) return true;
     const auto others = text::splitAtCommas(row.otherNames);
@@ -62,9 +62,9 @@ DesignOrError designFrom(const Result& read) {
 }
 
 std::optional<DesignOrError> operationNamed(const NameWords& text) {
-    for (const Operation& operation : kOperations) {
+    for (const RingOperation& operation : kOperations) {
         if (text.words[0] != operation.name) continue;
-        for (const UniformPolychoron& row : uniformPolychora()) {
+        for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
             if (!isRegular(row) || !isCalled(row, text.joinedFrom(1))) continue;
             Diagram diagram = diagramOf(row);
             diagram.ringed = operation.rings;
@@ -118,12 +118,12 @@ constinit const Notation kOperationNotation{
 
 std::vector<std::string> operationNames(const Diagram& diagram) {
     std::vector<std::string> names;
-    for (const UniformPolychoron& row : uniformPolychora()) {
+    for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
         if (row.family != "regular") continue;
-        for (const Operation& operation : kOperations) {
+        for (const RingOperation& operation : kOperations) {
             // Skip operations that leave the first node without a ring, except rectification and bitruncation. Their
             // results are usually named as operations on the dual instead.
-            if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
+            if (operation.rings < RingedNodes{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);
             regular.ringed = operation.rings;

@@ -135,10 +135,10 @@ Polytope buildGrandAntiprism(std::string name) {
 /// polytope.
 class Diminished600CellRecipe : public Recipe {
   public:
-    using Builder = Polytope (*)(std::string name);
+    using BuildFunction = Polytope (*)(std::string name);
 
     Diminished600CellRecipe(ElementCounts counts, std::uint64_t symmetryOrder, std::string linearNotation,
-                            std::string schlaefli, Builder builder)
+                            std::string schlaefli, BuildFunction builder)
         : counts_(counts),
           symmetryOrder_(symmetryOrder),
           linearNotation_(std::move(linearNotation)),
@@ -155,7 +155,7 @@ class Diminished600CellRecipe : public Recipe {
     ElementCounts counts_;
     std::uint64_t symmetryOrder_;
     std::string linearNotation_, schlaefli_;
-    Builder builder_;
+    BuildFunction builder_;
 };
 
 }  // namespace

@@ -42,10 +42,10 @@ glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
 /// A duoantiprism other than the 16-cell. A vertex of the duoprism of a 2p-gon and a 2q-gon is a pair (i, j): point i
 /// of 2p points on a circle in the xy plane, and point j of 2q points on a circle in the zw plane. The vertices of the
 /// duoantiprism are those with an even sum i + j.
-class Duoantiprism : public Recipe {
+class DuoantiprismRecipe : public Recipe {
   public:
     /// p must be at least 2, and q at least 3 and not less than p.
-    Duoantiprism(int p, int q) : p_(static_cast<std::uint32_t>(p)), q_(static_cast<std::uint32_t>(q)) {}
+    DuoantiprismRecipe(int p, int q) : p_(static_cast<std::uint32_t>(p)), q_(static_cast<std::uint32_t>(q)) {}
 
     ElementCounts counts() const override {
         const std::uint64_t p = p_, q = q_, pairs = p * q;
@@ -142,7 +142,7 @@ class Duoantiprism : public Recipe {
 // and less than 2, except for p = q = 2, where it is 2.
 std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
     if (text.words.back() != "duoantiprism") return {};
-    const auto polygons = polygonsNamed(text.withoutLast());
+    const auto polygons = duoprismPolygonsNamed(text.withoutLast());
     const auto isStar = [](RegularPolygon each) { return each.denominator != 1; };
     if (!polygons || polygons->size() != 2 || std::ranges::any_of(*polygons, isStar)) {
         return NameError::impossible(
@@ -151,7 +151,8 @@ std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
     }
     const auto [p, q] = std::minmax((*polygons)[0].numerator, (*polygons)[1].numerator);
     if (q == 2) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
-    return Design{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism", std::make_shared<Duoantiprism>(p, q)};
+    return Design{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism",
+                  std::make_shared<DuoantiprismRecipe>(p, q)};
 }
 
 }  // namespace

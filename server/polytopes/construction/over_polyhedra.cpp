@@ -29,9 +29,9 @@ constexpr auto kWords =
                                                                     {"pyramid", PrismOrPyramidKind::pyramid},
                                                                     {"bipyramid", PrismOrPyramidKind::bipyramid}});
 
-class PrismOrPyramid : public Recipe {
+class PrismOrPyramidRecipe : public Recipe {
   public:
-    PrismOrPyramid(PrismOrPyramidKind over, const Solid& solid) : over_(over), solid_(solid) {}
+    PrismOrPyramidRecipe(PrismOrPyramidKind over, const Solid& solid) : over_(over), solid_(solid) {}
 
     ElementCounts counts() const override {
         const auto [v, e, f] = countsOf(solid_);
@@ -112,7 +112,7 @@ Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
     if (over == PrismOrPyramidKind::bipyramid && is("octahedron"))
         return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
     const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, PrismOrPyramidKind>::second)->first;
-    return {std::string(word) + " of " + nameOf(solid), std::make_shared<PrismOrPyramid>(over, solid)};
+    return {std::string(word) + " of " + nameOf(solid), std::make_shared<PrismOrPyramidRecipe>(over, solid)};
 }
 
 // Parses the name of a prism, pyramid or bipyramid over a polyhedron: "prism of cube", "pyramid of rhombic

@@ -161,7 +161,7 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word) {
     return parseBranch(word);
 }
 
-std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words) {
+std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words) {
     // Splits "5,7" and "5x7" into two words, but not "hexagonal", which contains an x and names one polygon.
     if (words.size() == 1 && !polygonNamed(words[0])) {
         std::string pair = words[0];

@@ -49,7 +49,7 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word);
 /// as "pentagonal", the result has this polygon twice. Returns std::nullopt if one of the words names no polygon.
 /// Callers must reject a result that does not have exactly two polygons; callers that need at least three sides must
 /// also reject polygons of two sides.
-std::optional<std::vector<RegularPolygon>> polygonsNamed(std::vector<std::string> words);
+std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words);
 
 /// The properties by which nameOf() recognizes a uniform polyhedron.
 struct PolyhedronSignature {

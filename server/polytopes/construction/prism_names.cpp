@@ -21,7 +21,7 @@ namespace {
 // polygons with at least three sides before it; std::nullopt for other texts.
 std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     if (text.words.back() != "duoprism") return {};
-    const auto polygons = polygonsNamed(text.withoutLast());
+    const auto polygons = duoprismPolygonsNamed(text.withoutLast());
     if (!polygons || std::ranges::any_of(*polygons, [](RegularPolygon each) { return each.numerator < 3; })) {
         return NameError::impossible(
             "a duoprism is named after two polygons with at least three sides, as in 5,7-duoprism or 5/2,5-duoprism");

@@ -71,7 +71,7 @@ PolyhedronWithOrbits snubOf(Branch p, Branch q) {
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;
     std::vector<std::array<std::uint32_t, 2>> next;
-    geometry::PointIndex index(1e-5 * glm::length(seed));
+    geometry::EqualPointFinder index(1e-5 * glm::length(seed));
     index.findOrAdd(glm::dvec4(seed, 0), points);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
         next.emplace_back();

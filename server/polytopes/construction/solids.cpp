@@ -159,7 +159,7 @@ SolidMesh dualOf(const SolidMesh& base) {
 }  // namespace
 
 std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words) {
-    using Found = std::variant<Solid, NameError>;
+    using SolidOrError = std::variant<Solid, NameError>;
     std::size_t first = 0;
     bool dual = false;
     while (first + 1 < words.size() && words[first] == "dual") {
@@ -169,7 +169,7 @@ std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::
     if (first >= words.size()) return {};
     const std::string name = text::joined(words, first, words.size());
     const auto solid = [&](const NamedPolyhedron* named, bool dualOfNamed) {
-        return Found(canonical({named, 0, false, dual != dualOfNamed}));
+        return SolidOrError(canonical({named, 0, false, dual != dualOfNamed}));
     };
     if (const NamedPolyhedron* const named = polyhedronCalled(name)) {
         if (!isConvex(*named))

@@ -14,9 +14,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
-class TruncationOrRectification : public Recipe {
+class TruncationRecipe : public Recipe {
   public:
-    TruncationOrRectification(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
+    TruncationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
     // The number of vertices is exact: a hyperplane that touches the convex base only in one edge touches the hull only
     // in the points that cut this edge, so these points are vertices of the hull. The other numbers are estimates. They
@@ -81,7 +81,7 @@ std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& tex
         regular->ringed = {truncation, true, false, false};
         if (triangles || !truncation) return designOf(*regular);
     }
-    return Design{text.words[0] + " of " + base->name, std::make_shared<TruncationOrRectification>(truncation, *base)};
+    return Design{text.words[0] + " of " + base->name, std::make_shared<TruncationRecipe>(truncation, *base)};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr auto kUniform = std::to_array<UniformPolychoron>({
+constexpr auto kUniform = std::to_array<NamedWythoffianPolychoron>({
     {"regular", "5-cell", "pen", "x3o3o3o", "", "pentachoron,4-simplex,simplex,pentatope,hyperpyramid"},
     {"regular", "8-cell", "tes", "x4o3o3o", "x4o x4o", "tesseract,hypercube,4-cube,octachoron,cubic prism,cube prism"},
     {"regular", "16-cell", "hex", "x3o3o4o", "x3o3o *b3o", "hexadecachoron,4-orthoplex,cross-polytope"},
@@ -71,6 +71,6 @@ constexpr auto kUniform = std::to_array<UniformPolychoron>({
 
 }  // namespace
 
-std::span<const UniformPolychoron> uniformPolychora() { return kUniform; }
+std::span<const NamedWythoffianPolychoron> namedWythoffianPolychora() { return kUniform; }
 
 }  // namespace oval4d::polytopes

@@ -7,7 +7,7 @@
 namespace oval4d::polytopes {
 
 /// The names and diagrams of a uniform polychoron (4-D polytope).
-struct UniformPolychoron {
+struct NamedWythoffianPolychoron {
     std::string_view family;  ///< one of "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4"
     std::string_view name;    ///< such as "truncated tesseract"
     std::string_view bowers;  ///< Bowers' short name, such as "tat"
@@ -18,6 +18,6 @@ struct UniformPolychoron {
 
 /// Returns the six convex regular polychora, the ten regular star polychora, and 39 other convex uniform polychora,
 /// ordered by family. No polychoron occurs twice.
-std::span<const UniformPolychoron> uniformPolychora();
+std::span<const NamedWythoffianPolychoron> namedWythoffianPolychora();
 
 }  // namespace oval4d::polytopes

@@ -38,9 +38,9 @@ std::uint32_t cornerBeside(const Edge& edge, const Triangle& triangle) {
                          [&](std::uint32_t v) { return v != edge.first && v != edge.second; });
 }
 
-class Merger {
+class SimplexMerger {
   public:
-    Merger(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points, const HullFrame& frame)
+    SimplexMerger(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points, const HullFrame& frame)
         : simplices_(simplices),
           points_(points),
           frame_(frame),
@@ -48,7 +48,7 @@ class Merger {
           mark_(simplices.size(), 0),
           signs_(simplices.size(), 0) {
         for (const SimplexFacet& simplex : simplices_)
-            volumes_.push_back(Hyperplane(simplex.vertices, points_).volume());
+            volumes_.push_back(HyperplaneThroughPoints(simplex.vertices, points_).parallelotopeVolume());
         orient();
     }
 
@@ -103,8 +103,8 @@ class Merger {
         std::sort(order.begin(), order.end(), [&](auto a, auto b) { return volumes_[a] > volumes_[b]; });
         for (const std::uint32_t seed : order) {
             if (cellOf_[seed] != kNone) continue;
-            Hyperplane hyperplane(simplices_[seed].vertices, points_);
-            const auto growIn = [&](const Hyperplane& flat) {
+            HyperplaneThroughPoints hyperplane(simplices_[seed].vertices, points_);
+            const auto growIn = [&](const HyperplaneThroughPoints& flat) {
                 return grow(seed, [&](std::uint32_t s, std::uint32_t fresh) {
                     return cellOf_[s] == kNone && flat.contains(points_[fresh], frame_);
                 });
@@ -114,7 +114,8 @@ class Merger {
             makeConvex(seed, hyperplane, group);
             const auto cell = static_cast<std::uint32_t>(hyperplanes_.size());
             for (const std::uint32_t s : group) cellOf_[s] = cell;
-            hyperplanes_.push_back(group.size() > 1 ? hyperplane : Hyperplane(simplices_[seed].vertices, points_));
+            hyperplanes_.push_back(group.size() > 1 ? hyperplane
+                                                    : HyperplaneThroughPoints(simplices_[seed].vertices, points_));
         }
     }
 
@@ -150,7 +151,7 @@ class Merger {
     }
 
     // Removes simplices from the group until it forms a convex cell; in the worst case, removes all but the seed.
-    void makeConvex(std::uint32_t seed, const Hyperplane& hyperplane, std::vector<std::uint32_t>& group) {
+    void makeConvex(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane, std::vector<std::uint32_t>& group) {
         for (int i = 0; i < kMaxCorrections && group.size() > 1; ++i) {
             const auto faults = simplicesToRemove(seed, hyperplane, group);
             if (faults.empty()) return;
@@ -165,7 +166,7 @@ class Merger {
 
     // Returns the simplices of the group, without the seed and in ascending order, whose removal may make the group
     // convex; an empty list if the group is convex. Sorts the group.
-    std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const Hyperplane& hyperplane,
+    std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
         std::vector<BoundaryTriangle> triangles;
@@ -222,7 +223,7 @@ class Merger {
 
     // Returns whether two triangles of a boundary meet at a convex edge, within the error bounds of their corners.
     bool isConvexEdge(const BoundaryTriangle& one, const BoundaryTriangle& other, const Edge& edge,
-                      const Hyperplane& hyperplane) const {
+                      const HyperplaneThroughPoints& hyperplane) const {
         const auto place = [&](std::uint32_t v) {
             const auto along = hyperplane.project(points_[v]);
             return glm::dvec3(along[0], along[1], along[2]);
@@ -290,7 +291,7 @@ class Merger {
             } else {
                 std::vector<Triangle> triangles;
                 for (const SharedTriangle& shared : between) triangles.push_back(shared.corners);
-                addPolygons(triangles, points_, frame_, hull.faces);
+                addMergedPolygons(triangles, points_, frame_, hull.faces);
             }
             for (std::size_t f = before; f < hull.faces.size(); ++f) {
                 facesOf[a].push_back(static_cast<std::uint32_t>(f));
@@ -316,9 +317,9 @@ class Merger {
     void countAmbiguousCellPairs(MergedHull& hull) const {
         for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
             while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
-            const Hyperplane& one = hyperplanes_[sharedTriangles_[i].cells[0]];
-            const Hyperplane& other = hyperplanes_[sharedTriangles_[i].cells[1]];
-            const auto nearly = [&](const Hyperplane& a, const Hyperplane& b) {
+            const HyperplaneThroughPoints& one = hyperplanes_[sharedTriangles_[i].cells[0]];
+            const HyperplaneThroughPoints& other = hyperplanes_[sharedTriangles_[i].cells[1]];
+            const auto nearly = [&](const HyperplaneThroughPoints& a, const HyperplaneThroughPoints& b) {
                 return std::all_of(b.corners().begin(), b.corners().end(),
                                    [&](std::uint32_t v) { return a.contains(points_[v], frame_, kAmbiguityFactor); });
             };
@@ -334,7 +335,7 @@ class Merger {
     std::vector<std::uint32_t> mark_;
     std::uint32_t latestMark_ = 0;
     std::vector<std::int8_t> signs_;
-    std::vector<Hyperplane> hyperplanes_;  // the hyperplane of each cell
+    std::vector<HyperplaneThroughPoints> hyperplanes_;  // the hyperplane of each cell
     std::vector<SharedTriangle> sharedTriangles_;
     std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
 };
@@ -343,7 +344,7 @@ class Merger {
 
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame) {
-    return Merger(simplices, points, frame).run();
+    return SimplexMerger(simplices, points, frame).run();
 }
 
 }  // namespace oval4d::polytopes

@@ -42,7 +42,7 @@ class Flat {
 
     const SimplexCorners& corners() const { return corners_; }
     /// Returns the volume of the simplex times the factorial of its dimension.
-    double volume() const { return volume_; }
+    double parallelotopeVolume() const { return volume_; }
     /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
     const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
 
@@ -96,7 +96,7 @@ class Flat {
 };
 
 using PlaneThroughPoints = Flat<2>;
-using Hyperplane = Flat<3>;
+using HyperplaneThroughPoints = Flat<3>;
 
 /// Chooses points among `from` that span a large simplex, and returns their indices. Chooses greedily: the first point
 /// is the farthest from the mean of `from`; each further point is the farthest from the flat through the points chosen
@@ -137,7 +137,7 @@ std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow&
     for (int i = 0; i < kMaxRefits && group.size() > 1; ++i) {
         const F wider(largeSimplex<F::kCorners>(verticesOf(group), points), points);
         const bool contains = std::ranges::all_of(own, [&](auto v) { return wider.contains(points[v], frame); });
-        if (!(wider.volume() > kLarger * flat.volume()) || !contains) break;
+        if (!(wider.parallelotopeVolume() > kLarger * flat.parallelotopeVolume()) || !contains) break;
         flat = wider;
         group = grow(flat);
     }

@@ -23,9 +23,9 @@ namespace {
 using geometry::kNone;
 
 // kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell; the search for better
-// places ends at kGoalDeviation. Both are relative to the parameter `size` of flatten(). However, the permitted
-// distance is at least kMaxRounding times doubleRounding(), and the goal is at least kGoalRounding times
-// doubleRounding().
+// places ends at kGoalDeviation. Both are relative to the parameter `size` of flattenOrSplit(). However, the permitted
+// distance is at least kMaxRounding times doublePrecisionErrorBound(), and the goal is at least kGoalRounding times
+// doublePrecisionErrorBound().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
 // If the cosine of the angle between two hyperplanes is larger than this, rounding errors make the plane in which they
@@ -58,11 +58,11 @@ struct FittedFlat {
 // The changes in one round of Newton's method: `moves` holds the move of each vertex; for each flat, `tilts` holds the
 // change of its normal, multiplied by FittedFlat::radius, and `shifts` the negative change of its middle along the
 // normal.
-struct Unknowns {
+struct FlatteningUnknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
 
-    Unknowns(std::size_t vertices, std::size_t flats)
+    FlatteningUnknowns(std::size_t vertices, std::size_t flats)
         : moves(vertices, glm::dvec4(0)), tilts(flats, glm::dvec4(0)), shifts(flats, 0) {}
     double squaredLength() const {
         double sum = 0;
@@ -72,7 +72,7 @@ struct Unknowns {
         return sum;
     }
     /// Sets this to `factor` · this + `times` · `other`.
-    void combine(double factor, double times, const Unknowns& other) {
+    void combine(double factor, double times, const FlatteningUnknowns& other) {
         for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = factor * moves[i] + times * other.moves[i];
         for (std::size_t i = 0; i < tilts.size(); ++i) {
             tilts[i] = factor * tilts[i] + times * other.tilts[i];
@@ -111,7 +111,7 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
 class Flattener {
   public:
     Flattener(PolygonSoup& soup, double size) : soup_(soup) {
-        const double rounding = doubleRounding(soup.vertices);
+        const double rounding = doublePrecisionErrorBound(soup.vertices);
         maxDeviation_ = std::max(kMaxDeviation * size, kMaxRounding * rounding);
         goalDeviation_ = std::max(kGoalDeviation * size, kGoalRounding * rounding);
         collectCells();
@@ -148,7 +148,7 @@ class Flattener {
             if (deviation() <= goalDeviation_) return true;
             if (deviation() * kGoodProgress > best) tolerance = std::max(tolerance * kTighter, kLeastTolerance);
             best = std::min(best, deviation());
-            const Unknowns change = solve(tolerance, work);
+            const FlatteningUnknowns change = solve(tolerance, work);
             for (std::size_t v = 0; v < before.size(); ++v) {
                 soup_.vertices[v] += change.moves[v];
                 if (!(glm::distance(soup_.vertices[v], before[v]) <= maxDistance)) return false;
@@ -272,7 +272,7 @@ class Flattener {
 
     // Sets `out` to the product of the Jacobian and `change`. Element k is, to the first order, the change of
     // distances_[k].
-    void multiplyByJacobian(const Unknowns& change, std::vector<double>& out) const {
+    void multiplyByJacobian(const FlatteningUnknowns& change, std::vector<double>& out) const {
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
                 out[k] = glm::dot(flats_[i].normal, change.moves[corners_.items[k]]) +
@@ -282,7 +282,7 @@ class Flattener {
     }
 
     // Sets `out` to the product of the transposed Jacobian and the vector `list`.
-    void multiplyByTransposedJacobian(const std::vector<double>& list, Unknowns& out) const {
+    void multiplyByTransposedJacobian(const std::vector<double>& list, FlatteningUnknowns& out) const {
         std::fill(out.moves.begin(), out.moves.end(), glm::dvec4(0));
         for (std::size_t i = 0; i < flats_.size(); ++i) {
             glm::dvec4 tilt(0);
@@ -300,12 +300,12 @@ class Flattener {
     // Returns the least change of the unknowns that makes all distances_ 0, to the first order. `tolerance` says how
     // precisely the equations are solved (see kFirstTolerance). Adds the work of the solution to `work`, which counts
     // up to kMaxWork.
-    Unknowns solve(double tolerance, std::size_t& work) const {
-        Unknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
+    FlatteningUnknowns solve(double tolerance, std::size_t& work) const {
+        FlatteningUnknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
         std::transform(distances_.begin(), distances_.end(), error.begin(), std::negate<>());
         multiplyByTransposedJacobian(error, gradient);
-        Unknowns direction = gradient;
+        FlatteningUnknowns direction = gradient;
         double square = gradient.squaredLength();
         const double goal = tolerance * tolerance * square;
         for (std::size_t step = 0; step < kMaxGradientSteps && square > goal && work < kMaxWork; ++step) {
@@ -338,7 +338,7 @@ class Flattener {
 
 }  // namespace
 
-FlatteningReport flatten(PolygonSoup& soup, double size, double maxDistance, double rounding) {
+FlatteningReport flattenOrSplit(PolygonSoup& soup, double size, double maxDistance, double rounding) {
     FlatteningReport result;
     Flattener flattener(soup, size);
     result.deviation = flattener.deviation();

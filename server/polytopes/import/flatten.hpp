@@ -8,7 +8,7 @@
 
 namespace oval4d::polytopes {
 
-/// What flatten() has changed.
+/// What flattenOrSplit() has changed.
 struct FlatteningReport {
     /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face before any change.
     double deviation = 0;
@@ -23,10 +23,11 @@ struct FlatteningReport {
 
 /// Moves the vertices so that the vertices of each cell lie in one hyperplane, and the vertices of each 2-face in one
 /// plane. After the moves, the distance of a vertex from such a hyperplane or plane is at most 10⁻¹² of `size` or, if
-/// that is larger, twice the doubleRounding() of the vertices. `size` is halfDiagonal() of the vertices. If all
-/// distances are already so small, nothing is changed. The moves are needed because coordinates in files are rounded: a
-/// slicing hyperplane that nearly contains a rounded cell would cut it into pieces that do not fit together. The moves
-/// are about as small as possible: if the file is a rounded polytope, they are about as large as the rounding.
+/// that is larger, twice the doublePrecisionErrorBound() of the vertices. `size` is halfDiagonal() of the vertices. If
+/// all distances are already so small, nothing is changed. The moves are needed because coordinates in files are
+/// rounded: a slicing hyperplane that nearly contains a rounded cell would cut it into pieces that do not fit together.
+/// The moves are about as small as possible: if the file is a rounded polytope, they are about as large as the
+/// rounding.
 ///
 /// If a vertex would have to be moved by more than `maxDistance`, or if no places are found at which all cells and
 /// 2-faces are flat, moves no vertex. Instead, splitIntoSimplices() divides the 2-faces that are not flat into
@@ -34,6 +35,6 @@ struct FlatteningReport {
 ///
 /// FlatteningReport::moved counts only moves by more than `rounding`, because smaller ones are not worth a warning.
 /// Takes time linear in the number of incidences of vertices and cells, up to a few seconds.
-FlatteningReport flatten(PolygonSoup& soup, double size, double maxDistance, double rounding);
+FlatteningReport flattenOrSplit(PolygonSoup& soup, double size, double maxDistance, double rounding);
 
 }  // namespace oval4d::polytopes

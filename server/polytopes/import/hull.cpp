@@ -215,7 +215,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     // `frame`.
     Points places;
     std::vector<std::uint32_t> numbers;  // per element of `places`: its index in `points`
-    geometry::PointIndex index(4 * 2 * frame.largestErrorBound());
+    geometry::EqualPointFinder index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
         if (index.findOrAdd(frame(points[i]), places).second) numbers.push_back(i);
     }

@@ -60,14 +60,15 @@ glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering
     return center;
 }
 
-// Makes the cells and 2-faces flat by flatten(), and appends to `warnings` what flatten() has changed. Does not warn of
-// moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether cells or 2-faces were
-// divided.
+// Makes the cells and 2-faces flat by flattenOrSplit(), and appends to `warnings` what flattenOrSplit() has changed.
+// Does not warn of moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether
+// cells or 2-faces were divided.
 bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
     const std::size_t faces = soup.faces.size();
-    const FlatteningReport done = flatten(soup, size, kFlatnessTolerance * size, std::max(rounding, kTiny * size));
+    const FlatteningReport done =
+        flattenOrSplit(soup, size, kFlatnessTolerance * size, std::max(rounding, kTiny * size));
     if (done.moved > 0) {
         const bool one = done.moved == 1;
         warnings.push_back(
@@ -85,26 +86,26 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
 }
 
 // A polytope, and whether cells or 2-faces were divided, so that its elements differ from the elements in the file.
-struct Built {
+struct BuiltPolytope {
     ImportedPolytope imported;
     bool divided = false;
 };
 
-Built repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name,
-                     const geometry::Centering& centering) {
-    Built result;
+BuiltPolytope repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name,
+                             const geometry::Centering& centering) {
+    BuiltPolytope result;
     PolygonSoup repaired = soup;
     repair(repaired, mergeDistance, result.imported.warnings);
-    const double rounding = doubleRounding(repaired.vertices);
+    const double rounding = doublePrecisionErrorBound(repaired.vertices);
     const glm::dvec4 center = moveOrigin(repaired.vertices, centering);
-    checkFlat(repaired);
+    checkFlatnessAndDimension(repaired);
     result.divided = makeFlat(repaired, rounding, result.imported.warnings);
     result.imported.polytope = build(std::move(repaired), name);
     result.imported.polytope.originInFile = center;
     return result;
 }
 
-Built buildOff4(const PolygonSoup& soup, const std::string& name, const geometry::Centering& centering) {
+BuiltPolytope buildOff4(const PolygonSoup& soup, const std::string& name, const geometry::Centering& centering) {
     checkCells(soup);
     try {
         return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
@@ -198,7 +199,7 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
     constexpr double kAmplification = 32, kHullError = 1e-10;
     PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
     const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +
-                            doubleRounding(soup.vertices);
+                            doublePrecisionErrorBound(soup.vertices);
     const glm::dvec4 center = moveOrigin(soup.vertices, centering);
     makeFlat(soup, rounding, result.warnings);
     result.polytope =

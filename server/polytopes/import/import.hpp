@@ -46,7 +46,7 @@ struct ImportedPolytope {
 /// coordinates with three decimals. The polytope must also meet the conditions of makePolytope(). The following faults
 /// are repaired, with a warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no
 /// cell, 2-faces without area, 2-faces that are given once for each of their cells, 2-faces that pass through a vertex
-/// twice, cells that consist of several pieces, and 2-faces and cells that are not exactly flat (see flatten()).
+/// twice, cells that consist of several pieces, and 2-faces and cells that are not exactly flat (see flattenOrSplit()).
 ///
 /// A list of points is a table of the columns x, y, z and w (see text_files::readPoints()). The polytope is the convex
 /// hull of the points. Parts of the hull that lie in one hyperplane, to the precision of the coordinates in the file,

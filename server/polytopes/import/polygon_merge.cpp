@@ -89,8 +89,8 @@ bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& pla
 
 }  // namespace
 
-void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
-                 geometry::JaggedArray& faces) {
+void addMergedPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
+                       geometry::JaggedArray& faces) {
     const std::vector<TriangleEdge> triangleEdges =
         sortedTriangleEdges(triangles, [](const Triangle& t) -> const Triangle& { return t; });
     std::vector<std::array<std::uint32_t, 3>> beside(triangles.size(), {kNone, kNone, kNone});
@@ -104,7 +104,8 @@ void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4
         join(triangleEdges[i + 1].triangle, triangleEdges[i].triangle);
     }
     std::vector<double> areas;
-    for (const Triangle& triangle : triangles) areas.push_back(PlaneThroughPoints(triangle, points).volume());
+    for (const Triangle& triangle : triangles)
+        areas.push_back(PlaneThroughPoints(triangle, points).parallelotopeVolume());
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return areas[a] > areas[b]; });

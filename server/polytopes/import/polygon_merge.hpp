@@ -14,7 +14,7 @@ namespace oval4d::polytopes {
 /// Merges triangles that share edges and lie in one plane, within the error bounds of the points, into convex polygons,
 /// and adds the polygons to `faces`, as loops of indices of points. Where the triangles do not form a convex polygon,
 /// adds them unmerged.
-void addPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
-                 geometry::JaggedArray& faces);
+void addMergedPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
+                       geometry::JaggedArray& faces);
 
 }  // namespace oval4d::polytopes

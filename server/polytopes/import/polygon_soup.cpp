@@ -48,13 +48,13 @@ double halfDiagonal(std::span<const glm::dvec4> points) {
     return points.empty() ? 0 : glm::length(high - low) / 2;
 }
 
-double doubleRounding(std::span<const glm::dvec4> points) {
+double doublePrecisionErrorBound(std::span<const glm::dvec4> points) {
     double largest = 0;
     for (const glm::dvec4& p : points) largest = std::max(largest, glm::length(p));
     return 4 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-void checkFlat(const PolygonSoup& soup) {
+void checkFlatnessAndDimension(const PolygonSoup& soup) {
     const double size = halfDiagonal(soup.vertices);
     if (soup.vertices.empty() || deviation(soup.vertices, 3) <= kThin * size)
         throwFileError(0, "all vertices lie in one hyperplane");

@@ -37,12 +37,12 @@ double halfDiagonal(std::span<const glm::dvec4> points);
 
 /// Returns a bound on the rounding errors of points whose coordinates are doubles. The bound is proportional to the
 /// largest distance of a point from the origin.
-double doubleRounding(std::span<const glm::dvec4> points);
+double doublePrecisionErrorBound(std::span<const glm::dvec4> points);
 
 /// Throws a FileError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
 /// hyperplane, to within kFlatnessTolerance times halfDiagonal(). Also throws a FileError if all vertices lie in one
 /// hyperplane, to within 10⁻⁶ of halfDiagonal().
-void checkFlat(const PolygonSoup& soup);
+void checkFlatnessAndDimension(const PolygonSoup& soup);
 
 /// Builds the polytope by makePolytope(). If makePolytope() throws InvalidPolytope, throws a FileError with the line
 /// number of the invalid element instead.

@@ -169,7 +169,7 @@ class Repairer {
     }
 
     // Removes 2-faces in no cell and vertices on no 2-face.
-    void dropUnused() {
+    void dropOneUnused() {
         std::vector<bool> used(soup_.faces.size(), false);
         for (const std::uint32_t f : soup_.cells.items) used[f] = true;
         const auto stray = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
@@ -258,7 +258,7 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    // The numbers of vertices and of 2-faces that were merged into others. dropUnused() removes them, but does not
+    // The numbers of vertices and of 2-faces that were merged into others. dropOneUnused() removes them, but does not
     // count them in the warnings about unused ones.
     std::size_t doubled_ = 0, joined_ = 0;
 };
@@ -271,7 +271,7 @@ void repair(PolygonSoup& soup, double mergeDistance, std::vector<std::string>& w
     repairer.simplifyFaces();
     repairer.mergeCopies();
     repairer.splitCells();
-    repairer.dropUnused();
+    repairer.dropOneUnused();
 }
 
 }  // namespace oval4d::polytopes

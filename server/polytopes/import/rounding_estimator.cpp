@@ -21,15 +21,15 @@ constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of t
 constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger ones are clamped to it
 
 // The precision with which one number is written.
-struct Digits {
+struct NumberPrecision {
     int significant = 0;  // the number of digits from the first nonzero digit to the last digit written
     int last = 0;         // the exponent of ten of the last digit written
     int lastNonzero = 0;  // the exponent of ten of the last digit other than 0
     bool whole = true;
 };
 
-Digits digitsOf(std::string_view word) {
-    Digits result;
+NumberPrecision digitsOf(std::string_view word) {
+    NumberPrecision result;
     bool decimals = false;
     int zeros = 0;  // the number of zeros at the end
     const std::size_t end = std::min(word.find_first_of("eE"), word.size());
@@ -60,16 +60,16 @@ double singleSpacing(double value) {
 }  // namespace
 
 void RoundingEstimator::add(std::string_view word, int axis, double value) {
-    const Digits digits = digitsOf(word);
+    const NumberPrecision digits = digitsOf(word);
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
     if (digits.significant == 0) return;  // a zero does not show how it was rounded
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
-    if (single_ && value != 0) updateSingleEvidence(digits.last, digits.lastNonzero, axis, value);
+    if (single_ && value != 0) updateFloat32Evidence(digits.last, digits.lastNonzero, axis, value);
 }
 
-void RoundingEstimator::updateSingleEvidence(int lastPlace, int lastNonzeroPlace, int axis, double value) {
+void RoundingEstimator::updateFloat32Evidence(int lastPlace, int lastNonzeroPlace, int axis, double value) {
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
@@ -80,7 +80,7 @@ void RoundingEstimator::updateSingleEvidence(int lastPlace, int lastNonzeroPlace
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
 
-glm::dvec4 RoundingEstimator::unit() const {
+glm::dvec4 RoundingEstimator::lastDigitUnit() const {
     if (digits_ == 0) return glm::dvec4(0);
     glm::dvec4 unit(0);
     for (int axis = 0; axis < 4; ++axis) {
@@ -95,12 +95,12 @@ glm::dvec4 RoundingEstimator::roundingErrorIfRounded() const {
     // The shortest decimal that identifies a single-precision number may be farther from this number than half a unit
     // of the last digit of the longest decimals.
     if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
-        return largest_ * kSingleRounding + glm::max(unit() / 2.0, fromSingle_);
-    return unit() / 2.0;
+        return largest_ * kSingleRounding + glm::max(lastDigitUnit() / 2.0, fromSingle_);
+    return lastDigitUnit() / 2.0;
 }
 
 glm::dvec4 RoundingEstimator::maxRoundingError(double size) const {
-    const glm::dvec4 last = unit();
+    const glm::dvec4 last = lastDigitUnit();
     const bool exact = size <= kMaxExactUnits * std::min({last.x, last.y, last.z, last.w});
     return exact ? glm::dvec4(0) : roundingErrorIfRounded();
 }

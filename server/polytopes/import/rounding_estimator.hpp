@@ -38,8 +38,8 @@ class RoundingEstimator {
     bool hasOnlyIntegers() const { return whole_; }
 
   private:
-    glm::dvec4 unit() const;  // per axis: the unit of the last digit
-    void updateSingleEvidence(int lastPlace, int lastNonzeroPlace, int axis, double value);
+    glm::dvec4 lastDigitUnit() const;  // per axis: the unit of the last digit
+    void updateFloat32Evidence(int lastPlace, int lastNonzeroPlace, int axis, double value);
 
     glm::dvec4 largest_{0};                            // per axis: the largest absolute value of a coordinate
     int digits_ = 0;                                   // the maximum number of significant digits

@@ -128,15 +128,15 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     const glm::vec3 origin{0, 0, -kFar};
     const glm::mat3 turn(glm::dmat3(scene.camera.view()));
 
-    struct Axis {
+    struct TriadAxis {
         glm::vec3 direction;
         scene::Color color;
         char name;
     };
-    std::array axes{Axis{turn[0], style.axes[0], 'x'}, Axis{turn[1], style.axes[1], 'y'},
-                    Axis{turn[2], style.axes[2], 'z'}};
+    std::array axes{TriadAxis{turn[0], style.axes[0], 'x'}, TriadAxis{turn[1], style.axes[1], 'y'},
+                    TriadAxis{turn[2], style.axes[2], 'z'}};
     // Sorts the axes from far to near. Ties are broken by name, because std::stable_sort would allocate memory.
-    std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
+    std::sort(axes.begin(), axes.end(), [](const TriadAxis& a, const TriadAxis& b) {
         return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
     });
     shapes.setProjection(projection);
@@ -147,15 +147,15 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     };
     const int size = wholePixels(style.textHeight, scene);
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
-    for (const Axis& axis : axes) {
+    for (const TriadAxis& axis : axes) {
         const bool toward = axis.direction.z > 0;
         if (toward) {
             addOrigin();
-            shapes.addBar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
+            shapes.addBarFromFarEnd(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
             shapes.addBall(origin + axis.direction, kTip, axis.color);
         } else {
             shapes.addBall(origin + axis.direction, kTip, axis.color);
-            shapes.addBar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
+            shapes.addBarFromFarEnd(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
         }
         // The name of an axis that points toward or away from the viewer is drawn beside the axis.
         glm::vec2 name = glm::vec2(axis.direction) * kName;

@@ -35,10 +35,10 @@ void main() { pixel = vec4(color, 1.0) * texture(density, texel).r; }
 }  // namespace
 
 CoordinatesPlot::CoordinatesPlot()
-    : program_(kVertexSource, kFragmentSource, sizeof(Corner),
-               std::to_array<Attribute>({{2, GL_FLOAT, offsetof(Corner, at)},
-                                         {2, GL_FLOAT, offsetof(Corner, texel)},
-                                         {4, GL_UNSIGNED_BYTE, offsetof(Corner, color)}})) {
+    : program_(kVertexSource, kFragmentSource, sizeof(PlotVertex),
+               std::to_array<Attribute>({{2, GL_FLOAT, offsetof(PlotVertex, at)},
+                                         {2, GL_FLOAT, offsetof(PlotVertex, texel)},
+                                         {4, GL_UNSIGNED_BYTE, offsetof(PlotVertex, color)}})) {
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);
     for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -53,7 +53,7 @@ void CoordinatesPlot::draw(const scene::Scene& scene) {
     using scene::DensityPlot, slicing::CoordinateHistograms;
     const bool showsHistogram = scene.showsHistogram();
     if (!showsHistogram && !scene.showsDensity()) return;
-    load(scene.plotTones, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
+    uploadTones(scene.plotTones, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
     corners_.clear();
     indices_.clear();
     const scene::CoordinatesLayout& layout = scene.coordinates;
@@ -64,16 +64,16 @@ void CoordinatesPlot::draw(const scene::Scene& scene) {
             const int column = k * CoordinateHistograms::kPanel;
             addVerticalSide(scene, x, column, color);
             addVerticalSide(scene, x + layout.panel, column + CoordinateHistograms::kPanel - 1, color);
-            addQuad();
+            addQuadBetweenLastSides();
         } else {
             addVerticalSide(scene, x + layout.lineWidth / 2, k * DensityPlot::kGap, color);
-            if (k > 0) addQuad();
+            if (k > 0) addQuadBetweenLastSides();
         }
     }
     program_.draw(corners_.data(), corners_.size(), indices_);
 }
 
-void CoordinatesPlot::load(const std::vector<std::uint8_t>& tones, int columns) {
+void CoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int columns) {
     const int rows = static_cast<int>(tones.size()) / columns;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -98,7 +98,7 @@ void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, doubl
 }
 
 // Adds the quadrilateral between the last two edges that addVerticalSide() added.
-void CoordinatesPlot::addQuad() {
+void CoordinatesPlot::addQuadBetweenLastSides() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);
 }

@@ -26,20 +26,20 @@ class CoordinatesPlot {
     void draw(const scene::Scene& scene);
 
   private:
-    struct Corner {
+    struct PlotVertex {
         glm::vec2 at{0};     // clip coordinates, −1 … 1
         glm::vec2 texel{0};  // texture coordinates, 0 … 1 from the upper left corner
         std::uint32_t color = 0;
     };
 
-    void load(const std::vector<std::uint8_t>& tones, int columns);
+    void uploadTones(const std::vector<std::uint8_t>& tones, int columns);
     void addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color);
-    void addQuad();
+    void addQuadBetweenLastSides();
 
     ShaderProgram program_;
     GLuint texture_ = 0;
     int columns_ = 0, rows_ = 0;  // the size of the texture
-    std::vector<Corner> corners_;
+    std::vector<PlotVertex> corners_;
     std::vector<std::uint32_t> indices_;
 };
 

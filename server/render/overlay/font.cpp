@@ -79,7 +79,7 @@ Glyph Font::draw(int size, char32_t character) {
     glyph.left = slot->bitmap_left;
     glyph.top = slot->bitmap_top;
     glyph.advance = static_cast<int>((slot->advance.x + 32) >> 6);
-    std::tie(glyph.x, glyph.y) = reserve(glyph.width, glyph.height);
+    std::tie(glyph.x, glyph.y) = reserveInAtlas(glyph.width, glyph.height);
     if (glyph.y < 0) return Glyph{.advance = glyph.advance};
     for (int row = 0; row < glyph.height; ++row)
         std::copy_n(picture.buffer + row * picture.pitch, glyph.width,
@@ -90,7 +90,7 @@ Glyph Font::draw(int size, char32_t character) {
 
 /// Allocates a rectangle in the texture by shelf packing. Returns its upper left texel, or y = −1 if the texture is
 /// full.
-std::pair<int, int> Font::reserve(int width, int height) {
+std::pair<int, int> Font::reserveInAtlas(int width, int height) {
     if (shelfX_ + width > kWidth) {
         shelfY_ += shelfHeight_ + 1;
         shelfX_ = shelfHeight_ = 0;
@@ -108,7 +108,7 @@ std::pair<int, int> Font::reserve(int width, int height) {
 
 int Font::width(int size, std::string_view text) {
     int width = 0;
-    layOut(size, text, [&](const Glyph& g, int pen) { width = pen + g.advance; });
+    forEachGlyph(size, text, [&](const Glyph& g, int pen) { width = pen + g.advance; });
     return width;
 }
 

@@ -52,7 +52,7 @@ class Font {
     /// Calls `each(glyph, pen)` for every character of the UTF-8 `text`; `pen` is the x position, in pixels from the
     /// start of the line.
     template <class Each>
-    void layOut(int size, std::string_view text, Each&& each) {
+    void forEachGlyph(int size, std::string_view text, Each&& each) {
         int pen = 0;
         while (!text.empty()) {
             const Glyph& g = glyph(size, takeCharacter(text));
@@ -64,7 +64,7 @@ class Font {
   private:
     static char32_t takeCharacter(std::string_view& text);
     Glyph draw(int size, char32_t character);
-    std::pair<int, int> reserve(int width, int height);
+    std::pair<int, int> reserveInAtlas(int width, int height);
     void clear();
 
     struct Face;

@@ -138,7 +138,7 @@ void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& place
 
 }  // namespace
 
-void addMatrix(const scene::Scene& scene, Overlay& overlay) {
+void addMatrixAndFocusLines(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.matrix.shown) return;
     for (const scene::SlicePlacement& placement : scene.placements)
         if (placement.focus) addFocusPoint(scene, placement, overlay);

@@ -9,6 +9,6 @@ namespace oval4d::render {
 /// nothing if the scene shows no matrix. The edges of a section have the colors of the cells from which they were cut.
 /// The lines through the focus point in a panel show where the plane of this panel meets the planes of the other panels
 /// in the same row and column.
-void addMatrix(const scene::Scene& scene, Overlay& overlay);
+void addMatrixAndFocusLines(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

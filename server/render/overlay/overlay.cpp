@@ -120,7 +120,7 @@ void Overlay::polygon(std::span<const glm::vec2> corners, scene::Color color, fl
 void Overlay::text(float x, float y, int size, std::string_view text, scene::Color color, float opacity) {
     const float left = std::round(x - 0.5f * static_cast<float>(font_.width(size, text))), baseline = std::round(y);
     const OverlayVertex vertex{.box = {kWide, kWide, 0}, .color = rgba(color, opacity)};
-    font_.layOut(size, text, [&](const Glyph& g, int pen) {
+    font_.forEachGlyph(size, text, [&](const Glyph& g, int pen) {
         if (g.width == 0) return;
         const auto width = static_cast<float>(g.width), height = static_cast<float>(g.height);
         const float glyphLeft = left + static_cast<float>(pen + g.left), top = baseline + static_cast<float>(g.top);

@@ -42,8 +42,8 @@ void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, c
 
 void ConvexShapeCollector::paintSlice(const SliceRef& slice, ShapeBatch& out) {
     transformVertices(slice);
-    classify(slice);
-    sortByDepth(slice);
+    classifyFrontAndBack(slice);
+    sortVerticesAndEdgesByDepth(slice);
     for (const Side side : {Side::away, Side::toward}) {
         if (slice.scene.look.parts.faces) paintFaces(slice, side, out);
         paintSkeleton(slice, side, out);
@@ -59,7 +59,7 @@ void ConvexShapeCollector::transformVertices(const SliceRef& slice) {
 
 /// Determines which faces are turned toward the eye, and which edges and vertices belong to at least one of these
 /// faces.
-void ConvexShapeCollector::classify(const SliceRef& slice) {
+void ConvexShapeCollector::classifyFrontAndBack(const SliceRef& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
     faceSide_.resize(slice.faces());
@@ -83,7 +83,7 @@ void ConvexShapeCollector::classify(const SliceRef& slice) {
 
 /// Sorts vertices from far to near, and groups edges by their farther vertex. Drawn in this order, a bar covers the
 /// ball at its far end, and the ball at its near end covers the bar.
-void ConvexShapeCollector::sortByDepth(const SliceRef& slice) {
+void ConvexShapeCollector::sortVerticesAndEdgesByDepth(const SliceRef& slice) {
     order_.resize(slice.vertices());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -128,7 +128,8 @@ void ConvexShapeCollector::paintSkeleton(const SliceRef& slice, Side side, Shape
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
             const glm::vec3& to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
-            skeleton.addBar(points_[v], to, slice.edgeColor(e, skeleton.barColor), slice.edgeOpacity(e), out);
+            skeleton.addBarBetweenBalls(points_[v], to, slice.edgeColor(e, skeleton.barColor), slice.edgeOpacity(e),
+                                        out);
         }
     }
 }

@@ -32,8 +32,8 @@ class ConvexShapeCollector {
 
     void paintSlice(const SliceRef& slice, ShapeBatch& out);
     void transformVertices(const SliceRef& slice);
-    void classify(const SliceRef& slice);
-    void sortByDepth(const SliceRef& slice);
+    void classifyFrontAndBack(const SliceRef& slice);
+    void sortVerticesAndEdgesByDepth(const SliceRef& slice);
     void paintFaces(const SliceRef& slice, Side side, ShapeBatch& out);
     void paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out);
 

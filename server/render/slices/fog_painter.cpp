@@ -120,7 +120,7 @@ FogPainter::FogPainter()
     : program_(kVertexSource, kFragmentSource, sizeof(BoxCorner),
                std::to_array<Attribute>(
                    {{3, GL_FLOAT, offsetof(BoxCorner, clip)}, {3, GL_FLOAT, offsetof(BoxCorner, place)}})) {
-    const auto at = [&](const char* name) { return program_.uniform(name); };
+    const auto at = [&](const char* name) { return program_.uniformLocation(name); };
     uniforms_ = {at("toDepth"),   at("isBehind"), at("eye"),  at("walls"),
                  at("wallCount"), at("low"),      at("size"), at("latticeStep")};
     makeTexture(GL_TEXTURE_2D, GL_NEAREST, table_);
@@ -213,7 +213,7 @@ void FogPainter::draw(const scene::Scene& scene, std::uint32_t slice, FogPart pa
         corners[static_cast<std::size_t>(i)] = {projection_.clipXyw(transform(place)), glm::vec3(place / unit)};
     }
     std::array<glm::vec4, slicing::FieldSection::kMaxWalls> walls{};
-    std::ranges::transform(fog.walls, walls.begin(), [unit](const slicing::FieldSection::Wall& wall) {
+    std::ranges::transform(fog.walls, walls.begin(), [unit](const slicing::FieldSection::HalfSpace& wall) {
         return glm::vec4(wall.normal, wall.offset / unit);
     });
     const glm::vec3 eye((scene.camera.eye - scene.placements[slice].position) / (scene.scale * unit));

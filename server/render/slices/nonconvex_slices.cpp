@@ -92,8 +92,8 @@ void NonconvexShapeCollector::addShape(const SliceRef& slice, const SortedShape&
     }
     const auto& [a, b] = slice.edge(item.number);
     const bool forth = points[a].z < points[b].z;
-    skeleton.addBar(points[forth ? a : b], points[forth ? b : a], slice.edgeColor(item.number, skeleton.barColor),
-                    slice.edgeOpacity(item.number), out);
+    skeleton.addBarBetweenBalls(points[forth ? a : b], points[forth ? b : a],
+                                slice.edgeColor(item.number, skeleton.barColor), slice.edgeOpacity(item.number), out);
 }
 
 void NonconvexShapeCollector::addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out) {

@@ -28,7 +28,7 @@ struct LinearFunction {
 };
 
 /// The properties that all pixels of a patch share.
-struct Paint {
+struct PatchShading {
     /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place; `nearness` is as in PatchCorner.
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
     glm::vec3 diffuse, specular;  ///< as in ShapeVertex
@@ -55,7 +55,7 @@ OVAL4D_AVX2 inline __m256i inHalves(int first, int second) {
 
 // Blends a face with the picture, without depths. All pixels of a face have the same color, so integers suffice: the
 // result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255.
-OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
+OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     const float light = canvas.ambient + paint.diffuse.z, alpha = static_cast<float>(paint.alpha);
     const auto term = [&](float channel) {
         return static_cast<std::uint64_t>(std::lround(std::min(channel * light, 255.0F) * alpha));
@@ -105,7 +105,7 @@ struct StartValues {
 
 // Returns the values at two pixels of those functions that this form of patch has.
 template <Form form, DepthUse depth>
-OVAL4D_AVX2 inline StartValues startValues(const Paint& paint, int x1, int y1, int x2, int y2) {
+OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, int y1, int x2, int y2) {
     const auto of = [&](const LinearFunction& f) OVAL4D_AVX2 {
         const auto at = [&](int x, int y) {
             return f.origin + f.y * static_cast<float>(y) + f.x * static_cast<float>(x);
@@ -159,7 +159,7 @@ struct PixelsOfTwoRows {
 // Draws eight pixels of a patch. `offsets`: how many columns they are to the right of those of `start`. `inside`: all
 // bits of a pixel are set if it is in the patch. The formulas are those of the fragment shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
-OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const Paint& paint, const Pixels& pixels,
+OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
                                    const StartValues& start, __m256i offsets, __m256 inside) {
     constexpr bool isRound = form == Form::strip || form == Form::disk;
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
@@ -233,7 +233,7 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const Paint& paint
 
 // Draws a patch: two rows at a time where both cover at most four pixels, as do most rows of thin bars, else one row.
 template <Form form, DepthUse depth>
-OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint) {
+OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     constexpr int kHalf = kLanes / 2;
     const __m256i inHalf = _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3);
     const auto isNarrow = [&](int y) { return canvas.right[y] - canvas.left[y] <= kHalf; };
@@ -323,18 +323,18 @@ OVAL4D_AVX2 LinearFunction nearnessOf(std::span<const PatchCorner> corners, floa
 }
 
 template <Form form>
-OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const Paint& paint, DepthUse depth) {
+OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint, DepthUse depth) {
     if (depth == DepthUse::unused) return fillShape<form, DepthUse::unused>(canvas, rows, paint);
     if (depth == DepthUse::tested) return fillShape<form, DepthUse::tested>(canvas, rows, paint);
     fillShape<form, DepthUse::written>(canvas, rows, paint);
 }
 
-OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
-    Paint paint{.diffuse = look.diffuse,
-                .specular = look.specular,
-                .color = {look.color & 255, look.color >> 8 & 255, look.color >> 16 & 255},
-                .alpha = look.color >> 24,
-                .bulge = 2 * look.place.z * pixelSize};
+OVAL4D_AVX2 PatchShading paintOf(const ShapeVertex& look, float pixelSize) {
+    PatchShading paint{.diffuse = look.diffuse,
+                       .specular = look.specular,
+                       .color = {look.color & 255, look.color >> 8 & 255, look.color >> 16 & 255},
+                       .alpha = look.color >> 24,
+                       .bulge = 2 * look.place.z * pixelSize};
     paint.halfRadius.origin = look.place.z;
     return paint;
 }
@@ -350,7 +350,7 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     if (area == 0) return;
     const RowRange rows = findRows(canvas, corners, area > 0);
     if (rows.begin >= rows.end) return;
-    Paint paint = paintOf(look, pixelSize);
+    PatchShading paint = paintOf(look, pixelSize);
     if (depth == DepthUse::unused) return fillFace(canvas, rows, paint);
     paint.nearness = nearnessOf(corners, area);
     if (depth == DepthUse::written) paint.bulge = 0;
@@ -375,7 +375,7 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
         const float x = (first * y2 - second * y1) * inverse, y = (second * x1 - first * x2) * inverse;
         return LinearFunction{0.25F * (atA + atB + atC + atD) - x * middleX - y * middleY, x, y};
     };
-    Paint paint = paintOf(look, pixelSize);
+    PatchShading paint = paintOf(look, pixelSize);
     if (depth != DepthUse::unused) paint.nearness = functionOf(a.nearness, b.nearness, c.nearness, d.nearness);
     if (form == Form::rim) {
         paint.halfRadius = functionOf(a.place.z, b.place.z, c.place.z, d.place.z);

@@ -94,9 +94,9 @@ void ProjectionShapeCollector::addShape(const scene::Scene& scene, const SortedS
         const auto& [a, b] = elements.edges[item.number];
         const bool forth = points[a].z < points[b].z;
         const bool lit = scene.highlight.hasEdge(elements.edgeSource[item.number]);
-        out.addBar(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius),
-                   lit ? scene.style().highlight : part.barColor,
-                   opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
+        out.addBarFromFarEnd(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius),
+                             lit ? scene.style().highlight : part.barColor,
+                             opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
     } else {
         corners_.clear();
         for (std::uint32_t c = elements.cornerBegin[item.number]; c < elements.cornerBegin[item.number + 1]; ++c)

@@ -20,7 +20,7 @@ namespace {
 // radius, but more transparent.
 constexpr float kMinRadius = 0.6f;
 constexpr float kMinAlpha = 0.02f;      // shapes with a lower opacity are not drawn
-constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars have no foot (see ShapeBatch::addBar())
+constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars have no foot (see ShapeBatch::addBarFromFarEnd())
 
 /// How a shape is drawn whose radius is clamped to at least kMinRadius.
 struct ClampedRadius {
@@ -84,7 +84,7 @@ void ShapeBatch::addPatch(std::uint32_t first, Patch::Form form) {
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
     const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
     if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
-    const ClampedRadius size = clampedRadius(radius * projection_.focalLength() / -center.z, 2);
+    const ClampedRadius size = clampedRadius(radius * projection_.focalLengthInPixels() / -center.z, 2);
     if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 z = -center / std::sqrt(distance2);
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
@@ -105,7 +105,8 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     add({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, Patch::Form::disk);
 }
 
-void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
+void ShapeBatch::addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color,
+                                  float opacity) {
     if (from.z > -radius || to.z > -radius) return;
     // n is the normal of the plane through the eye and the bar's axis. The silhouette consists of two lines parallel to
     // the axis.
@@ -113,7 +114,7 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
-    const ClampedRadius size = clampedRadius(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
+    const ClampedRadius size = clampedRadius(radius * projection_.focalLengthInPixels() / (-0.5f * (from.z + to.z)), 1);
     if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
@@ -259,7 +260,7 @@ constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(ShapeVertex, clip)},
 
 ShapeProgram::ShapeProgram(const scene::Style& style, DepthSource depth)
     : program_(kVertexSource, fragmentSource(style, depth), sizeof(ShapeVertex), kAttributes),
-      toDepth_(program_.uniform("toDepth")) {}
+      toDepth_(program_.uniformLocation("toDepth")) {}
 
 void ShapeProgram::draw(const ShapeBatch& shapes) { draw(shapes, 0, 0); }
 
@@ -270,7 +271,7 @@ void ShapeProgram::drawWithDepth(DepthRange range, const ShapeBatch& shapes) {
 
 void ShapeProgram::draw(const ShapeBatch& shapes, float scale, float offset) {
     program_.use();
-    glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().focalLength());
+    glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().focalLengthInPixels());
     indices_.clear();
     for (const Patch& patch : shapes.patches()) {
         for (std::uint32_t i = 2; i < patch.count; ++i)

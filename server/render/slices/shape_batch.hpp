@@ -44,7 +44,7 @@ struct Patch {
     enum class Form : std::uint8_t {
         face,   ///< a face: none
         rim,    ///< a part of the soft edge of a face: place.z
-        strip,  ///< a bar without its foot (see ShapeBatch::addBar()): place.x; place.y is 0
+        strip,  ///< a bar without its foot (see ShapeBatch::addBarFromFarEnd()): place.x; place.y is 0
         disk,   ///< a ball, or the foot of a bar: place.x and place.y
     };
     std::uint32_t first, count;  ///< the index of the first vertex; the number of vertices
@@ -74,7 +74,8 @@ class ShapeBatch {
     /// enough has a round foot, which joins it to the ball there; the other end is flat. Does nothing if an end is
     /// behind the eye or closer to it than `radius`, if the line through `from` and `to` passes the eye within
     /// `radius`, or if the bar is almost transparent.
-    void addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
+    void addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color,
+                          float opacity = 1);
 
     /// Adds a flat convex polygon. `normal` is a unit normal; its sign does not matter. If `soft` is true, the edges
     /// are antialiased over one pixel, which is necessary if no bars cover them.

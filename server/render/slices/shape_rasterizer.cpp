@@ -42,7 +42,7 @@ void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVert
 
 struct ShapeRasterizer::Impl {
     /// The patches or the triangles that one call of add() has added.
-    struct Layer {
+    struct AddedShapes {
         const ShapeBatch* shapes;  // null for triangles
         std::size_t first, end;    // the patches first … end − 1
         DepthUse depth;
@@ -63,12 +63,12 @@ struct ShapeRasterizer::Impl {
 
     int middleRow() const;
     void drawRows(const RowRange& rows, Workspace& workspace) const;
-    void drawPatches(const PatchCanvas& part, const Layer& layer, Workspace& workspace) const;
+    void drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const;
 
     PatchCanvas canvas;
     std::uint32_t background = 0;
     PixelArea depthArea{{0, 0}, {0, 0}};
-    std::vector<Layer> layers;
+    std::vector<AddedShapes> layers;
     std::vector<float> nearness;
     std::array<Workspace, 2> workspaces;
 };
@@ -125,7 +125,7 @@ void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
 int ShapeRasterizer::Impl::middleRow() const {
     double sum = 0;  // of the positions of the shapes: 0 at the lower edge of the picture, 1 at the upper
     std::size_t count = 0;
-    for (const Layer& layer : layers) {
+    for (const AddedShapes& layer : layers) {
         for (const Patch& patch : layer.patches()) {
             if (patch.count == 0) continue;
             sum += 0.5 + 0.25 * (std::clamp(patch.least.y, -1.0F, 1.0F) + std::clamp(patch.greatest.y, -1.0F, 1.0F));
@@ -150,7 +150,7 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
     const auto& [from, to] = depthArea;
     for (int y = std::max(rows.begin, from.y); y < std::min(rows.end, to.y); ++y)
         std::fill(canvas.nearness + startOf(y) + from.x, canvas.nearness + startOf(y) + to.x, 0.0F);
-    for (const Layer& layer : layers) {
+    for (const AddedShapes& layer : layers) {
         if (layer.shapes != nullptr) {
             drawPatches(part, layer, workspace);
         } else {
@@ -160,8 +160,8 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
     }
 }
 
-void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const Layer& layer, Workspace& workspace) const {
-    const float pixelSize = 1 / layer.shapes->projection().focalLength();
+void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const {
+    const float pixelSize = 1 / layer.shapes->projection().focalLengthInPixels();
     // The bounds of the drawn rows in the picture, with room for the antialiased edge, which moves corners by a pixel.
     constexpr int kRoom = 2;
     const auto heightOf = [&](int row) { return 2 * static_cast<float>(row) / static_cast<float>(canvas.height) - 1; };

@@ -34,7 +34,7 @@ struct SliceRef {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
 
-    scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.cellOfFace(firstFace() + f)]; }
+    scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.coloringCellOfFace(firstFace() + f)]; }
     /// Returns the color of vertex v or edge e: the highlight color if it belongs to the highlighted element, else
     /// `usual`.
     scene::Color vertexColor(std::size_t v, scene::Color usual) const {
@@ -96,11 +96,12 @@ struct SkeletonStyle {
 
     /// Adds the part of a bar that is outside the balls at its ends, if there is one. `from` must be the end that is
     /// farther from the eye.
-    void addBar(const glm::vec3& from, const glm::vec3& to, scene::Color color, float opacity, ShapeBatch& out) const {
+    void addBarBetweenBalls(const glm::vec3& from, const glm::vec3& to, scene::Color color, float opacity,
+                            ShapeBatch& out) const {
         const float length = glm::length(to - from);
         if (opacity == 0 || length <= 2 * hiddenEndLength) return;
         const glm::vec3 cut = (to - from) * (hiddenEndLength / length);
-        out.addBar(from + cut, to - cut, barRadius, color, opacity);
+        out.addBarFromFarEnd(from + cut, to - cut, barRadius, color, opacity);
     }
 };
 

@@ -54,7 +54,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
             depths = {std::min(depths.from, z), std::max(depths.to, z)};
         }
         for (const glm::vec3& normal : surface.normals) normals_.push_back(turn * normal);
-        for (const scene::SurfaceLook::Level& level : scene.surfaces.levels) {
+        for (const scene::SurfaceLook::LevelLook& level : scene.surfaces.levels) {
             if ((level.opacity == 1) == opaque) addLevel(scene, slice, level);
         }
     };
@@ -88,7 +88,7 @@ void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
 }
 
 // Adds the triangles of one level of a slice. points_ and normals_ must contain the points and normals of the slice.
-void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
+void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     const auto alpha = static_cast<float>(level.opacity);
     const bool opaque = level.opacity == 1;
@@ -131,11 +131,11 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         }
     }
     out.insert(out.end(), facing_.begin(), facing_.end());
-    if (skipsBack) addFringes(scene, slice, level);
+    if (skipsBack) addFringesOfLastLevel(scene, slice, level);
 }
 
 std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice,
-                                    const scene::SurfaceLook::Level& level, bool ofCap, std::uint32_t point,
+                                    const scene::SurfaceLook::LevelLook& level, bool ofCap, std::uint32_t point,
                                     float alpha) const {
     const scene::SurfaceLook& look = scene.surfaces;
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
@@ -145,7 +145,8 @@ std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice
 }
 
 // Adds the fringes of the level of a slice that addLevel() has just added.
-void SurfaceBatch::addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
+void SurfaceBatch::addFringesOfLastLevel(const scene::Scene& scene, std::size_t slice,
+                                         const scene::SurfaceLook::LevelLook& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     findSilhouette(surface);
     outward_.resize(surface.points.size());
@@ -245,7 +246,7 @@ constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(SurfaceVertex, clip)
 
 SurfaceProgram::SurfaceProgram(const scene::Style& style)
     : program_(vertexSource(style), kFragmentSource, sizeof(SurfaceVertex), kAttributes),
-      toDepth_(program_.uniform("toDepth")) {}
+      toDepth_(program_.uniformLocation("toDepth")) {}
 
 void SurfaceProgram::draw(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices) {
     load(range, surfaces, indices);

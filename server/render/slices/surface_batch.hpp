@@ -47,8 +47,8 @@ class SurfaceBatch {
     const std::vector<std::uint32_t>& translucentIndices() const { return translucentIndices_; }
     /// Returns the indices of the collected slices, from the farthest to the nearest. Empty if the scene has neither
     /// surfaces nor fog.
-    const std::vector<std::uint32_t>& order() const { return order_; }
-    /// Returns, for each slice of order(), the end of its triangles: an index in translucentIndices().
+    const std::vector<std::uint32_t>& slicesFarToNear() const { return order_; }
+    /// Returns, for each slice of slicesFarToNear(), the end of its triangles: an index in translucentIndices().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
 
   private:
@@ -60,10 +60,11 @@ class SurfaceBatch {
     };
 
     void keepHalf(const scene::Scene& scene, DepthHalf half);
-    void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
-    void addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
+    void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level);
+    void addFringesOfLastLevel(const scene::Scene& scene, std::size_t slice,
+                               const scene::SurfaceLook::LevelLook& level);
     void findSilhouette(const slicing::SliceSurface& surface);
-    std::uint32_t colorOf(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level,
+    std::uint32_t colorOf(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level,
                           bool ofCap, std::uint32_t point, float alpha) const;
 
     Projection projection_;

@@ -132,11 +132,11 @@ struct TriangleMasks {
 
 // The indices of the corners of eight triangles: `a` has the first corner of each triangle, `b` the second, `c` the
 // third.
-struct Corners {
+struct TriangleCorners {
     __m256i a, b, c;
 };
 
-OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
+OVAL4D_AVX2 inline TriangleCorners cornersOf(const std::uint32_t* indices) {
     const auto* const from = reinterpret_cast<const __m256i*>(indices);
     const __m256i first = _mm256_loadu_si256(from), second = _mm256_loadu_si256(from + 1),
                   third = _mm256_loadu_si256(from + 2);
@@ -359,14 +359,14 @@ void drawTriangles(const SurfaceCanvas& canvas, const LitVertex* points, std::sp
 
 void SurfaceRasterizer::draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices,
                              Blending blending) const {
-    const auto clipped = [&](const std::uint32_t* corners) { drawClipped(canvas, corners, blending); };
+    const auto clipped = [&](const std::uint32_t* corners) { drawClippedAtNearPlane(canvas, corners, blending); };
     if (blending == Blending::none) return drawTriangles<Blending::none>(canvas, points_.data(), indices, clipped);
     drawTriangles<Blending::alpha>(canvas, points_.data(), indices, clipped);
 }
 
 // Draws the part of a triangle that is in front of the eye, at a depth of at least kNearPlane.
-void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners,
-                                    Blending blending) const {
+void SurfaceRasterizer::drawClippedAtNearPlane(const SurfaceCanvas& canvas, const std::uint32_t* corners,
+                                               Blending blending) const {
     std::array<LitVertex, 4> polygon;
     std::size_t count = 0;
     const glm::vec2 half(0.5F * static_cast<float>(viewport_.width), 0.5F * static_cast<float>(viewport_.height));
@@ -423,8 +423,8 @@ void SurfaceRasterizer::projectAndLight(scene::Viewport /*viewport*/, const scen
                                         const SurfaceBatch& /*surfaces*/) {}
 void SurfaceRasterizer::draw(const SurfaceCanvas& /*canvas*/, std::span<const std::uint32_t> /*indices*/,
                              Blending /*blending*/) const {}
-void SurfaceRasterizer::drawClipped(const SurfaceCanvas& /*canvas*/, const std::uint32_t* /*corners*/,
-                                    Blending /*blending*/) const {}
+void SurfaceRasterizer::drawClippedAtNearPlane(const SurfaceCanvas& /*canvas*/, const std::uint32_t* /*corners*/,
+                                               Blending /*blending*/) const {}
 double SurfaceRasterizer::estimateMeanScreenY(std::span<const std::uint32_t> /*indices*/) const { return 0.5; }
 
 #endif

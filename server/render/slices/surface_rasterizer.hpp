@@ -56,7 +56,7 @@ class SurfaceRasterizer {
     };
 
   private:
-    void drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners, Blending blending) const;
+    void drawClippedAtNearPlane(const SurfaceCanvas& canvas, const std::uint32_t* corners, Blending blending) const;
 
     const SurfaceBatch* surfaces_ = nullptr;
     scene::Viewport viewport_;

@@ -46,7 +46,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
         for (int i = 0; i < lattice_.pointCounts()[static_cast<int>(axis)]; ++i)
             heights_[axis].push_back(lattice_.positionTerm(axis, i).w - (axis == 0 ? w : 0));
     }
-    visit({glm::ivec4(0), lattice_.pointCounts() - 1});
+    cutRange({glm::ivec4(0), lattice_.pointCounts() - 1});
     if (status_ == RunStatus::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
     if (status_ == RunStatus::too_large) {
         return Error{ErrorCode::too_large, "the surface of an exact slice has more than the allowed " +
@@ -80,14 +80,14 @@ double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
 
 // Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most as large as
 // a brick.
-void ClosedSurfaceSlicer::visit(const CellRange& range) {
+void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
     if (++visits_ % kVisitsPerQuestion == 0 && options_.mustStop && options_.mustStop()) {
         status_ = RunStatus::stopped;
         return;
     }
-    const fields::Bounds bounds = lattice_.valueBounds(range.first, range.end);
+    const fields::ValueBounds bounds = lattice_.valueBounds(range.first, range.end);
     if (bounds.min > bounds.max) return;  // the function has no value in the range
     if (!bounds.mayCross(sign_ * level_)) {
         const bool inside = sign_ > 0 ? bounds.max < level_ : -bounds.min < level_;
@@ -100,8 +100,8 @@ void ClosedSurfaceSlicer::visit(const CellRange& range) {
     const int middle = range.first[axis] + (size[axis] / 2 + kBrick - 1) / kBrick * kBrick;
     CellRange lower = range, upper = range;
     lower.end[axis] = upper.first[axis] = middle;
-    visit(lower);
-    visit(upper);
+    cutRange(lower);
+    cutRange(upper);
 }
 
 // Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares bounds
@@ -122,7 +122,7 @@ bool ClosedSurfaceSlicer::touchesBoundary(const CellRange& range) const {
            glm::any(glm::equal(range.end, lattice_.pointCounts() - 1));
 }
 
-double ClosedSurfaceSlicer::applySign(float sample) const {
+double ClosedSurfaceSlicer::signedValueOrNan(float sample) const {
     return std::isfinite(sample) ? sign_ * static_cast<double>(sample) : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -147,7 +147,7 @@ void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
                         };
                         heights[corner] = (height(0) + height(1)) + (height(2) + height(3));
                         const int index = p.x + points.x * (p.y + points.y * (p.z + points.z * p.w));
-                        values[corner] = applySign(samples[static_cast<std::size_t>(index)]);
+                        values[corner] = signedValueOrNan(samples[static_cast<std::size_t>(index)]);
                     }
                     cutCell(cell, heights, values);
                 }
@@ -173,7 +173,7 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         const unsigned above = bitsOf(cut.heights, [](double height) { return height >= 0; });
         if (above == 0 || above == 31U) continue;
         cut.shape = &shape;
-        cut.positive = shape.positive == lattice_.isPositive();
+        cut.positive = shape.positive == lattice_.isPositivelyOriented();
         const unsigned holes = bitsOf(cut.values, [](double value) { return std::isnan(value); });
         if (holes != 0) {
             if (std::has_single_bit(holes)) {
@@ -185,8 +185,8 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         // `upper` and `lower` mark the facets on the boundary of the domain: bit i stands for the facet opposite to
         // corner i. Only two facets can lie there: the facet opposite to corner 0, at the upper end of an axis, and the
         // facet opposite to corner 4, at the lower end of an axis. The other facets are inside the cell.
-        const unsigned upper = cell[shape.axis(0)] == last[shape.axis(0)] ? 1U : 0U;
-        const unsigned lower = cell[shape.axis(3)] == 0 ? 1U << 4U : 0U;
+        const unsigned upper = cell[shape.axisToNextCorner(0)] == last[shape.axisToNextCorner(0)] ? 1U : 0U;
+        const unsigned lower = cell[shape.axisToNextCorner(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
         if (within == 0 || (within == 31U && (upper | lower) == 0)) continue;
         findCrossings(cut, above);
@@ -202,7 +202,7 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = i + 1; j < 5; ++j) {
             if ((above >> i & 1U) == (above >> j & 1U)) continue;
-            EdgeCrossing& crossing = cut.crossings[i][j];
+            PentatopeEdgeCrossing& crossing = cut.crossings[i][j];
             crossing.t = cut.heights[i] / (cut.heights[i] - cut.heights[j]);
             const double a = cut.values[i], b = cut.values[j];
             const double value = a + (b - a) * crossing.t;
@@ -231,10 +231,10 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
 // Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to this corner if the pentatope
 // on the other side of the facet has values at all of its corners.
 void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole) {
-    const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
+    const glm::ivec4 other = cut.cell + cut.shape->cornerAcrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
         return;
-    if (std::isnan(applySign(lattice_.sample(other)))) return;
+    if (std::isnan(signedValueOrNan(lattice_.sample(other)))) return;
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         for (std::size_t face = 0; face < 4; ++face) {
             if (tetrahedron.facets[face] == hole) addCap(cut, tetrahedron, face, true);

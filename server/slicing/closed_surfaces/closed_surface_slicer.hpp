@@ -82,7 +82,7 @@ class ClosedSurfaceSlicer {
         glm::ivec4 first, end;
     };
     // Where the hyperplane crosses an edge of a pentatope.
-    struct EdgeCrossing {
+    struct PentatopeEdgeCrossing {
         double t = 0;         // the position along the edge: 0 at its first end, 1 at its second
         double value = 0;     // the interpolated value of the function there; negated if sign_ is −1
         bool inside = false;  // whether the crossing is inside the body
@@ -91,13 +91,14 @@ class ClosedSurfaceSlicer {
     struct CutPentatope {
         const Pentatope* shape;
         glm::ivec4 cell;
-        std::array<double, 5> heights, values;                 // per corner: its height above the hyperplane, its value
-        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j], i < j: on the edge between corners i and j
-        bool positive;                                         // whether its signed volume is positive: see sectionOf()
+        std::array<double, 5> heights, values;  // per corner: its height above the hyperplane, its value
+        std::array<std::array<PentatopeEdgeCrossing, 5>, 5>
+            crossings;  // [i][j], i < j: on the edge between corners i and j
+        bool positive;  // whether its signed volume is positive: see sectionOf()
     };
 
     double movedIntoDomain(double w) const;
-    void visit(const CellRange& range);
+    void cutRange(const CellRange& range);
     bool meetsHyperplane(const CellRange& range) const;
     bool touchesBoundary(const CellRange& range) const;
     void cutBrick(const CellRange& range);
@@ -111,7 +112,7 @@ class ClosedSurfaceSlicer {
     std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);
     glm::dvec3 position(const CutPentatope& cut, const PentatopeEdge& edge) const;
     std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
-    double applySign(float sample) const;
+    double signedValueOrNan(float sample) const;
 
     FieldLattice lattice_;
     // The state of the current slice. If the body is above the level, values and level are negated, so that the body is

@@ -62,7 +62,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
     shift_ = toSlice * (field.box.center() - field.center);
 }
 
-fields::Bounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
+fields::ValueBounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
     constexpr double kMargin = 1e-3;  // in lattice cells; allows for rounded positions of samples
     fields::Box region;
     for (std::size_t axis = 0; axis < 4; ++axis) {

@@ -46,10 +46,10 @@ class FieldLattice {
     }
     /// Returns whether the axes of the lattice are a positively oriented basis in the coordinates of the rotated
     /// object.
-    bool isPositive() const { return positive_; }
+    bool isPositivelyOriented() const { return positive_; }
 
     /// Returns bounds of the function's values at the lattice points in the box from `first` to `last`, both included.
-    fields::Bounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
+    fields::ValueBounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
     /// Writes the samples in the box from `first` to `last`, both included; x varies fastest. `values` must have room
     /// for all of them. A formula may be infinite at a pole, such as 1/(x²+y²+z²+w²) at the origin; the sample is then
     /// the greatest float, or the least one, so that it is above or below all levels. An infinite sample of an array

@@ -15,25 +15,25 @@ class KeyNumbering {
     /// Returns the number of the key, and whether this is the first lookup of the key.
     std::pair<std::uint32_t, bool> findOrAdd(std::uint64_t key) {
         if (2 * (count_ + 1) > slots_.size()) grow();
-        Slot& slot = slotOf(key);
+        KeySlot& slot = slotOf(key);
         if (slot.key == key) return {slot.number, false};
         slot = {key, static_cast<std::uint32_t>(count_++)};
         return {slot.number, true};
     }
     /// Removes all keys.
     void clear() {
-        slots_.assign(slots_.size(), Slot{});
+        slots_.assign(slots_.size(), KeySlot{});
         count_ = 0;
     }
 
   private:
     static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-    struct Slot {
+    struct KeySlot {
         std::uint64_t key = kFree;
         std::uint32_t number = 0;
     };
 
-    Slot& slotOf(std::uint64_t key) {
+    KeySlot& slotOf(std::uint64_t key) {
         const std::size_t mask = slots_.size() - 1;
         const std::uint64_t hash = key * 0x9e3779b97f4a7c15ULL;
         for (std::size_t i = (hash ^ hash >> 32U) & mask;; i = (i + 1) & mask) {
@@ -41,14 +41,14 @@ class KeyNumbering {
         }
     }
     void grow() {
-        std::vector<Slot> old(slots_.empty() ? 1024 : 2 * slots_.size());
+        std::vector<KeySlot> old(slots_.empty() ? 1024 : 2 * slots_.size());
         std::swap(old, slots_);
-        for (const Slot& slot : old) {
+        for (const KeySlot& slot : old) {
             if (slot.key != kFree) slotOf(slot.key) = slot;
         }
     }
 
-    std::vector<Slot> slots_;  // the size is 0 or a power of two
+    std::vector<KeySlot> slots_;  // the size is 0 or a power of two
     std::size_t count_ = 0;
 };
 

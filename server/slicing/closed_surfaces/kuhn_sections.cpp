@@ -90,16 +90,16 @@ Section makeSection(unsigned above, bool positive) {
 
 }  // namespace
 
-int Pentatope::axis(std::size_t i) const {
+int Pentatope::axisToNextCorner(std::size_t i) const {
     return std::countr_zero(static_cast<unsigned>(corners[i] ^ corners[i + 1]));
 }
 
-glm::ivec4 Pentatope::acrossFacet(std::size_t i) const {
+glm::ivec4 Pentatope::cornerAcrossFacet(std::size_t i) const {
     const bool isInner = i > 0 && i < 4;
     const unsigned bits = isInner ? corners[i - 1] ^ corners[i] ^ corners[i + 1] : i == 0 ? 15U : 0U;
     glm::ivec4 corner(bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U, bits >> 3U & 1U);
-    if (i == 0) ++corner[axis(0)];
-    if (i == 4) --corner[axis(3)];
+    if (i == 0) ++corner[axisToNextCorner(0)];
+    if (i == 4) --corner[axisToNextCorner(3)];
     return corner;
 }
 

@@ -22,10 +22,10 @@ struct Pentatope {
     bool positive = true;                   ///< whether the signed volume of the corners, in this order, is positive
 
     /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
-    int axis(std::size_t i) const;
+    int axisToNextCorner(std::size_t i) const;
     /// Considers the neighboring pentatope that shares the facet opposite to corner i. Returns the fifth corner of this
     /// neighbor, as an offset from corner 0 of the cell, in lattice steps.
-    glm::ivec4 acrossFacet(std::size_t i) const;
+    glm::ivec4 cornerAcrossFacet(std::size_t i) const;
 };
 
 /// Returns the 24 pentatopes of a cell.

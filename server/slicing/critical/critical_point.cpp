@@ -20,13 +20,13 @@ constexpr int kIterations = 30;
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
 /// The value and the derivatives of the function at a point. The unit of length is PlacedFunction::radius.
-struct Expansion {
+struct TaylorExpansion {
     double value = 0;
     glm::dvec4 gradient{0};
     std::array<glm::dvec4, 3> second{};  // the derivatives of ∂f/∂x, ∂f/∂y and ∂f/∂z along x, y, z and w
 };
 
-Expansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
+TaylorExpansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
     // Point 0 is the point itself; points 1 … 8 are its two neighbors along each axis. The remaining points repeat
     // point 0 to fill the batch.
     constexpr std::size_t kPoints = 16;
@@ -44,7 +44,7 @@ Expansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
     const auto gradient = [&](std::size_t i) {
         return back * glm::dvec4(slopes[0][i], slopes[1][i], slopes[2][i], slopes[3][i]);
     };
-    Expansion result{values[0], gradient(0), {}};
+    TaylorExpansion result{values[0], gradient(0), {}};
     for (int axis = 0; axis < 4; ++axis) {
         const std::size_t next = 2 * static_cast<std::size_t>(axis) + 1;
         const glm::dvec4 along = (gradient(next) - gradient(next + 1)) / (2 * kDifference);
@@ -62,7 +62,7 @@ std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double
     glm::dvec4 point = first;
     double scale = 0;
     for (int i = 0; i < kIterations; ++i) {
-        const Expansion f = expand(placed, point);
+        const TaylorExpansion f = expand(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
         // The gradients are the rows of the Jacobian. The GLM constructor takes columns, so it makes the transpose of

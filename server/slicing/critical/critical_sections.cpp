@@ -82,13 +82,13 @@ class SectionCutter {
 };
 
 /// The topologies of two sections, and the interval of w between these sections.
-struct Interval {
+struct SearchInterval {
     double from = 0, to = 0;
     TopologyByLevel atFrom, atTo;
 
     double width() const { return to - from; }
     bool differs() const { return atFrom != atTo; }
-    bool operator<(const Interval& other) const { return width() < other.width(); }
+    bool operator<(const SearchInterval& other) const { return width() < other.width(); }
 };
 
 /// Returns what happens between two different topologies, as far as the numbers of components and cavities tell.
@@ -226,10 +226,10 @@ class CriticalSearch {
         // Leaves out the ends of the range of w, where the domain may be a wedge that is thinner than a lattice cube.
         const double margin = width() / 80;
         const double from = found_.least + margin, to = found_.greatest - margin;
-        std::priority_queue<Interval> open;
+        std::priority_queue<SearchInterval> open;
         open.push({from, to, cutter_.topologies(from), cutter_.topologies(to)});
         while (!open.empty()) {
-            const Interval widest = open.top();
+            const SearchInterval widest = open.top();
             open.pop();
             const bool fine = widest.width() <= (widest.differs() ? found_.tolerance : gap);
             if (!fine && !mustEnd() && intervals_.size() + open.size() < kMaxChanges + kCriticalSections) {
@@ -242,7 +242,7 @@ class CriticalSearch {
             if (!fine) found_.tolerance = std::max(found_.tolerance, widest.width());
             if (widest.differs()) intervals_.push_back(widest);
         }
-        std::ranges::sort(intervals_, {}, &Interval::from);
+        std::ranges::sort(intervals_, {}, &SearchInterval::from);
     }
 
     // Returns the changes of each level. Combines changes that are close to each other, because the lattice shows
@@ -251,7 +251,7 @@ class CriticalSearch {
         std::vector<TopologyChange> all;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             const std::size_t first = all.size();
-            for (const Interval& interval : intervals_) {
+            for (const SearchInterval& interval : intervals_) {
                 if (interval.atFrom[level] == interval.atTo[level]) continue;
                 if (all.size() > first && interval.from - all.back().to <= found_.resolution) {
                     all.back().to = interval.to;
@@ -339,7 +339,7 @@ class CriticalSearch {
     const CriticalOptions& options_;
     const Clock::time_point begin_, end_;
     SectionCutter cutter_;
-    std::vector<Interval> intervals_;
+    std::vector<SearchInterval> intervals_;
     CriticalSections found_;
 };
 

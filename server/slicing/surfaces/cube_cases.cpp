@@ -75,14 +75,14 @@ CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t
     return result;
 }
 
-struct Cases {
+struct CubeCaseTables {
     std::array<CubeCase, 256> usual, joined;
 };
 
-const Cases& cases() {
-    static const Cases all = [] {
+const CubeCaseTables& cases() {
+    static const CubeCaseTables all = [] {
         const std::array<Face, 6> faces = makeFaces();
-        Cases made;
+        CubeCaseTables made;
         for (unsigned inside = 0; inside < 256; ++inside) {
             made.usual[inside] = made.joined[inside] = makeCase(inside, faces, CubeCase::kNoFace);
             const std::uint8_t merging = made.usual[inside].mergingFace;

@@ -14,7 +14,7 @@ namespace oval4d::slicing {
 /// domain, which is a convex polyhedron in this hyperplane.
 struct FieldSection {
     /// A half-space of the slice, which contains the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
-    struct Wall {
+    struct HalfSpace {
         glm::dvec3 normal;
         double offset;
     };
@@ -23,7 +23,7 @@ struct FieldSection {
     glm::dvec4 origin{0};              ///< the point x = y = z = 0, in the function's coordinates
     std::array<glm::dvec4, 3> axes{};  ///< one unit of x, of y and of z, as vectors in the function's coordinates
     glm::dvec4 normal{0};              ///< one unit of w, as a vector in the function's coordinates
-    std::vector<Wall> walls;           ///< at most kMaxWalls; the domain's slice is their intersection
+    std::vector<HalfSpace> walls;      ///< at most kMaxWalls; the domain's slice is their intersection
     glm::dvec3 min{0}, max{0};         ///< a box that contains the domain's slice
 };
 

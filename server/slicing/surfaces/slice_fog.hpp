@@ -17,10 +17,10 @@ struct SliceFog {
     /// The maximum number of lattice points along each axis.
     static constexpr int kMaxPoints = 128;
 
-    glm::ivec3 size{0};                     ///< the number of points along x, y and z; 0 if there is no fog
-    glm::dvec3 min{0};                      ///< the point (0, 0, 0) of the lattice, in the units of the object
-    double step = 1;                        ///< the distance between neighboring points, in the units of the object
-    std::vector<FieldSection::Wall> walls;  ///< the fog is in the intersection of these half-spaces
+    glm::ivec3 size{0};  ///< the number of points along x, y and z; 0 if there is no fog
+    glm::dvec3 min{0};   ///< the point (0, 0, 0) of the lattice, in the units of the object
+    double step = 1;     ///< the distance between neighboring points, in the units of the object
+    std::vector<FieldSection::HalfSpace> walls;  ///< the fog is in the intersection of these half-spaces
     /// One byte per point; x varies fastest. 0: the field has no value there; 1 … 255: values from `least` to
     /// `greatest` in even steps (see sampleFog()).
     std::vector<std::uint8_t> values;

@@ -22,7 +22,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Distances in lattice steps. A point within kOnWall of a wall counts as on the wall. Points are moved onto walls by at
-// most kMostMoved along each axis. The layers of points that layOut() adds around the domain must be thicker than this.
+// most kMostMoved along each axis. The layers of points that layOutLattice() adds around the domain must be thicker
+// than this.
 constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
 
 /// Returns the least float that is not less than `value`. A float is less than this result if and only if it is less
@@ -110,7 +111,7 @@ bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& fun
         if (options.topologyOnly) {
             out.points.insert(out.points.end(), positions_.begin(), positions_.end());
         } else {
-            settlePoints(function, section, out);
+            movePointsOntoSurface(function, section, out);
         }
         addTriangles(level, out);
     }
@@ -129,7 +130,7 @@ void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& 
         kBlockPoints * (cost.value + kPerSample) + static_cast<double>(options.levels.size()) * kPointsPerBlock *
                                                        (kGradients * cost.gradient + kPerPoint + options.pointTime);
     for (;; step = kEnlarge * step_) {
-        layOut(section, step);
+        layOutLattice(section, step);
         const glm::dvec3 groups = glm::ceil(glm::dvec3(blockCount_ - 1) / 2.0);
         if (!isCoarsest() && groups.x * groups.y * groups.z * cost.bounds > kBoundsShare * options.maxTime) continue;
         classifyBlocks(function, section, options);
@@ -137,7 +138,7 @@ void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& 
     }
 }
 
-void SurfaceExtractor::layOut(const FieldSection& section, double step) {
+void SurfaceExtractor::layOutLattice(const FieldSection& section, double step) {
     const glm::dvec3 size = section.max - section.min;
     step_ = std::max(step, std::max({size.x, size.y, size.z}) / (kMaxCubes - 5));
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
@@ -206,7 +207,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 middle =
             section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
         const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // allows for rounded positions
-        const fields::Bounds bounds = function.boundsIn({middle - margin, middle + margin});
+        const fields::ValueBounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
             const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // the whole cube is in the body
             return bounds.mayCross(level) || (walls != 0 && full);
@@ -361,17 +362,19 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
 // walls: along an axis of the lattice if it is a single wall. `walls` has a bit for each wall to consider; these must
 // include all walls near the point.
 bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
-    const auto wall = [&](unsigned bits) -> const FieldSection::Wall& {
+    const auto wall = [&](unsigned bits) -> const FieldSection::HalfSpace& {
         return section.walls[static_cast<std::size_t>(std::countr_zero(bits))];
     };
-    const auto distance = [&](const FieldSection::Wall& from) { return glm::dot(from.normal, point) - from.offset; };
-    const auto moveAlongAxis = [&](const FieldSection::Wall& to, double by) {
+    const auto distance = [&](const FieldSection::HalfSpace& from) {
+        return glm::dot(from.normal, point) - from.offset;
+    };
+    const auto moveAlongAxis = [&](const FieldSection::HalfSpace& to, double by) {
         const glm::dvec3 n = glm::abs(to.normal);
         const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
         point[axis] -= by / to.normal[axis];
     };
     if (std::has_single_bit(walls)) {
-        const FieldSection::Wall& only = wall(walls);
+        const FieldSection::HalfSpace& only = wall(walls);
         const double d = distance(only);
         if (d > maxMoveOntoWall_[static_cast<std::size_t>(std::countr_zero(walls))]) return false;
         if (d > 0) moveAlongAxis(only, d);
@@ -463,7 +466,7 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
         joined = blockOf(neighbor).isActive && cubeCase(insideCorners(neighbor, level)).mergingFace == (face ^ 1U);
         if (joined) patches = &joinedCubeCase(inside);
     }
-    Cube cube{index(place), inside, joined, {}, static_cast<std::uint32_t>(positions_.size())};
+    CrossedCube cube{index(place), inside, joined, {}, static_cast<std::uint32_t>(positions_.size())};
     if (const std::uint8_t walls = blockOf(place).walls; walls != 0 || !placePoints(*patches, cube, place))
         placePointsAtWalls(section, *patches, walls, place, cube);
     cubeAt_[cube.at] = static_cast<std::uint32_t>(cubes_.size());
@@ -473,7 +476,7 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
 // Appends the points of a cube through which no wall passes, one for each patch: the mean of the places where the level
 // set crosses those edges of the cube that belong to the patch. Returns false, and appends nothing, if the value of the
 // function at one of the corners is not finite.
-bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place) {
+bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
         values[c] = values_[cube.at + cornerOffsets_[c]];
@@ -505,8 +508,8 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, gl
 // Appends the points of a cube through which the boundary of the domain or of a hole may pass, and notes in `cube.cap`
 // where the surface is a cap.
 void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
-                                          glm::ivec3 place, Cube& cube) {
-    std::array<Corner, 8> corners{};
+                                          glm::ivec3 place, CrossedCube& cube) {
+    std::array<CubeCorner, 8> corners{};
     std::array<float, 8> values{};
     const std::uint8_t near = wallsNear(section, position(place), 1, step_);
     for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -523,7 +526,8 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
         const std::size_t patch = patches.patchOfEdge[e];
         std::size_t inner = kCubeEdges[e][0], outer = kCubeEdges[e][1];
         if ((cube.inside >> inner & 1U) == 0) std::swap(inner, outer);
-        const Crossing at = crossing(section, walls, corners[inner], values[inner], corners[outer], values[outer]);
+        const LatticeEdgeCrossing at =
+            crossing(section, walls, corners[inner], values[inner], corners[outer], values[outer]);
         sums[patch] += at.position;
         ++counts[patch];
         constraints[patch] |= at.constraint;
@@ -538,9 +542,9 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
 // Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
 // a wall. If the function has no value at the outer end, the edge is taken to meet the boundary of the hole halfway
 // between its two ends. If the edge meets several of these, returns the place closest to its inner end.
-SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
-                                                      const Corner& inner, float atInner, const Corner& outer,
-                                                      float atOuter) const {
+SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
+                                                                 const CubeCorner& inner, float atInner,
+                                                                 const CubeCorner& outer, float atOuter) const {
     constexpr double kSame = 1e-9;
     const glm::dvec3 way = outer.position - inner.position;
     double first = 0.5;
@@ -577,8 +581,8 @@ SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& sectio
 
 // Moves each point of the current level onto the level set and the walls in its constraint mask (see constraints_), and
 // appends the points to `out`.
-void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, const FieldSection& section,
-                                    SliceSurface& out) {
+void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
+                                             SliceSurface& out) {
     constexpr int kRimSteps = 2;  // Newton steps of points on rims, whose first positions may be far off
     starts_ = positions_;
     moving_.clear();
@@ -672,7 +676,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     // The four cubes around an edge are at the offsets (−u, −v) from the cube where the edge begins, for these (u, v):
     // counterclockwise as seen from the second end of the edge.
     static constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-    for (const Cube& cube : cubes_) {
+    for (const CrossedCube& cube : cubes_) {
         const bool cornerInside = (cube.inside & 1U) != 0;
         const auto at = static_cast<int>(cube.at);
         const glm::ivec3 place(at % points_.x, at / points_.x % points_.y, at / (points_.x * points_.y));
@@ -689,7 +693,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 // unless boundsIn() has returned wrong bounds. In that case, the triangles at this edge are omitted.
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
-                const Cube& around = cubes_[cubeAt_[index(other)]];
+                const CrossedCube& around = cubes_[cubeAt_[index(other)]];
                 const CubeCase& patches = around.joined ? joinedCubeCase(around.inside) : cubeCase(around.inside);
                 corners[i] = firstPoint + around.firstPoint + patches.patchOfEdge[edgeNumber(axis, u, v)];
             }

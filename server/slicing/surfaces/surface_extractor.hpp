@@ -71,7 +71,7 @@ class SurfaceExtractor {
         bool isSampled() const { return needed.x != 0; }
     };
     // A cube through which the surface passes, and the points of its patches.
-    struct Cube {
+    struct CrossedCube {
         std::uint32_t at;                 // the lattice index of its corner 0
         std::uint8_t inside;              // a bit for each corner: whether it is inside the body
         bool joined;                      // whether its case is joinedCubeCase(inside)
@@ -79,19 +79,19 @@ class SurfaceExtractor {
         std::uint32_t firstPoint;         // the index in positions_ of its first point
     };
     // A corner of a cube.
-    struct Corner {
+    struct CubeCorner {
         glm::dvec3 position;
         bool inDomain;  // whether it is in the domain; also true if it was moved onto a wall
     };
     // A place where the surface crosses an edge of the lattice.
-    struct Crossing {
+    struct LatticeEdgeCrossing {
         glm::dvec3 position;
         std::uint16_t constraint;  // the constraint mask (see kWalls) of this place
     };
 
     using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
 
-    void layOut(const FieldSection& section, double step);
+    void layOutLattice(const FieldSection& section, double step);
     bool tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                     const Options& options, SliceSurface& out);
     void chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
@@ -108,12 +108,12 @@ class SurfaceExtractor {
     void findInside(std::span<const float> values, const Options& options, std::span<std::uint8_t> inside) const;
     bool findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints);
     void addCube(const FieldSection& section, std::size_t level, glm::ivec3 place);
-    bool placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place);
+    bool placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place);
     void placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls, glm::ivec3 place,
-                            Cube& cube);
-    Crossing crossing(const FieldSection& section, std::uint8_t walls, const Corner& inner, float atInner,
-                      const Corner& outer, float atOuter) const;
-    void settlePoints(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
+                            CrossedCube& cube);
+    LatticeEdgeCrossing crossing(const FieldSection& section, std::uint8_t walls, const CubeCorner& inner,
+                                 float atInner, const CubeCorner& outer, float atOuter) const;
+    void movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
     void approachLevel(const fields::ScalarFunction& function, const FieldSection& section);
     ConstrainedStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
     void moveBy(const ConstrainedStep& step, std::uint32_t point);
@@ -156,7 +156,7 @@ class SurfaceExtractor {
     std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
     std::vector<Block> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of active blocks
-    std::vector<Cube> cubes_;            // the cubes through which the surface of the current level passes
+    std::vector<CrossedCube> cubes_;     // the cubes through which the surface of the current level passes
     // Per point of the current level: its position, and its position before it was moved.
     std::vector<glm::dvec3> positions_, starts_;
     std::vector<std::uint32_t> moving_;  // the points that are being moved onto the level set

@@ -41,12 +41,12 @@ std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<cons
 struct SurfaceParts {
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-    struct Part {
+    struct SurfacePart {
         double volume = 0;  ///< negative for the surface of a cavity
         long euler = 0;     ///< the Euler characteristic
     };
     std::vector<std::uint32_t> ofPoint;  ///< per point: the index of its part; kNone for points of other levels
-    std::vector<Part> parts;
+    std::vector<SurfacePart> parts;
 };
 
 /// Finds the connected parts of the surface of the level with the index `level`.

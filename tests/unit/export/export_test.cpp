@@ -18,14 +18,15 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;
     const ExportRequest skeleton{
-        .format = formatNamed("stl"), .contents = ExportContents::oval, .body = BodyKind::skeleton};
+        .format = formatNamed("stl"), .contents = ExportContentsKind::oval, .body = BodyKind::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
     ExportLimits limits = kUnhurried;
     limits.triangles = 1000;
     EXPECT_NE(fileOf(p, none, oval, skeleton, limits).find("1000 are allowed"), std::string::npos);
     limits = kUnhurried;
     limits.bytes = 1000;
-    EXPECT_NE(fileOf(p, none, oval, requestFor(*formatNamed("off")), limits).find("1000 bytes"), std::string::npos);
+    EXPECT_NE(fileOf(p, none, oval, defaultRequestFor(*formatNamed("off")), limits).find("1000 bytes"),
+              std::string::npos);
     limits = {};
     limits.triangles = 100'000'000;
     limits.time = std::chrono::duration<double>(1e-6);
@@ -51,7 +52,7 @@ TEST(File, isRefusedIfItsBarsAreTooThin) {
 TEST(File, ofAFieldIsBounded) {
     const SlicedBall ball({-2, 5, 0.2});
     const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
-        const ExportRequest request{.format = formatNamed(format), .contents = ExportContents::oval};
+        const ExportRequest request{.format = formatNamed(format), .contents = ExportContentsKind::oval};
         const auto made = ball.exported(request, limits, std::move(stop));
         return std::holds_alternative<ExportedFile>(made) ? "none" : std::get<ExportRefusal>(made).message;
     };
@@ -79,19 +80,20 @@ TEST(File, tellsWhatItLacks) {
         return std::get<ExportedFile>(exported(p, {}, planes, request)).warnings;
     };
     using Warnings = std::vector<std::string>;
-    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval}),
+    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContentsKind::oval}),
               (Warnings{"2 of 5 slices are empty and left out: w = −2, 3",
                         "1 of 5 slices is flat or too thin and left out: w = 1.41421"}));
-    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval, .body = BodyKind::skeleton}),
-              Warnings{"2 of 5 slices are empty and left out: w = −2, 3"});
-    EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContents::oval}),
+    EXPECT_EQ(
+        warnings({.format = formatNamed("stl"), .contents = ExportContentsKind::oval, .body = BodyKind::skeleton}),
+        Warnings{"2 of 5 slices are empty and left out: w = −2, 3"});
+    EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContentsKind::oval}),
               Warnings{"3 of 5 slices are without faces and left out: w = −2, 1.41421, 3"});
-    EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContents::oval}), Warnings{});
+    EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContentsKind::oval}), Warnings{});
     // The slice at 1.2 is too small for letters, and the others are large enough.
     const Hyperplanes labeled{0, 2, 0.1, 0, {0, 1.2}};
-    const auto made =
-        exported(p, {}, labeled,
-                 {.format = formatNamed("stl"), .contents = ExportContents::oval, .label = LabelPlacement::engraved});
+    const auto made = exported(
+        p, {}, labeled,
+        {.format = formatNamed("stl"), .contents = ExportContentsKind::oval, .label = LabelPlacement::engraved});
     EXPECT_EQ(std::get<ExportedFile>(made).warnings,
               Warnings{"only 1 of 2 bodies have a label, because the others have no face that is flat and large "
                        "enough"});
@@ -111,7 +113,7 @@ TEST(File, listsOnlySomeOfManySlices) {
 TEST(File, namesBodiesByTheirW) {
     // There are enough decimals to distinguish the slices.
     const std::string text = fileOf(named("16-cell"), {}, {0, 3, 0.1, 0, {0.25, -0.5, 0.2504}},
-                                    {.format = formatNamed("obj"), .contents = ExportContents::oval});
+                                    {.format = formatNamed("obj"), .contents = ExportContentsKind::oval});
     for (const char* name : {"o 16-cell,_w_=_0.25000\n", "o 16-cell,_w_=_\u22120.50000\n", "o 16-cell,_w_=_0.25040\n"})
         EXPECT_NE(text.find(name), std::string::npos) << name;
 }
@@ -137,13 +139,14 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
         if (support::kSanitized && count > 21) continue;
         const double spacing = count == 1 ? 1 : 2 * p.circumradius / (count - 1);
         for (const BodyKind body : {BodyKind::solid, BodyKind::skeleton}) {
-            const ExportRequest request{.format = formatNamed("obj"), .contents = ExportContents::oval, .body = body};
+            const ExportRequest request{
+                .format = formatNamed("obj"), .contents = ExportContentsKind::oval, .body = body};
             const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing}, request));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
             // The bounding spheres of the bodies must not overlap.
             std::vector<std::pair<glm::dvec3, double>> balls;
             for (const auto& points : bodies) {
-                Box box;
+                BoundingBox box;
                 for (const auto& v : points) box.include(v);
                 const glm::dvec3 middle = (box.min + box.max) / 2.0;
                 double radius = 0;

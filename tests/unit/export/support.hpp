@@ -89,7 +89,7 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
                              const slicing::SliceSet& slices) {
     scene::Scene scene;
     scene::Composer composer;
-    composer.limitFill(0);
+    composer.limitFaceFilling(0);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(objectOf(polytope), orientation, slices, focus, {}, {}, scene);
     return scene;

@@ -15,8 +15,8 @@
 namespace oval4d::fields::test {
 namespace {
 
-ReadField countingArray(const Shape& shape, const Box& box) {
-    ReadField array;
+FieldArray countingArray(const Shape& shape, const Box& box) {
+    FieldArray array;
     array.shape = shape;
     array.box = box;
     std::vector<float> samples(sampleCount(shape));

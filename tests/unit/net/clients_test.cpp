@@ -91,8 +91,8 @@ TEST(AddressAccount, LimitsNewSessionsPerMinute) {
     EXPECT_EQ(opened, 60);
     EXPECT_FALSE(client.admitNewSession(at(0.5)));
     EXPECT_TRUE(client.admitNewSession(at(1.5)));
-    EXPECT_FALSE(client.hasFullRateLimits(at(1.5)));
-    EXPECT_TRUE(client.hasFullRateLimits(at(100)));
+    EXPECT_FALSE(client.hasRecoveredRateLimits(at(1.5)));
+    EXPECT_TRUE(client.hasRecoveredRateLimits(at(100)));
 }
 
 TEST(AddressAccount, LimitsWrongTokensPerMinute) {
@@ -131,7 +131,7 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     auto second = other->reserve(50);
     ASSERT_TRUE(second);
     EXPECT_FALSE(other->reserve(1)) << "above the limit of all clients";
-    first->resize(20);
+    first->forceResize(20);
     EXPECT_EQ(one->held(), 20U);
     EXPECT_TRUE(one->reserve(30)) << "resizing released bytes at once";
     {
@@ -145,7 +145,7 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     EXPECT_TRUE(growing.growTo(60));
     EXPECT_FALSE(growing.growTo(61));
     EXPECT_EQ(one->held(), 60U);
-    growing.resize(0);
+    growing.forceResize(0);
     const auto forced = one->forceReserve(1000);
     EXPECT_EQ(budget.held(), 1000U);
     EXPECT_FALSE(one->reserve(0));
@@ -155,22 +155,22 @@ TEST(SessionsByClient, FindsTheOldestUnmodifiedSession) {
     SessionsByClient ledger(100s);
     const SessionsByClient::Clock::time_point start{};
     const std::string one = "one", other = "other";
-    for (const char* id : {"a", "b", "c"}) ledger.open(id, one);
-    ledger.open("d", other);
-    EXPECT_EQ(ledger.count(one, start), 3U);
-    EXPECT_FALSE(ledger.oldestUnmodified(start)) << "all are open";
-    ledger.close("d", true, start);
-    ledger.close("b", false, start + 1s);
-    ledger.close("a", true, start + 2s);
-    EXPECT_EQ(ledger.oldestUnmodified(start + 2s), "d");
-    EXPECT_EQ(ledger.oldestUnmodified(start + 2s, &one), "a");
-    ledger.open("d", one);
-    EXPECT_EQ(ledger.oldestUnmodified(start + 2s), "a") << "d is open again";
-    EXPECT_EQ(ledger.count(other, start + 2s), 1U) << "and still belongs to the other client";
+    for (const char* id : {"a", "b", "c"}) ledger.recordOpened(id, one);
+    ledger.recordOpened("d", other);
+    EXPECT_EQ(ledger.countSessionsOf(one, start), 3U);
+    EXPECT_FALSE(ledger.firstClosedUnmodified(start)) << "all are open";
+    ledger.recordClosed("d", true, start);
+    ledger.recordClosed("b", false, start + 1s);
+    ledger.recordClosed("a", true, start + 2s);
+    EXPECT_EQ(ledger.firstClosedUnmodified(start + 2s), "d");
+    EXPECT_EQ(ledger.firstClosedUnmodified(start + 2s, &one), "a");
+    ledger.recordOpened("d", one);
+    EXPECT_EQ(ledger.firstClosedUnmodified(start + 2s), "a") << "d is open again";
+    EXPECT_EQ(ledger.countSessionsOf(other, start + 2s), 1U) << "and still belongs to the other client";
     ledger.remove("a");
-    EXPECT_EQ(ledger.count(one, start + 2s), 2U);
-    EXPECT_EQ(ledger.count(one, start + 101s), 1U) << "b has expired";
-    EXPECT_EQ(ledger.count(one, start + 1000s), 1U) << "c is open";
+    EXPECT_EQ(ledger.countSessionsOf(one, start + 2s), 2U);
+    EXPECT_EQ(ledger.countSessionsOf(one, start + 101s), 1U) << "b has expired";
+    EXPECT_EQ(ledger.countSessionsOf(one, start + 1000s), 1U) << "c is open";
 }
 
 }  // namespace

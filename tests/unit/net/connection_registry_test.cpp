@@ -58,18 +58,18 @@ TEST_F(ConnectionRegistryTest, EvictsTheOldestIdleConnectionOfAFullClient) {
     std::vector<std::unique_ptr<Registration>> registrations;
     std::vector<int> ended;
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(connections.admit(*one), AdmissionDecision::admitted);
+        EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::admitted);
         registrations.push_back(std::make_unique<Registration>(connections, one));
         registrations.back()->setEndHandler(
             [&ended, i](EndReason reason) { ended.push_back(reason == EndReason::evicted ? i : -1); });
     }
     registrations[0]->setInUse(true);
-    EXPECT_EQ(connections.admit(*one), AdmissionDecision::admitted);
+    EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::admitted);
     EXPECT_EQ(ended, std::vector<int>{1});
     const Registration fourth(connections, one);
     registrations[2]->setInUse(true);
-    EXPECT_EQ(connections.admit(*one), AdmissionDecision::client_full) << "the fourth has no end handler";
-    EXPECT_EQ(connections.admit(*other), AdmissionDecision::admitted);
+    EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::client_full) << "the fourth has no end handler";
+    EXPECT_EQ(connections.makeRoomFor(*other), AdmissionDecision::admitted);
     EXPECT_EQ(connections.size(), 3U);
     registrations[1].reset();
     EXPECT_EQ(connections.size(), 3U) << "it was evicted before";
@@ -83,11 +83,11 @@ TEST_F(ConnectionRegistryTest, EvictsFromTheClientWithTheMostConnectionsWhenFull
         registrations.push_back(std::make_unique<Registration>(connections, i == 0 ? other : one));
         registrations.back()->setEndHandler([&asked, i](EndReason) { asked = i; });
     }
-    EXPECT_EQ(connections.admit(*other), AdmissionDecision::admitted);
+    EXPECT_EQ(connections.makeRoomFor(*other), AdmissionDecision::admitted);
     EXPECT_EQ(asked, 1) << "the first of the three connections of this client";
     registrations.push_back(std::make_unique<Registration>(connections, other));
     for (const auto& registration : registrations) registration->setInUse(true);
-    EXPECT_EQ(connections.admit(*other), AdmissionDecision::server_full);
+    EXPECT_EQ(connections.makeRoomFor(*other), AdmissionDecision::server_full);
 }
 
 // A refused connection stays registered until it has ended. Its eviction makes no room for another one.
@@ -102,16 +102,16 @@ TEST_F(ConnectionRegistryTest, ARefusedConnectionMakesNoRoom) {
             registrations.back()->setInUse(inUse);
         };
         for (int i = 0; i < 3; ++i) {
-            EXPECT_EQ(connections.admit(*one), AdmissionDecision::admitted);
+            EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::admitted);
             add(true);
         }
-        EXPECT_EQ(connections.admit(*one), full);
+        EXPECT_EQ(connections.makeRoomFor(*one), full);
         add(false);
         add(false);
-        EXPECT_EQ(connections.admit(*one), full);
+        EXPECT_EQ(connections.makeRoomFor(*one), full);
         EXPECT_EQ(connections.size(), 3U) << "those that were refused have been evicted";
         registrations[1]->setInUse(false);
-        EXPECT_EQ(connections.admit(*one), AdmissionDecision::admitted);
+        EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::admitted);
         EXPECT_EQ(connections.size(), 2U);
     }
 }
@@ -121,9 +121,9 @@ TEST_F(ConnectionRegistryTest, AConnectionMayMoveToAnotherClient) {
     Registration registration(connections, one);
     registration.setInUse(true);
     registration.setClient(other);
-    EXPECT_EQ(connections.admit(*one), AdmissionDecision::admitted);
-    EXPECT_EQ(connections.admit(*other), AdmissionDecision::client_full);
-    EXPECT_EQ(connections.admit(*other, 1), AdmissionDecision::admitted) << "its own slot does not count";
+    EXPECT_EQ(connections.makeRoomFor(*one), AdmissionDecision::admitted);
+    EXPECT_EQ(connections.makeRoomFor(*other), AdmissionDecision::client_full);
+    EXPECT_EQ(connections.makeRoomFor(*other, 1), AdmissionDecision::admitted) << "its own slot does not count";
 }
 
 }  // namespace

@@ -31,36 +31,36 @@ class Processors : public testing::Test {
 };
 
 TEST_F(Processors, CountsAllWithoutAQuota) {
-    EXPECT_EQ(processorCount(root), all);
+    EXPECT_EQ(usableProcessorCount(root), all);
     write("proc/self/cgroup", "0::/\n");
     write("sys/fs/cgroup/cpu.max", "max 100000\n");
-    EXPECT_EQ(processorCount(root), all);
+    EXPECT_EQ(usableProcessorCount(root), all);
     write("sys/fs/cgroup/cpu.max", "100000000 100000\n");
-    EXPECT_EQ(processorCount(root), all) << "a quota of 1000 processors";
+    EXPECT_EQ(usableProcessorCount(root), all) << "a quota of 1000 processors";
 }
 
 TEST_F(Processors, RoundsTheQuotaUp) {
     write("proc/self/cgroup", "0::/\n");
     write("sys/fs/cgroup/cpu.max", "20000 100000\n");
-    EXPECT_EQ(processorCount(root), 1U);
+    EXPECT_EQ(usableProcessorCount(root), 1U);
     write("sys/fs/cgroup/cpu.max", "110000 100000\n");
-    EXPECT_EQ(processorCount(root), std::min<std::size_t>(all, 2));
+    EXPECT_EQ(usableProcessorCount(root), std::min<std::size_t>(all, 2));
 }
 
 TEST_F(Processors, AppliesQuotasOfParentGroups) {
     write("proc/self/cgroup", "0::/kubepods/pod7/oval4d\n");
     write("sys/fs/cgroup/kubepods/pod7/cpu.max", "50000 100000\n");
     write("sys/fs/cgroup/kubepods/pod7/oval4d/cpu.max", "max 100000\n");
-    EXPECT_EQ(processorCount(root), 1U);
+    EXPECT_EQ(usableProcessorCount(root), 1U);
 }
 
 TEST_F(Processors, SupportsCgroupVersion1) {
     write("proc/self/cgroup", "5:memory:/a\n4:cpu,cpuacct:/docker/b\n");
     write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "-1\n");
     write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_period_us", "100000\n");
-    EXPECT_EQ(processorCount(root), all);
+    EXPECT_EQ(usableProcessorCount(root), all);
     write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "90000\n");
-    EXPECT_EQ(processorCount(root), 1U);
+    EXPECT_EQ(usableProcessorCount(root), 1U);
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ namespace {
 using namespace std::chrono_literals;
 using Seconds = FairQueue::Seconds;
 using Clock = FairQueue::Clock;
-using LanePtr = FairQueue::LanePtr;
+using JobQueuePtr = FairQueue::JobQueuePtr;
 
 FairQueue::ClientFlowPtr newClient() { return std::make_shared<FairQueue::ClientFlow>(); }
-LanePtr newLane(const FairQueue::ClientFlowPtr& client = newClient()) {
-    return std::make_shared<FairQueue::Lane>(client);
+JobQueuePtr newJobQueue(const FairQueue::ClientFlowPtr& client = newClient()) {
+    return std::make_shared<FairQueue::JobQueue>(client);
 }
 
 /// A simulated pool of threads with a virtual clock.
@@ -30,12 +30,14 @@ class Simulation {
     explicit Simulation(std::size_t threads, FairQueue::Limits limits = {}) : queue_(threads, limits), free_(threads) {}
 
     /// Posts a job with an estimated and an actual duration; calls `done` when it ends. Returns false if it is refused.
-    bool post(const LanePtr& lane, Seconds estimate, Seconds takes, std::function<void()> done = {}) {
-        const auto job = [this, lane, takes, done = std::move(done)](std::size_t) { begun_ = {takes, done, lane}; };
-        return queue_.push(job, lane, estimate, time());
+    bool post(const JobQueuePtr& jobQueue, Seconds estimate, Seconds takes, std::function<void()> done = {}) {
+        const auto job = [this, jobQueue, takes, done = std::move(done)](std::size_t) {
+            begun_ = {takes, done, jobQueue};
+        };
+        return queue_.push(job, jobQueue, estimate, time());
     }
-    bool post(const LanePtr& lane, Seconds takes, std::function<void()> done = {}) {
-        return post(lane, takes, takes, std::move(done));
+    bool post(const JobQueuePtr& jobQueue, Seconds takes, std::function<void()> done = {}) {
+        return post(jobQueue, takes, takes, std::move(done));
     }
     /// Schedules a function to be called at this time.
     void at(Seconds when, std::function<void()> act) { events_.emplace(when, std::move(act)); }
@@ -54,12 +56,14 @@ class Simulation {
 
     Seconds now() const { return now_; }
     std::size_t waiting() const { return queue_.waiting(); }
-    Seconds usedBy(const LanePtr& lane) const { return used_.contains(lane.get()) ? used_.at(lane.get()) : Seconds(0); }
+    Seconds usedBy(const JobQueuePtr& jobQueue) const {
+        return used_.contains(jobQueue.get()) ? used_.at(jobQueue.get()) : Seconds(0);
+    }
     std::size_t running() const { return running_; }
     /// The time that all threads together have spent on completed jobs.
     Seconds busy() const {
         Seconds sum{0};
-        for (const auto& [lane, used] : used_) sum += used;
+        for (const auto& [jobQueue, used] : used_) sum += used;
         return sum;
     }
 
@@ -67,21 +71,21 @@ class Simulation {
     struct Job {
         Seconds takes{0};
         std::function<void()> done;
-        LanePtr lane;
+        JobQueuePtr jobQueue;
     };
 
     Clock::time_point time() const { return Clock::time_point(std::chrono::duration_cast<Clock::duration>(now_)); }
 
     void begin() {
         while (running_ < free_) {
-            auto next = queue_.pop(time());
+            auto next = queue_.popStartableJob(time());
             if (!next) return;
             next->job(0);
             ++running_;
             at(now_ + begun_.takes, [this, begun = std::make_shared<FairQueue::DueJob>(*next), job = begun_] {
                 --running_;
-                used_[job.lane.get()] += job.takes;
-                queue_.finished(*begun, job.takes);
+                used_[job.jobQueue.get()] += job.takes;
+                queue_.recordJobEnd(*begun, job.takes);
                 if (job.done) job.done();
             });
         }
@@ -92,27 +96,27 @@ class Simulation {
     std::size_t running_ = 0;
     Seconds now_{0};
     std::multimap<Seconds, std::function<void()>> events_;
-    std::map<const FairQueue::Lane*, Seconds> used_;
+    std::map<const FairQueue::JobQueue*, Seconds> used_;
     Job begun_;
 };
 
-/// Posts jobs to a lane forever, each as soon as the previous one ends.
-void always(Simulation& in, const LanePtr& lane, Seconds takes) {
-    EXPECT_TRUE(in.post(lane, takes, [&in, lane, takes] { always(in, lane, takes); }));
+/// Posts jobs to a job queue forever, each as soon as the previous one ends.
+void always(Simulation& in, const JobQueuePtr& jobQueue, Seconds takes) {
+    EXPECT_TRUE(in.post(jobQueue, takes, [&in, jobQueue, takes] { always(in, jobQueue, takes); }));
 }
 
-/// Like always(), but with a new lane for each job, like a client that opens a session for each picture.
+/// Like always(), but with a new job queue for each job, like a client that opens a session for each picture.
 void alwaysNew(Simulation& in, const FairQueue::ClientFlowPtr& client, Seconds takes) {
-    EXPECT_TRUE(in.post(newLane(client), takes, [&in, client, takes] { alwaysNew(in, client, takes); }));
+    EXPECT_TRUE(in.post(newJobQueue(client), takes, [&in, client, takes] { alwaysNew(in, client, takes); }));
 }
 
 /// The latencies of jobs that are posted every `period` until `until`: their waiting time plus their duration.
 class Latencies {
   public:
-    Latencies(Simulation& in, LanePtr lane, Seconds takes, Seconds period, Seconds until) : takes_(takes) {
+    Latencies(Simulation& in, JobQueuePtr jobQueue, Seconds takes, Seconds period, Seconds until) : takes_(takes) {
         for (Seconds when = in.now() + period; when < until; when += period) {
-            in.at(when, [this, &in, lane, when] {
-                EXPECT_TRUE(in.post(lane, takes_, [this, &in, when] { all_.push_back(in.now() - when); }));
+            in.at(when, [this, &in, jobQueue, when] {
+                EXPECT_TRUE(in.post(jobQueue, takes_, [this, &in, when] { all_.push_back(in.now() - when); }));
             });
         }
     }
@@ -131,10 +135,10 @@ class Latencies {
 
 TEST(FairQueue, JobsOfOneLaneKeepTheirOrder) {
     Simulation pool(1);
-    const LanePtr lane = newLane();
+    const JobQueuePtr jobQueue = newJobQueue();
     std::vector<int> order;
     for (int i = 0; i < 20; ++i) {
-        ASSERT_TRUE(pool.post(lane, i % 3 == 0 ? 50ms : 5ms, [&order, i] { order.push_back(i); }));
+        ASSERT_TRUE(pool.post(jobQueue, i % 3 == 0 ? 50ms : 5ms, [&order, i] { order.push_back(i); }));
     }
     pool.run(10s);
     ASSERT_EQ(order.size(), 20U);
@@ -143,7 +147,7 @@ TEST(FairQueue, JobsOfOneLaneKeepTheirOrder) {
 
 TEST(FairQueue, WhoHasHadLessIsNext) {
     Simulation pool(1);
-    const LanePtr greedy = newLane(), modest = newLane();
+    const JobQueuePtr greedy = newJobQueue(), modest = newJobQueue();
     std::vector<std::string> order;
     for (int i = 0; i < 5; ++i) {
         ASSERT_TRUE(pool.post(greedy, 5ms, [&order] { order.emplace_back("greedy"); }));
@@ -158,7 +162,7 @@ TEST(FairQueue, NewLanesAreNotAhead) {
     for (const bool same : {false, true}) {
         Simulation pool(1);
         const FairQueue::ClientFlowPtr mine = newClient();
-        const LanePtr kept = newLane(mine);
+        const JobQueuePtr kept = newJobQueue(mine);
         for (int i = 0; i < 6; ++i) alwaysNew(pool, same ? mine : newClient(), 14ms);
         const Latencies seen(pool, kept, 2800us, 103ms, 20s);
         pool.run(20s);
@@ -173,7 +177,7 @@ TEST(FairQueue, NewLanesAreNotAhead) {
 TEST(FairQueue, NewLanesWithLongJobsAreNotAhead) {
     Simulation pool(1);
     for (int i = 0; i < 6; ++i) alwaysNew(pool, newClient(), 25ms);
-    const Latencies seen(pool, newLane(), 5ms, 103ms, 20s);
+    const Latencies seen(pool, newJobQueue(), 5ms, 103ms, 20s);
     pool.run(20s);
     EXPECT_GE(seen.count(), 190U);
     EXPECT_LE(seen.worst(), 80ms + 1us);  // the running job, two that were just about to begin, and its own duration
@@ -183,9 +187,9 @@ TEST(FairQueue, NewLanesWithLongJobsAreNotAhead) {
 TEST(FairQueue, NewLanesAreChargedByWhatTheirClientsTook) {
     Simulation pool(1);
     const FairQueue::ClientFlowPtr attacker = newClient();
-    std::function<void()> again = [&] { EXPECT_TRUE(pool.post(newLane(attacker), 4ms, 28ms, again)); };
+    std::function<void()> again = [&] { EXPECT_TRUE(pool.post(newJobQueue(attacker), 4ms, 28ms, again)); };
     for (int i = 0; i < 6; ++i) again();
-    const Latencies seen(pool, newLane(), 5ms, 103ms, 20s);
+    const Latencies seen(pool, newJobQueue(), 5ms, 103ms, 20s);
     pool.run(20s);
     EXPECT_GE(seen.count(), 190U);
     EXPECT_LE(seen.worst(), 61ms + 1us);
@@ -196,15 +200,15 @@ TEST(FairQueue, ClientsShareEquallyHoweverManySessionsTheyHave) {
     for (const Seconds takes : {Seconds(10ms), Seconds(200ms)}) {
         Simulation pool(2);
         const FairQueue::ClientFlowPtr many = newClient();
-        const LanePtr one = newLane();
-        std::vector<LanePtr> lanes;
-        for (int i = 0; i < 100; ++i) lanes.push_back(newLane(many));
-        for (const LanePtr& each : lanes) always(pool, each, takes);
+        const JobQueuePtr one = newJobQueue();
+        std::vector<JobQueuePtr> jobQueues;
+        for (int i = 0; i < 100; ++i) jobQueues.push_back(newJobQueue(many));
+        for (const JobQueuePtr& each : jobQueues) always(pool, each, takes);
         for (int i = 0; i < 4; ++i) always(pool, one, takes);
         pool.run(200s);
         EXPECT_NEAR(pool.usedBy(one).count(), 200, 10);
-        const auto least = std::ranges::min(lanes, {}, [&](const LanePtr& each) { return pool.usedBy(each); });
-        const auto most = std::ranges::max(lanes, {}, [&](const LanePtr& each) { return pool.usedBy(each); });
+        const auto least = std::ranges::min(jobQueues, {}, [&](const JobQueuePtr& each) { return pool.usedBy(each); });
+        const auto most = std::ranges::max(jobQueues, {}, [&](const JobQueuePtr& each) { return pool.usedBy(each); });
         EXPECT_LE(pool.usedBy(most) - pool.usedBy(least), 2 * takes);
     }
 }
@@ -212,7 +216,7 @@ TEST(FairQueue, ClientsShareEquallyHoweverManySessionsTheyHave) {
 TEST(FairQueue, SessionsShareEquallyByTimeNotByJobs) {
     Simulation pool(1);
     const FairQueue::ClientFlowPtr client = newClient();
-    const LanePtr small = newLane(client), large = newLane(client);
+    const JobQueuePtr small = newJobQueue(client), large = newJobQueue(client);
     for (int i = 0; i < 4; ++i) {
         always(pool, small, 2ms);
         always(pool, large, 25ms);
@@ -231,9 +235,9 @@ TEST(FairQueue, LongJobsAreNotStarved) {
             for (int k = 0; k < 8; ++k) alwaysNew(pool, each, 10ms);
         }
         pool.run(5s);
-        const LanePtr lane = newLane();
+        const JobQueuePtr jobQueue = newJobQueue();
         Seconds done{0};
-        ASSERT_TRUE(pool.post(lane, 1s, [&] { done = pool.now(); }));
+        ASSERT_TRUE(pool.post(jobQueue, 1s, [&] { done = pool.now(); }));
         pool.run(30s);
         EXPECT_GT(done, 0s);
         EXPECT_LE(done, 5s + 11s + 1s);  // at worst, on one thread, each of the ten others gets the same time first
@@ -245,12 +249,12 @@ TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     Simulation pool(2);
     for (int i = 0; i < 4; ++i) {
         const FairQueue::ClientFlowPtr each = newClient();
-        for (int k = 0; k < 5; ++k) always(pool, newLane(each), 1s);
+        for (int k = 0; k < 5; ++k) always(pool, newJobQueue(each), 1s);
     }
-    const Latencies seen(pool, newLane(), 10ms, 20ms, 199s);
+    const Latencies seen(pool, newJobQueue(), 10ms, 20ms, 199s);
     pool.run(100s);
     Seconds done{0};
-    ASSERT_TRUE(pool.post(newLane(), 1s, [&] { done = pool.now(); }));
+    ASSERT_TRUE(pool.post(newJobQueue(), 1s, [&] { done = pool.now(); }));
     pool.run(200s);
     EXPECT_GT(done, 0s);
     EXPECT_LE(done, 100s + 7s);
@@ -260,10 +264,10 @@ TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
 TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
     for (const std::size_t threads : {2U, 3U, 8U, 16U}) {
         Simulation pool(threads);
-        const LanePtr quick = newLane();
+        const JobQueuePtr quick = newJobQueue();
         ASSERT_TRUE(pool.post(quick, 5ms));
         pool.run(10ms);
-        for (int i = 0; i < 40; ++i) always(pool, newLane(), 2s);  // lanes whose durations are not known yet
+        for (int i = 0; i < 40; ++i) always(pool, newJobQueue(), 2s);  // job queues whose durations are not known yet
         const Latencies seen(pool, quick, 5ms, 500ms, 30s);
         pool.run(30s);
         EXPECT_GE(seen.count(), 58U);
@@ -274,10 +278,10 @@ TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
 
 TEST(FairQueue, LongJobsHaveAllThreadsWhenNobodyElseIsThere) {
     Simulation pool(4);
-    LanePtr quick = newLane(), leaving = newLane();
+    JobQueuePtr quick = newJobQueue(), leaving = newJobQueue();
     ASSERT_TRUE(pool.post(quick, 5ms));
     ASSERT_TRUE(pool.post(leaving, 5ms));
-    for (int i = 0; i < 8; ++i) always(pool, newLane(), 100ms);
+    for (int i = 0; i < 8; ++i) always(pool, newJobQueue(), 100ms);
     pool.run(5s);
     EXPECT_EQ(pool.running(), 3U);
     pool.run(Seconds(FairQueue::kActivePeriod) + 1s);
@@ -294,26 +298,26 @@ TEST(FairQueue, LongJobsHaveAllThreadsWhenNobodyElseIsThere) {
 TEST(FairQueue, VeryLongJobsAlwaysLeaveAThread) {
     for (const std::size_t threads : {2U, 16U}) {
         Simulation pool(threads);
-        for (int i = 0; i < 40; ++i) always(pool, newLane(), 2s);
-        const Latencies seen(pool, newLane(), 5ms, 30s, 300s);
+        for (int i = 0; i < 40; ++i) always(pool, newJobQueue(), 2s);
+        const Latencies seen(pool, newJobQueue(), 5ms, 30s, 300s);
         pool.run(301s);
         EXPECT_EQ(seen.count(), 9U);
         EXPECT_LE(seen.worst(), 5ms + 1us);
     }
     Simulation one(1);  // the only thread executes all jobs
-    for (int i = 0; i < 4; ++i) always(one, newLane(), 2s);
+    for (int i = 0; i < 4; ++i) always(one, newJobQueue(), 2s);
     one.run(100s);
     EXPECT_NEAR(one.busy().count(), 100, 2);
 }
 
-/// After one job that was unusually slow, the next job of its lane does not count as long.
+/// After one job that was unusually slow, the next job of its job queue does not count as long.
 TEST(FairQueue, SurprisesAreNotTakenForTheRule) {
     Simulation pool(2);
-    const LanePtr quick = newLane();
+    const JobQueuePtr quick = newJobQueue();
     for (int i = 0; i < 10; ++i) ASSERT_TRUE(pool.post(quick, 8ms));
     ASSERT_TRUE(pool.post(quick, 8ms, 800ms));
     pool.run(1s);
-    for (int i = 0; i < 20; ++i) always(pool, newLane(), 2s);
+    for (int i = 0; i < 20; ++i) always(pool, newJobQueue(), 2s);
     pool.run(2s);
     const Latencies seen(pool, quick, 8ms, 100ms, 20s);
     pool.run(20s);
@@ -323,18 +327,18 @@ TEST(FairQueue, SurprisesAreNotTakenForTheRule) {
 TEST(FairQueue, ShortJobsOfALaneWithLongOnesKeepNoThread) {
     Simulation pool(2);
     for (int i = 0; i < 4; ++i) {
-        const LanePtr lane = newLane();
-        always(pool, lane, 100ms);
-        always(pool, lane, 1ms);
+        const JobQueuePtr jobQueue = newJobQueue();
+        always(pool, jobQueue, 100ms);
+        always(pool, jobQueue, 1ms);
     }
     pool.run(10s);
     EXPECT_NEAR(pool.busy().count(), 20, 0.2);
 }
 
-/// A lane that was idle for an hour gets the same share as a new one: idle time gives no credit.
+/// A job queue that was idle for an hour gets the same share as a new one: idle time gives no credit.
 TEST(FairQueue, TimeIsNotSavedUp) {
     Simulation pool(1);
-    const LanePtr silent = newLane(), busy = newLane();
+    const JobQueuePtr silent = newJobQueue(), busy = newJobQueue();
     ASSERT_TRUE(pool.post(silent, 10ms));
     for (int i = 0; i < 3; ++i) always(pool, busy, 10ms);
     pool.run(3600s);
@@ -344,10 +348,10 @@ TEST(FairQueue, TimeIsNotSavedUp) {
     EXPECT_NEAR((pool.usedBy(busy) - before).count(), 5, 0.1);
 }
 
-/// Debts are forgotten when nothing waits: a lane that had all the time before gets its share again.
+/// Debts are forgotten when nothing waits: a job queue that had all the time before gets its share again.
 TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
     Simulation pool(1);
-    const LanePtr one = newLane(), other = newLane();
+    const JobQueuePtr one = newJobQueue(), other = newJobQueue();
     ASSERT_TRUE(pool.post(other, 10ms));
     ASSERT_TRUE(pool.post(one, 10ms, 1000s));  // takes much longer than estimated
     pool.run(2000s);
@@ -363,16 +367,16 @@ TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
 /// While its long jobs wait, a client earns no advantage for short jobs.
 TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     Simulation pool(2);
-    const LanePtr victim = newLane();
+    const JobQueuePtr victim = newJobQueue();
     std::vector<FairQueue::ClientFlowPtr> attackers;
     for (int i = 0; i < 10; ++i) {
         attackers.push_back(newClient());
-        for (int k = 0; k < 3; ++k) always(pool, newLane(attackers.back()), 1s);
+        for (int k = 0; k < 3; ++k) always(pool, newJobQueue(attackers.back()), 1s);
     }
     const Latencies warm(pool, victim, 5ms, 50ms, 60s);
     pool.run(60s);
     for (const FairQueue::ClientFlowPtr& each : attackers) {
-        for (int k = 0; k < 20; ++k) always(pool, newLane(each), 5ms);
+        for (int k = 0; k < 20; ++k) always(pool, newJobQueue(each), 5ms);
     }
     const Latencies seen(pool, victim, 5ms, 1s, 90s);
     pool.run(100s);
@@ -383,30 +387,30 @@ TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
 TEST(FairQueue, MoreThanMayWaitAreRefused) {
     Simulation pool(1, {10, 4});
     const FairQueue::ClientFlowPtr greedy = newClient();
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(pool.post(newLane(greedy), 10ms));
-    EXPECT_FALSE(pool.post(newLane(greedy), 10ms));
-    for (int i = 0; i < 6; ++i) EXPECT_TRUE(pool.post(newLane(), 10ms));
-    EXPECT_FALSE(pool.post(newLane(), 10ms));
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(pool.post(newJobQueue(greedy), 10ms));
+    EXPECT_FALSE(pool.post(newJobQueue(greedy), 10ms));
+    for (int i = 0; i < 6; ++i) EXPECT_TRUE(pool.post(newJobQueue(), 10ms));
+    EXPECT_FALSE(pool.post(newJobQueue(), 10ms));
     EXPECT_EQ(pool.waiting(), 10U);
     pool.run(1s);
     EXPECT_EQ(pool.waiting(), 0U);
-    EXPECT_TRUE(pool.post(newLane(greedy), 10ms));
+    EXPECT_TRUE(pool.post(newJobQueue(greedy), 10ms));
 }
 
 TEST(FairQueue, ClearsWithAllThatWaits) {
     FairQueue queue(1, {});
-    const LanePtr lane = newLane();
+    const JobQueuePtr jobQueue = newJobQueue();
     auto owned = std::make_shared<int>(1);
     const auto job = [owned](std::size_t) {};
-    EXPECT_TRUE(queue.push(job, lane, 1ms, {}));
-    EXPECT_TRUE(queue.push(job, lane, 1s, {}));
-    EXPECT_TRUE(queue.push(job, newLane(), 1s, {}));
+    EXPECT_TRUE(queue.push(job, jobQueue, 1ms, {}));
+    EXPECT_TRUE(queue.push(job, jobQueue, 1s, {}));
+    EXPECT_TRUE(queue.push(job, newJobQueue(), 1s, {}));
     EXPECT_EQ(queue.clear().size(), 3U);
     EXPECT_EQ(owned.use_count(), 2);  // here, and in `job`
     EXPECT_EQ(queue.waiting(), 0U);
-    EXPECT_FALSE(queue.pop({}));
-    EXPECT_TRUE(queue.push(job, lane, 1ms, {}));
-    EXPECT_TRUE(queue.pop({}));
+    EXPECT_FALSE(queue.popStartableJob({}));
+    EXPECT_TRUE(queue.push(job, jobQueue, 1ms, {}));
+    EXPECT_TRUE(queue.popStartableJob({}));
 }
 
 }  // namespace

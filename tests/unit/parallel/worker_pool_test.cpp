@@ -22,11 +22,13 @@ using namespace std::chrono_literals;
 
 class WorkerPools : public testing::Test {
   protected:
-    using Lane = WorkerPool::LanePtr;
+    using JobQueue = WorkerPool::JobQueuePtr;
 
-    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::ClientFlow>()); }
+    static JobQueue jobQueue() {
+        return std::make_shared<WorkerPool::JobQueue>(std::make_shared<WorkerPool::ClientFlow>());
+    }
 
-    static void post(WorkerPool& pool, WorkerPool::Job job, const Lane& in, WorkerPool::Seconds cost = 1ms) {
+    static void post(WorkerPool& pool, WorkerPool::Job job, const JobQueue& in, WorkerPool::Seconds cost = 1ms) {
         EXPECT_TRUE(pool.post(std::move(job), in, cost));
     }
 
@@ -47,9 +49,9 @@ class WorkerPools : public testing::Test {
         };
     }
 
-    /// Waits until all jobs posted so far in these lanes have been executed.
-    static void drain(WorkerPool& pool, const std::vector<Lane>& lanes) {
-        for (const Lane& each : lanes) {
+    /// Waits until all jobs posted so far in these job queues have been executed.
+    static void drain(WorkerPool& pool, const std::vector<JobQueue>& jobQueues) {
+        for (const JobQueue& each : jobQueues) {
             std::promise<void> done;
             post(pool, [&done](std::size_t) { done.set_value(); }, each);
             done.get_future().wait();
@@ -87,7 +89,7 @@ class Gate {
 
 TEST_F(WorkerPools, JobsAreCarriedOutInTurn) {
     WorkerPool pool(options(1));
-    const Lane greedy = lane(), modest = lane(), other = lane();
+    const JobQueue greedy = jobQueue(), modest = jobQueue(), other = jobQueue();
     Gate gate;
     post(pool, gate.job(), other);
     gate.awaitBegun();
@@ -106,8 +108,8 @@ TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
                          begun.push_back(worker);
                      }});
     Gate one, two;
-    post(pool, one.job(), lane());
-    post(pool, two.job(), lane());
+    post(pool, one.job(), jobQueue());
+    post(pool, two.job(), jobQueue());
     one.awaitBegun();
     two.awaitBegun();  // both workers are busy
     {
@@ -121,7 +123,7 @@ TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
 
 TEST_F(WorkerPools, CanceledJobsDoNoHarm) {
     WorkerPool pool(options(1));
-    const Lane each = lane();
+    const JobQueue each = jobQueue();
     post(pool, [](std::size_t) { throw Canceled(); }, each);
     post(pool, saying("next"), each);
     drain(pool, {each});
@@ -130,7 +132,7 @@ TEST_F(WorkerPools, CanceledJobsDoNoHarm) {
 
 TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
     WorkerPool pool(options(2));
-    const Lane one = lane(), two = lane(), quick = lane();
+    const JobQueue one = jobQueue(), two = jobQueue(), quick = jobQueue();
     post(pool, saying("quick"), quick);
     drain(pool, {quick});
     Gate gate;
@@ -150,18 +152,18 @@ TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
 TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
     WorkerPool pool(options(2));
     Gate first, second;
-    post(pool, first.job(), lane(), 200ms);
-    post(pool, second.job(), lane(), 200ms);
+    post(pool, first.job(), jobQueue(), 200ms);
+    post(pool, second.job(), jobQueue(), 200ms);
     first.awaitBegun();
     second.awaitBegun();  // returns only if both run at the same time
     first.open();
     second.open();
 }
 
-/// After a lane's jobs took longer than announced, the pool uses its own estimate.
+/// After a job queue's jobs took longer than announced, the pool uses its own estimate.
 TEST_F(WorkerPools, LearnsHowLongJobsTake) {
     WorkerPool pool(options(2));
-    const Lane slow = lane(), other = lane(), quick = lane();
+    const JobQueue slow = jobQueue(), other = jobQueue(), quick = jobQueue();
     for (int i = 1; i <= 10; ++i) {
         post(pool, busy(100ms), slow, 20ms);
         while (pool.busyTime() < (i - 0.5) * 100ms) std::this_thread::yield();
@@ -183,9 +185,9 @@ TEST_F(WorkerPools, LearnsHowLongJobsTake) {
 TEST_F(WorkerPools, RefusesMoreThanMayWait) {
     WorkerPool pool({.threads = 1, .limits = {3, 2}});
     Gate gate;
-    post(pool, gate.job(), lane());
+    post(pool, gate.job(), jobQueue());
     gate.awaitBegun();
-    const Lane greedy = lane(), others = lane();
+    const JobQueue greedy = jobQueue(), others = jobQueue();
     post(pool, saying("greedy"), greedy);
     post(pool, saying("greedy"), greedy);
     EXPECT_FALSE(pool.post(saying("refused"), greedy, 1ms));

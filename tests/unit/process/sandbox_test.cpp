@@ -22,7 +22,7 @@ namespace oval4d::process {
 namespace {
 
 /// Calls `act` in a sandboxed child process; returns the child's status as from waitpid(2), 0 if `act` returns true.
-int endOf(Role role, const Confinement& confinement, const std::function<bool()>& act) {
+int endOf(SandboxRole role, const Confinement& confinement, const std::function<bool()>& act) {
     const pid_t child = fork();
     if (child == 0) {
         forbidNewPrivileges();
@@ -34,7 +34,7 @@ int endOf(Role role, const Confinement& confinement, const std::function<bool()>
     return status;
 }
 
-class Confined : public testing::TestWithParam<Role> {
+class Confined : public testing::TestWithParam<SandboxRole> {
   protected:
     void SetUp() override {
         std::string why;
@@ -73,7 +73,7 @@ TEST_P(Confined, MayExecuteGeneratedCodeOnlyToDraw) {
     EXPECT_EQ(end([] {
                   void* const page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
                   if (page == MAP_FAILED) return false;
-                  return (mprotect(page, 4096, PROT_READ | PROT_EXEC) == 0) == (GetParam() == Role::draw);
+                  return (mprotect(page, 4096, PROT_READ | PROT_EXEC) == 0) == (GetParam() == SandboxRole::draw);
               }),
               0);
 }
@@ -85,12 +85,12 @@ TEST_P(Confined, MayStartThreadsOnlyToDraw) {
                       std::thread([&ran] { ran = true; }).join();
                   } catch (const std::system_error&) {
                   }
-                  return ran == (GetParam() == Role::draw);
+                  return ran == (GetParam() == SandboxRole::draw);
               }),
               0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(Role::draw, Role::parse_file));
+INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(SandboxRole::draw, SandboxRole::parse_file));
 
 TEST(Sandbox, LimitsAdditionalMemory) {
     std::string why;
@@ -105,14 +105,14 @@ TEST(Sandbox, LimitsAdditionalMemory) {
         };
     };
     const Confinement confinement{false, std::size_t{256} << 20U, 0};
-    EXPECT_EQ(endOf(Role::parse_file, confinement, takes(std::size_t{200} << 20U)), 0);
-    EXPECT_NE(endOf(Role::parse_file, confinement, takes(std::size_t{300} << 20U)), 0);
+    EXPECT_EQ(endOf(SandboxRole::parse_file, confinement, takes(std::size_t{200} << 20U)), 0);
+    EXPECT_NE(endOf(SandboxRole::parse_file, confinement, takes(std::size_t{300} << 20U)), 0);
 }
 
 TEST(Sandbox, LimitsFilesAndCoreDumps) {
     std::string why;
     if (!shouldSandbox(SandboxMode::automatic, why)) GTEST_SKIP() << why;
-    EXPECT_EQ(endOf(Role::parse_file, {false, 0, 20},
+    EXPECT_EQ(endOf(SandboxRole::parse_file, {false, 0, 20},
                     [] {
                         rlimit cores{}, files{};
                         getrlimit(RLIMIT_CORE, &cores), getrlimit(RLIMIT_NOFILE, &files);

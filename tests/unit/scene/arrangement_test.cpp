@@ -17,7 +17,7 @@ namespace {
 using namespace oval4d;
 
 /// Returns a room with this aspect ratio and the height of the picture. The axes symbol takes a part of it.
-scene::SliceRoom roomOf(double aspect, bool hasProjection = false) {
+scene::AvailableSpace roomOf(double aspect, bool hasProjection = false) {
     return {glm::dvec2(aspect, 1), {glm::dvec2(0.9 * aspect, 1), glm::dvec2(aspect, 0.9)}, hasProjection};
 }
 
@@ -55,7 +55,8 @@ TEST(Arrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
                 EXPECT_EQ(made.positionAt(0), glm::dvec3(0));
                 EXPECT_DOUBLE_EQ(made.reach, made.sliceRadius * (1 + kBallRadius));
                 EXPECT_GT(made.distance, made.reach);
-                for (const double u : {-1.0, 1.0}) EXPECT_LE(glm::length(made.positionAt(u)), made.extent());
+                for (const double u : {-1.0, 1.0})
+                    EXPECT_LE(glm::length(made.positionAt(u)), made.maxDistanceFromFocus());
             }
         }
     }
@@ -98,7 +99,7 @@ TEST(Arrangement, ofAColumnIsARowTurnedByAQuarter) {
                 EXPECT_EQ(column.positionAt(u), glm::dvec3(0, row.positionAt(u).x, 0)) << u;
             EXPECT_GT(column.positionAt(1).y, 0) << "the largest w is at the top";
             EXPECT_EQ(column.distance, row.distance);
-            EXPECT_EQ(column.extent(), row.extent());
+            EXPECT_EQ(column.maxDistanceFromFocus(), row.maxDistanceFromFocus());
             const auto above = scene::projectionBeside(scene::View::strip, row, count, 1 / aspect);
             const auto aside = scene::projectionBeside(scene::View::column, column, count, aspect);
             EXPECT_TRUE(aside.shown);
@@ -135,7 +136,7 @@ TEST(Arrangement, ofAGridIsReadFromLeftToRightAndFromTopToBottom) {
             EXPECT_EQ(positionOf((count - 1) / 2), glm::dvec3(0)) << "the focus slice";
             for (int i = 1; i < count; ++i) {
                 const glm::dvec3 before = positionOf(i - 1), here = positionOf(i);
-                EXPECT_LE(glm::length(here), made.extent()) << i;
+                EXPECT_LE(glm::length(here), made.maxDistanceFromFocus()) << i;
                 EXPECT_EQ(here.z, 0) << i;
                 if (i % made.grid.columns > 0) {
                     EXPECT_GT(here.x, before.x + 2 * made.reach) << i;

@@ -24,7 +24,7 @@ using support::objectOf;
 
 std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring, Scheme scheme = Scheme::dark) {
     std::vector<Color> colors;
-    scene::CellPainter().assignColors(objectOf(polytope), coloring, scheme, {}, colors);
+    scene::CellPainter().updateCellColors(objectOf(polytope), coloring, scheme, {}, colors);
     return colors;
 }
 
@@ -64,7 +64,7 @@ TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     std::vector<Color> colors;
     for (const double turned : {0.0, std::numbers::pi}) {
         const geometry::Rotation orientation(geometry::Turn{geometry::Plane::xw, turned, {}});
-        cellColors.assignColors(objectOf(polytope), Coloring::w, Scheme::dark, orientation, colors);
+        cellColors.updateCellColors(objectOf(polytope), Coloring::w, Scheme::dark, orientation, colors);
         for (std::size_t c = 0; c < colors.size(); ++c) {
             double w = 0;
             for (const auto f : polytope.cells[c]) {
@@ -94,7 +94,7 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     const auto brightness = [](Color color) { return red(color) + blue(color) + int(color >> 8U & 255U); };
     scene::CellPainter cellColors;
     std::vector<Color> colors;
-    cellColors.assignColors(objectOf(polytope), Coloring::light, Scheme::dark, {}, colors);
+    cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, {}, colors);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 8U);
     // The light comes from the left, from above, from the front, and from large w.
     std::array<Color, 8> lit{};
@@ -107,7 +107,7 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     }
     // A quarter turn from y to z gives each cell the color of that whose place it takes.
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
-    cellColors.assignColors(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
+    cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
     EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);
     EXPECT_EQ(colors.at(cellToward({0, 0, 0, 1})), lit[3]);
 }
@@ -121,7 +121,7 @@ TEST(CellPainter, FollowThePolytopeTheColoringAndTheScheme) {
     for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
         for (const Coloring coloring : kPolytopeColorings) {
             for (const Scheme scheme : {Scheme::dark, Scheme::light}) {
-                cellColors.assignColors(objectOf(named(name)), coloring, scheme, {}, colors);
+                cellColors.updateCellColors(objectOf(named(name)), coloring, scheme, {}, colors);
                 EXPECT_EQ(colors, painted(named(name), coloring, scheme)) << name;
             }
         }

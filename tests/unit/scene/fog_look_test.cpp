@@ -11,7 +11,7 @@
 namespace oval4d::scene {
 namespace {
 
-FogTable tableOf(const std::vector<slicing::FogPoint>& points) {
+FogTable tableOf(const std::vector<slicing::FogControlPoint>& points) {
     FogTable table{1, 2, 3};
     makeFogTable(points, table);
     return table;

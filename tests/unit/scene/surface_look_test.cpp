@@ -75,7 +75,7 @@ TEST(SurfaceDetail, PicturesInFullQualityAreNoCoarserThanMessages) {
         Composer composer;
         Scene scene;
         slicing::SurfaceDetail pictures, messages;
-        composer.chooseDetail(field, planes, 0, {}, viewport, slicing::Quality::full, scene, pictures);
+        composer.layOutAndChooseDetail(field, planes, 0, {}, viewport, slicing::Quality::full, scene, pictures);
         slicing::setUniformDetail(slicing::infoOf(field).circumradius, planes, slicing::Quality::full, messages);
         ASSERT_EQ(pictures.steps.size(), messages.steps.size());
         for (std::size_t i = 0; i < pictures.steps.size(); ++i) EXPECT_LE(pictures.steps[i], messages.steps[i]);

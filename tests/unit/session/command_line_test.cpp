@@ -90,7 +90,7 @@ TEST(Query, KeepsEverySetting) {
         ASSERT_TRUE(back) << queryText(*query) << back.error().message;
         EXPECT_TRUE(setting.isIn(*back)) << queryText(*query);
         EXPECT_EQ(settingTexts(settingsOf(*back)), settingTexts(settingsOf(session.current)));
-        EXPECT_LT((back->orientation * session.current.orientation.inverse()).angle(), 1e-7);
+        EXPECT_LT((back->orientation * session.current.orientation.inverse()).largerAngle(), 1e-7);
     }
 }
 
@@ -201,9 +201,9 @@ TEST(CommandLine, FogIsATransferFunctionOrOff) {
     const auto fog = [&] { return session.current.look.field.fog; };
     EXPECT_TRUE(fog().empty());
     line(session, "fog -1/2:0.5,0:1:ff8000,pi:0");
-    EXPECT_EQ(fog(), (std::vector<slicing::FogPoint>{{-0.5, 0.5}, {0, 1, 0xff8000}, {pi, 0}}));
+    EXPECT_EQ(fog(), (std::vector<slicing::FogControlPoint>{{-0.5, 0.5}, {0, 1, 0xff8000}, {pi, 0}}));
     line(session, "set fog=0:0,8:1:00000A levels=1");
-    EXPECT_EQ(fog(), (std::vector<slicing::FogPoint>{{0, 0}, {8, 1, 10}}));
+    EXPECT_EQ(fog(), (std::vector<slicing::FogControlPoint>{{0, 0}, {8, 1, 10}}));
     for (const char* text : {"fog", "fog 1", "fog on", "fog 0:0,1", "fog 0:1:red,1:0", "fog 0:1:fff,1:0",
                              "fog 0:1:-fffff,1:0", "fog 0:1:1234567,1:0", "fog 0:1:ff8000:0,1:0", "fog 0:1,"})
         refused(text, expression, "value:opacity");

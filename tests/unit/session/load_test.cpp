@@ -60,16 +60,16 @@ TEST(Load, RefusesWhatItCannotRead) {
 }
 
 TEST(Load, TheFirstWordTellsTheFormat) {
-    EXPECT_EQ(detectFormat(kPentachoron), "off");
-    EXPECT_EQ(detectFormat("1 0 0 0\n"), "points");
-    EXPECT_EQ(detectFormat(""), "points");
+    EXPECT_EQ(detectTextFormat(kPentachoron), "off");
+    EXPECT_EQ(detectTextFormat("1 0 0 0\n"), "points");
+    EXPECT_EQ(detectTextFormat(""), "points");
     for (const char* keyword : {"4OFF", "4off5", "STCN4OFF", "OFF", "COFF", "4nOFF"})
-        EXPECT_EQ(detectFormat(std::string(keyword) + " 10 10 5\n"), "off") << keyword;
+        EXPECT_EQ(detectTextFormat(std::string(keyword) + " 10 10 5\n"), "off") << keyword;
     for (const char* header : {"offset x y z w", "cutoff,x,y,z,w", "Coffee, by taste", "Offline run of May"})
-        EXPECT_EQ(detectFormat(std::string(header) + "\n0 1 2 3 4\n"), "points") << header;
+        EXPECT_EQ(detectTextFormat(std::string(header) + "\n0 1 2 3 4\n"), "points") << header;
     for (const std::string keyword : {"CLOUD", "cloud", "# from a simulation\nCLOUD # of two points"}) {
         const std::string text = keyword + "\n1 0 0 0\n0 1 0 0 0.25\n";
-        ASSERT_EQ(detectFormat(text), "cloud");
+        ASSERT_EQ(detectTextFormat(text), "cloud");
         const auto read = readObject({"two points", "cloud", text}, Limits{});
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(slicing::elementCounts(read->object)[0], 2U);
@@ -88,7 +88,7 @@ TEST(Load, AFileWithoutCellsIsASurface) {
     for (const char* header :
          {"4OFF\n3 1 3 0\n", "4OFF\n3 1 3\n", "4off 3 1 3\n", "4OFF\n3 1 3 # as Geomview does\n"}) {
         const std::string text = header + triangle;
-        ASSERT_EQ(detectFormat(text), "off");
+        ASSERT_EQ(detectTextFormat(text), "off");
         const auto read = readObject({"triangle", "off", text}, Limits{});
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_TRUE(read->warnings.empty());

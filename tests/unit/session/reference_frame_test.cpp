@@ -188,7 +188,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
         EXPECT_FALSE(done);
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
-        EXPECT_GT(loader.bytesNeeded(), slicing::memoryOf(support::shared("120-cell")));
+        EXPECT_GT(loader.memoryNeeded(), slicing::memoryOf(support::shared("120-cell")));
         loader.completePending();
         done = apply(both, loader);
     }

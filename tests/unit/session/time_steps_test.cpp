@@ -21,7 +21,7 @@ namespace {
 
 // An array with the samples 0, 1, 2 ….
 slicing::Object arrayOf(const fields::Shape& shape, const fields::Box& box = {glm::dvec4(0), {1, 1, 1, 3}}) {
-    fields::ReadField array;
+    fields::FieldArray array;
     array.shape = shape;
     array.box = box;
     std::vector<float> values(fields::sampleCount(shape));
@@ -102,7 +102,7 @@ TEST(Load, TheHistoryGrowsWithTheField) {
 // Adds a second array, which has the negatives of the samples.
 slicing::Object withSecond(const slicing::Object& object) {
     fields::Field field = *slicing::fieldIn(object);
-    fields::ReadField second;
+    fields::FieldArray second;
     second.shape = field.array->shape();
     second.box = field.array->box();
     std::vector<float> samples(field.array->samples().begin(), field.array->samples().end());
@@ -129,7 +129,7 @@ TEST(Load, TheSecondFunctionGrowsWithTheField) {
         appendTimeSteps(slicing::Object(std::make_shared<const fields::Field>(byFormula)), arrayOf({2, 2, 2, 1}), {});
     ASSERT_TRUE(kept);
     EXPECT_EQ(slicing::fieldIn(*kept)->second->formula, "x + w");
-    fields::ReadField other;
+    fields::FieldArray other;
     other.shape = {2, 2, 2, 3};
     other.box = byFormula.array->box();
     other.samples = fields::SampleStorage(std::vector<float>(24));

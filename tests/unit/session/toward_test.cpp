@@ -34,12 +34,12 @@ TEST(TurnToward, MovesAlongTheShortestWayAtConstantSpeed) {
     EXPECT_EQ(session.current.orientation, start) << "it moves, and does not jump";
     ASSERT_TRUE(session.current.ongoingTurnToward);
     const geometry::Rotation goal = session.current.ongoingTurnToward->goal;
-    const double angle = (goal * start.inverse()).angle();
+    const double angle = (goal * start.inverse()).largerAngle();
     EXPECT_NEAR(session.current.ongoingTurnToward->seconds, angle / (std::numbers::pi / 2), 1e-9);
     double before = angle;
     while (session.current.isMoving()) {
         advance(session, 1.0 / 60);
-        const double left = (goal * session.current.orientation.inverse()).angle();
+        const double left = (goal * session.current.orientation.inverse()).largerAngle();
         EXPECT_NEAR(before - left, std::min(before, std::numbers::pi / 120), 1e-6);
         before = left;
     }

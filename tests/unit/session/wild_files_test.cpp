@@ -65,7 +65,7 @@ TEST_P(WildFiles, AreReadRightOrRefusedWithTheReason) {
     std::ifstream file(std::string(OVAL4D_SOURCE_DIR) + "/tests/wild/" + GetParam().name, std::ios::binary);
     ASSERT_TRUE(file);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    const auto read = readObject({"mine", std::string(detectFormat(bytes)), bytes}, Limits{});
+    const auto read = readObject({"mine", std::string(detectTextFormat(bytes)), bytes}, Limits{});
     std::ostringstream found;
     if (read) {
         const auto counts = slicing::elementCounts(read->object);

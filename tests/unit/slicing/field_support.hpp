@@ -56,7 +56,7 @@ class TestFunction : public fields::ScalarFunction {
             }
         }
     }
-    fields::Bounds boundsIn(const fields::Box& region) const override {
+    fields::ValueBounds boundsIn(const fields::Box& region) const override {
         const double middle = f_(region.center());
         if (std::isnan(middle) || std::isnan(lipschitz_)) return {-INFINITY, INFINITY, false};
         const double reach = 0.5 * lipschitz_ * glm::length(region.max - region.min) + 1e-5;

@@ -222,7 +222,7 @@ TEST(ObjectBytes, DamagedPartsAreRefusedOrMakeAnObjectThatCanBeCut) {
 }
 
 std::shared_ptr<const fields::Field> arrayOf(const fields::Shape& shape, float factor, fields::Field* into = nullptr) {
-    fields::ReadField array;
+    fields::FieldArray array;
     array.shape = shape;
     array.box = {glm::dvec4(-1), glm::dvec4(1, 2, 3, 4)};
     std::vector<float> samples(fields::sampleCount(shape));

@@ -421,7 +421,7 @@ TEST(Codec, RefusesInvalidSurfaces) {
 }
 
 TEST(Codec, FieldsKeepTheirSecondFunction) {
-    fields::ReadField array;
+    fields::FieldArray array;
     array.shape = {2, 2, 2, 3};
     array.box = {glm::dvec4(-1), glm::dvec4(1)};
     std::vector<float> samples(24);
@@ -459,7 +459,7 @@ Session readAgain(const Session& session) {
 
 // Makes a field of an array.
 slicing::Object fieldOf(const fields::Shape& shape, const fields::Box& box, const std::vector<float>& samples) {
-    fields::ReadField array;
+    fields::FieldArray array;
     array.shape = shape;
     array.box = box;
     array.samples = fields::SampleStorage(std::vector<float>(samples));

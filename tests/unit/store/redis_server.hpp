@@ -81,7 +81,7 @@ class Redis {
         auto store = std::make_unique<RedisStore>(options);
         const auto answers = [&] {
             try {
-                store->pollLostSessions();
+                store->pollTakenOverSessions();
                 return true;
             } catch (const StoreError&) {
                 return false;

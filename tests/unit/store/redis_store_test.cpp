@@ -40,15 +40,15 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
-    EXPECT_TRUE(one->pollLostSessions().empty());
+    EXPECT_TRUE(one->pollTakenOverSessions().empty());
     EXPECT_EQ(two->claim("id")->fence, 2U);
-    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 2}}));
-    EXPECT_TRUE(one->pollLostSessions().empty()) << "returned only once";
+    EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 2}}));
+    EXPECT_TRUE(one->pollTakenOverSessions().empty()) << "returned only once";
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
     const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
     EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(one->claim("id")->fence, 3U);
-    EXPECT_TRUE(two->pollLostSessions().empty()) << "the server had closed the session itself";
+    EXPECT_TRUE(two->pollTakenOverSessions().empty()) << "the server had closed the session itself";
 }
 
 TEST(RedisStore, PollTellsTheFenceOfSessionsThatTheServerHasClaimedBack) {
@@ -59,12 +59,12 @@ TEST(RedisStore, PollTellsTheFenceOfSessionsThatTheServerHasClaimedBack) {
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(two->claim("id")->fence, 2U);
     EXPECT_EQ(one->claim("id")->fence, 3U);
-    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 3}}));
-    EXPECT_EQ(two->pollLostSessions(), (std::vector<LostSession>{{"id", 3}}));
+    EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 3}}));
+    EXPECT_EQ(two->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 3}}));
     EXPECT_EQ(two->claim("id")->fence, 4U);
     const std::vector<std::string> ids{"id"};
     two->remove(ids);
-    EXPECT_EQ(one->pollLostSessions(), (std::vector<LostSession>{{"id", 0}}));
+    EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 0}}));
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {
@@ -111,8 +111,8 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
     redis.stop();
     EXPECT_THROW(one->save({&first, 1}), StoreError);
-    EXPECT_THROW(one->pollLostSessions(), StoreError);
-    EXPECT_THROW(two->pollLostSessions(), StoreError);
+    EXPECT_THROW(one->pollTakenOverSessions(), StoreError);
+    EXPECT_THROW(two->pollTakenOverSessions(), StoreError);
     redis.start();
     ASSERT_TRUE(redis.connect());
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};

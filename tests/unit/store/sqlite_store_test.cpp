@@ -58,7 +58,7 @@ TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
         EXPECT_GT(most, kQuota / 2);
         clock.advance(1ms);
         store.expire(0ms);
-        for (int i = 0; i < 10; ++i) store.pollLostSessions();
+        for (int i = 0; i < 10; ++i) store.pollTakenOverSessions();
         EXPECT_EQ(store.size(), 0U);
     }
     EXPECT_LT(bytesIn(folder.path), kQuota / 4);

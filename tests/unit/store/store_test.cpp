@@ -78,7 +78,7 @@ TEST_P(AnyStore, ReturnsSavedRecords) {
     EXPECT_EQ(save(whole(3, "newest")), SaveResult::saved);
     record = store->claim("one");
     EXPECT_EQ(record->whole + "|" + record->head, "newest|") << "the head is replaced";
-    store->pollLostSessions();
+    store->pollTakenOverSessions();
     EXPECT_EQ(store->size(), 1U);
 }
 
@@ -133,7 +133,7 @@ TEST_P(ExpiringStore, ExpiresUntouchedSessions) {
     EXPECT_FALSE(store->tokenHash("one"));
     EXPECT_TRUE(store->tokenHash("two"));
     EXPECT_TRUE(store->tokenHash("three"));
-    store->pollLostSessions();
+    store->pollTakenOverSessions();
     EXPECT_EQ(store->size(), 2U);
     clock.advance(1h);
     EXPECT_EQ(store->expire(1h), 2U);

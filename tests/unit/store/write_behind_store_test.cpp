@@ -22,8 +22,8 @@ struct StoreControl {
     std::atomic<bool> fails = false;
     std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
     std::mutex mutex;
-    MemoryStore kept;               // guarded by mutex
-    std::vector<LostSession> lost;  // for the next poll; guarded by mutex
+    MemoryStore kept;                    // guarded by mutex
+    std::vector<TakenOverSession> lost;  // for the next poll; guarded by mutex
 };
 
 /// A shared store that a test can make fail.
@@ -59,7 +59,7 @@ class FaultyStore final : public Store {
             return kept.expire(age);
         });
     }
-    std::vector<LostSession> pollLostSessions() override {
+    std::vector<TakenOverSession> pollTakenOverSessions() override {
         return attempt([&](MemoryStore& /*kept*/) { return std::exchange(control_->lost, {}); });
     }
     std::size_t size() const override {
@@ -87,8 +87,8 @@ class WriteBehindStoreTest : public testing::Test {
 
     WriteBehindStore::FetchResult fetch(const SessionCredentials& credentials) {
         std::promise<WriteBehindStore::FetchResult> promise;
-        writeBehind.fetch(credentials,
-                          [&](WriteBehindStore::FetchResult fetch) { promise.set_value(std::move(fetch)); });
+        writeBehind.claimAndFetch(credentials,
+                                  [&](WriteBehindStore::FetchResult fetch) { promise.set_value(std::move(fetch)); });
         return promise.get_future().get();
     }
     bool save(const std::string& id, const Session& session,
@@ -127,7 +127,7 @@ class WriteBehindStoreTest : public testing::Test {
 
     const std::shared_ptr<StoreControl> control;
     std::atomic<int> taken = 0, wanted = 0, back = 0;
-    const WriteBehindStore::Settings settings;
+    const WriteBehindStore::WriteBehindSettings settings;
     WriteBehindStore writeBehind{std::make_unique<FaultyStore>(control),
                                  settings,
                                  {[this](const std::string&) { ++taken; }, [this](const std::string&) { ++wanted; },
@@ -303,9 +303,9 @@ TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
             writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole,
                              [&](bool) { saved = true; });
         if (saved || ++fetches == kMost) return ended.set_value(fetches);
-        writeBehind.fetch({"nobody", ""}, next);
+        writeBehind.claimAndFetch({"nobody", ""}, next);
     };
-    writeBehind.fetch({"nobody", ""}, next);
+    writeBehind.claimAndFetch({"nobody", ""}, next);
     EXPECT_LT(ended.get_future().get(), kMost);
     EXPECT_EQ(kept(credentials.id), 1U);
 }

@@ -12,12 +12,12 @@ namespace {
 
 enum class Fruit { apple, pear, plum };
 constexpr auto kFruits =
-    std::to_array<Choice<Fruit>>({{"apple", Fruit::apple}, {"pear", Fruit::pear}, {"pome", Fruit::apple}});
+    std::to_array<NamedValue<Fruit>>({{"apple", Fruit::apple}, {"pear", Fruit::pear}, {"pome", Fruit::apple}});
 
 static_assert(valueNamed(kFruits, "pear") == Fruit::pear);
 static_assert(nameOf(kFruits, Fruit::pear) == "pear");
 
-TEST(Choice, FindsValuesByNameAndAlias) {
+TEST(NamedValue, FindsValuesByNameAndAlias) {
     EXPECT_EQ(valueNamed(kFruits, "apple"), Fruit::apple);
     EXPECT_EQ(valueNamed(kFruits, "pome"), Fruit::apple);
     EXPECT_FALSE(valueNamed(kFruits, "Apple"));
@@ -25,14 +25,16 @@ TEST(Choice, FindsValuesByNameAndAlias) {
     EXPECT_FALSE(valueNamed(kFruits, ""));
 }
 
-TEST(Choice, NamesAValueByItsFirstRow) {
+TEST(NamedValue, NamesAValueByItsFirstRow) {
     EXPECT_EQ(nameOf(kFruits, Fruit::apple), "apple");
     EXPECT_EQ(nameOf(kFruits, Fruit::plum), "");
 }
 
-TEST(Choice, ListsAllNames) { EXPECT_EQ(namesOf(kFruits), (std::vector<std::string_view>{"apple", "pear", "pome"})); }
+TEST(NamedValue, ListsAllNames) {
+    EXPECT_EQ(namesOf(kFruits), (std::vector<std::string_view>{"apple", "pear", "pome"}));
+}
 
-TEST(Choice, IsOneOfTheAlternatives) {
+TEST(NamedValue, IsOneOfTheAlternatives) {
     using Names = std::vector<std::string_view>;
     EXPECT_EQ(alternatives(Names{}), "");
     EXPECT_EQ(alternatives(Names{"a"}), "a");

@@ -33,7 +33,7 @@ struct Picture {
                                slicing::infoOf(state.object).circumradius / 8);
         slicing::Slicer().slice(state.object, state.orientation, state.hyperplanes(), state.look.field, detail, slices);
         scene::Composer composer;
-        composer.limitFill(0);
+        composer.limitFaceFilling(0);
         composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, {1280, 720}, scene);
     }
     Picture(const Picture&) = delete;

@@ -7,7 +7,7 @@ import type { HistogramScales, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
-import { cssColor, setFont } from "./pen";
+import { cssColor, setFontAndMeasureDigits } from "./pen";
 
 const kHighlightOpacity = 0.35; // the opacity of the bands behind highlighted vertices
 const kLevelOpacity = 0.8; // the opacity of the lines of levels in a histogram
@@ -32,7 +32,7 @@ export function drawCoordinates(
  * The vertex whose lines are drawn at the pixel (x, y), in the band that drawLines() highlights; undefined if there is
  * none, or if no lines are drawn. Picker::pickCoordinates() in pick.cpp finds the same vertex.
  */
-export function vertexInColumnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
+export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
     const { columns, per_row: perRow, rows, amplitude, ...layout } = scene.coordinates;
     if (!scene.shown.coordinates || columns > 0) return undefined;
@@ -88,7 +88,7 @@ function drawLines(
     }
     if (!named) return;
     const wanted = 0.85 * scene.text * height;
-    const digits = setFont(pen, Math.max(wanted, leastText));
+    const digits = setFontAndMeasureDigits(pen, Math.max(wanted, leastText));
     const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1; // enlarged names need more room
     pen.fillStyle = cssColor(scene.colors.text);
     const lastRow = Math.floor((count - 1) / perRow);
@@ -121,7 +121,7 @@ function drawDensityStrip(
     density.draw(pen, centerOf(0), zero - amplitude, centerOf(3) - centerOf(0), 2 * amplitude);
 
     const thickness = Math.max(1, Math.round(layout.line_width * height));
-    const digits = setFont(pen, Math.max(0.85 * text * height, leastText));
+    const digits = setFontAndMeasureDigits(pen, Math.max(0.85 * text * height, leastText));
     for (let k = 0; k < 4; ++k) {
         const left = Math.round(centerOf(k) - thickness / 2);
         pen.fillStyle = cssColor(colors.axes[k]!);
@@ -158,7 +158,7 @@ function drawHistogram(
         const left = Math.round(leftOf(3) + ((focus.w / reach[3] + 1) / 2) * width - thickness / 2);
         pen.fillRect(left, top, thickness, bottom - top);
     }
-    const digits = setFont(pen, Math.max(0.85 * text * height, leastText));
+    const digits = setFontAndMeasureDigits(pen, Math.max(0.85 * text * height, leastText));
     for (let k = 0; k < 4; ++k) {
         const left = Math.round(leftOf(k));
         pen.globalAlpha = kLevelOpacity;

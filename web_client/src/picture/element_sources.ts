@@ -56,14 +56,14 @@ export class ElementSources {
         const edges = new Set<number>();
         if (element.element === "vertex") {
             vertices.add(edgeCount + number);
-            this.addEdgesAt(number, vertices);
+            this.addCutEdgesAt(number, vertices);
         } else if (element.element === "edge") {
             vertices.add(number);
             edges.add(faceCount + number);
         } else {
             if (element.element === "face") this.addFace(number, edges);
             else this.addSlicedElementsOf(number, edges);
-            if (element.element === "cell") this.addSectionEnds(number, edges);
+            if (element.element === "cell") this.addElementsInSectionsOf(number, edges);
             this.addEdgesBetween(ownVertices, edges);
         }
         return { vertices, edges, ownVertices, ...(element.element === "cell" && { cell: number }) };
@@ -131,7 +131,7 @@ export class ElementSources {
      * Adds those edges that slices cut and that end at a vertex. An edge ends at the vertex if all cells around the
      * edge contain the vertex.
      */
-    private addEdgesAt(vertex: number, sources: Set<number>): void {
+    private addCutEdgesAt(vertex: number, sources: Set<number>): void {
         for (const { vertices, faces, of } of this.slices) {
             const candidates = new Uint8Array(vertices.length / 3);
             for (const wanted of [true, false]) {
@@ -178,7 +178,7 @@ export class ElementSources {
     }
 
     /** Adds those 2-faces and edges of a cell that planar sections cut. */
-    private addSectionEnds(cell: number, sources: Set<number>): void {
+    private addElementsInSectionsOf(cell: number, sources: Set<number>): void {
         for (const { edges, of } of this.picture.matrix?.sections ?? []) {
             for (const end of edges.filter((_, e) => of.edges[e] === cell).flat()) {
                 const source = of.points[end]!;

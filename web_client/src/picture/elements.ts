@@ -3,15 +3,15 @@
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
 /** A half-open range in the arrays of SliceElements. */
-export type Range = [begin: number, end: number];
+export type IndexRange = [begin: number, end: number];
 
 /** One slice, and the ranges of its elements. */
 export interface SliceRanges {
     slice: Slice;
     position: Vector;
-    vertices: Range;
-    edges: Range;
-    faces: Range;
+    vertices: IndexRange;
+    edges: IndexRange;
+    faces: IndexRange;
     distance: number; // the distance from the eye, as of the last sort
 }
 
@@ -73,7 +73,7 @@ export class SliceElements {
         for (let i = 0; i < slice.faces.corners.length; ++i) {
             this.corners[firstCorner + i] = vertices[0] + slice.faces.corners[i]!;
         }
-        this.edgesByVertex.sort(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
+        this.edgesByVertex.groupEdges(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
         for (let f = faces[0]; f < faces[1]; ++f) {
             this.computeNormal(f);
             this.findCornerEdges(f);
@@ -119,7 +119,7 @@ function emptyRanges(slice: Slice): SliceRanges {
     return { slice, position: slice.position, vertices: [0, 0], edges: [0, 0], faces: [0, 0], distance: 0 };
 }
 
-function setRange(range: Range, begin: number, end: number): void {
+function setRange(range: IndexRange, begin: number, end: number): void {
     range[0] = begin;
     range[1] = end;
 }
@@ -129,7 +129,7 @@ export class EdgeBuckets {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
 
-    sort(vertices: Range, edges: Range, vertexOf: (edge: number) => number): void {
+    groupEdges(vertices: IndexRange, edges: IndexRange, vertexOf: (edge: number) => number): void {
         this.begin = ensureCapacity(this.begin, vertices[1] + 1);
         this.items = ensureCapacity(this.items, edges[1] - edges[0]);
         const { begin, items } = this;

@@ -43,12 +43,12 @@ export class FillMesh {
         this.resizeBuffers(points, corners);
         for (const part of this.parts) this.writeFill(part, picture);
         this.shapes.markChanged();
-        this.paint(picture, highlighted);
+        this.writeColorsToBuffers(picture, highlighted);
         return slices.some((slice) => slice.fill);
     }
 
     /** Writes the colors. The picture must be the one that was last passed to update(). */
-    paint({ scene: { colors, opacity, faded } }: Slices, highlighted: HighlightedElements): void {
+    writeColorsToBuffers({ scene: { colors, opacity, faded } }: Slices, highlighted: HighlightedElements): void {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
@@ -98,7 +98,7 @@ export class FillMesh {
             const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
-            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // last point: see paint()
+            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // last point: see writeColorsToBuffers()
             for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }

@@ -148,7 +148,7 @@ export class FogPainter {
     }
 
     /** Uploads everything again, after the context has been lost and restored. */
-    restore(): void {
+    uploadAfterContextLoss(): void {
         this.resources = undefined;
         if (this.picture) this.upload();
     }
@@ -189,7 +189,7 @@ export class FogPainter {
             const [x, y, z] = slice.fog.size;
             gl.texImage3D(gl.TEXTURE_3D, 0, gl.RG8, x, y, z, 0, gl.RG, gl.UNSIGNED_BYTE, valueTexelsOf(slice.fog));
             const blocks = makeTexture(gl, gl.TEXTURE_3D, gl.NEAREST);
-            const [[u, v, w], texels] = blocksOf(slice.fog, table);
+            const [[u, v, w], texels] = blockVisibilityOf(slice.fog, table);
             gl.texImage3D(gl.TEXTURE_3D, 0, gl.R8, u, v, w, 0, gl.RED, gl.UNSIGNED_BYTE, texels);
             resources.lattices.set(slice, { values, blocks });
         }
@@ -306,7 +306,7 @@ function valueTexelsOf({ values }: Fog): Uint8Array {
  * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in it, because a value
  * between the least and the greatest value of its points is not transparent; else 0.
  */
-function blocksOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
+function blockVisibilityOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;
     const [u, v, w] = size.map((points) => Math.max(Math.ceil((points - 1) / kBlock), 1)) as [number, number, number];
     const visibleBelow = new Uint16Array(table.length + 1); // entry v: how many values below v are not transparent

@@ -38,12 +38,12 @@ export class GeometryView {
         pixels: { value: 1 },
     };
     private readonly projectionUniforms = { ...this.uniforms, ballRadius: { value: 1 }, barRadius: { value: 0 } };
-    private readonly paintedMaterial = this.material("painted");
-    private readonly solidMaterial = this.material("solid");
+    private readonly paintedMaterial = this.makeMaterial("painted");
+    private readonly solidMaterial = this.makeMaterial("solid");
     private readonly projectionMesh = new ProjectionMesh();
     private readonly projectionDrawings = [
-        new Drawing(this.projectionMesh.solid, this.material("solid", this.projectionUniforms)),
-        new Drawing(this.projectionMesh.translucent, this.material("blended", this.projectionUniforms)),
+        new Drawing(this.projectionMesh.solid, this.makeMaterial("solid", this.projectionUniforms)),
+        new Drawing(this.projectionMesh.translucent, this.makeMaterial("blended", this.projectionUniforms)),
     ] as const;
     private readonly surfacePainter: SurfacePainter;
     private readonly fogPainter: FogPainter;
@@ -69,13 +69,13 @@ export class GeometryView {
         this.surfacePainter = new SurfacePainter(this.renderer);
         this.fogPainter = new FogPainter(this.renderer);
         canvas.addEventListener("webglcontextrestored", () => {
-            this.surfacePainter.restore();
-            this.fogPainter.restore();
+            this.surfacePainter.uploadAfterContextLoss();
+            this.fogPainter.uploadAfterContextLoss();
         });
         this.pen = overlay.getContext("2d")!;
         const drawings = [
             new Drawing(this.sliceMesh.geometry, this.paintedMaterial),
-            new Drawing(this.fillMesh.geometry, this.material("painted")),
+            new Drawing(this.fillMesh.geometry, this.makeMaterial("painted")),
         ] as const;
         for (const drawing of [...drawings, ...this.projectionDrawings]) {
             drawing.frustumCulled = drawing.matrixAutoUpdate = false;
@@ -94,7 +94,7 @@ export class GeometryView {
      * and bars have depth, and are antialiased by alpha to coverage. `blended`: shapes have depth, and are blended in
      * painter's order; they hide nothing that is drawn later.
      */
-    private material(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
+    private makeMaterial(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
         const [painted, solid] = [kind === "painted", kind === "solid"];
         return new RawShaderMaterial({
             ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms },
@@ -137,8 +137,8 @@ export class GeometryView {
         this.pointed = pointed;
         if (!this.picture) return;
         const highlighted = (this.highlighted = allHighlighted(this.picture, pointed));
-        this.sliceMesh.paint(this.picture, highlighted);
-        this.fillMesh.paint(this.picture, highlighted);
+        this.sliceMesh.writeColorsToBuffers(this.picture, highlighted);
+        this.fillMesh.writeColorsToBuffers(this.picture, highlighted);
         if (!this.projectionMesh.update(this.picture, highlighted)) return;
         if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.viewCamera);
     }
@@ -171,7 +171,7 @@ export class GeometryView {
     }
 
     /** Draws the picture on white with `pen`, whose canvas has this size. The caller must then call draw() again. */
-    print(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
+    drawForPrint(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
         const { picture, pictureOrbit, counts, pointed } = this;
         if (!picture || !pictureOrbit) return;
         this.pointed = undefined;
@@ -183,7 +183,7 @@ export class GeometryView {
     }
 
     /**
-     * Renders the slices and the projection. Painted slices (see material()) have no depth, so the projection is drawn
+     * Renders the slices and the projection. Painted slices (see makeMaterial()) have no depth, so the projection is drawn
      * after the slices behind it, and before those in front of it.
      */
     private render(): void {
@@ -196,9 +196,9 @@ export class GeometryView {
                 fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera));
             }
             surfacePainter.draw("opaque", viewCamera);
-            if (fogPainter.isShown) this.drawFog("behind");
+            if (fogPainter.isShown) this.drawFogAndSurfaces("behind");
             renderer.render(this.scene, this.camera);
-            if (fogPainter.isShown) this.drawFog("inFront");
+            if (fogPainter.isShown) this.drawFogAndSurfaces("inFront");
             else surfacePainter.draw("translucent", viewCamera);
             return;
         }
@@ -216,7 +216,7 @@ export class GeometryView {
      * Draws a part of the fog of each slice, from far to near. The fog in front of the balls and bars is drawn after
      * the translucent surfaces of its slice.
      */
-    private drawFog(part: "behind" | "inFront"): void {
+    private drawFogAndSurfaces(part: "behind" | "inFront"): void {
         this.fogPainter.begin(this.viewCamera);
         const depths = new Map(this.picture!.slices.map((slice) => [slice, this.viewCamera.depthOf(slice.position)]));
         for (const [slice] of [...depths].sort(([, a], [, b]) => b - a)) {

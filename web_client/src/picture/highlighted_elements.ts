@@ -33,6 +33,6 @@ export function cellColor(cell: number, colors: SceneDescription["colors"], high
 }
 
 /** Whether a point of a planar section, given by its value of `of.points`, shows a highlighted element. */
-export function isPointLit(source: number, { vertices, edges }: HighlightedElements, counts: ElementCounts): boolean {
+export function isPointHighlighted(source: number, { vertices, edges }: HighlightedElements, counts: ElementCounts): boolean {
     return source < counts.faces + counts.edges ? edges.has(source) : vertices.has(source - counts.faces);
 }

@@ -2,7 +2,7 @@
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
-import { vertexInColumnAt } from "./coordinates";
+import { vertexInCoordinatesAt } from "./coordinates";
 import { type Hit, hitAt, kReach } from "./hit_test";
 import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
@@ -64,8 +64,8 @@ export class HitTester {
     /**
      * The vertex whose parallel coordinates are drawn at a point of the picture, in pixels; undefined if there is none.
      */
-    vertexInColumnAt(x: number, y: number, size: Viewport): number | undefined {
-        return this.panelAt(x, y, size) ? undefined : vertexInColumnAt(this.picture, size, x, y);
+    vertexInCoordinatesAt(x: number, y: number, size: Viewport): number | undefined {
+        return this.panelAt(x, y, size) ? undefined : vertexInCoordinatesAt(this.picture, size, x, y);
     }
 
     /**

@@ -2,9 +2,9 @@
 
 import type { SceneDescription, SectionMatrix, Slices, Vector, Viewport } from "@oval4d/protocol";
 
-import { cellColor, type ElementCounts, type HighlightedElements, isPointLit } from "./highlighted_elements";
+import { cellColor, type ElementCounts, type HighlightedElements, isPointHighlighted } from "./highlighted_elements";
 import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
-import { cssColor, setFont } from "./pen";
+import { cssColor, setFontAndMeasureDigits } from "./pen";
 import type { ViewCamera } from "./view_camera";
 
 const kPanelOpacity = 0.22;
@@ -77,7 +77,7 @@ function drawFocusPoint(
 }
 
 function drawNames({ pen, matrix, scene, viewport }: PanelContext): void {
-    const digits = setFont(pen, kNameHeight * matrix.panel * viewport.height);
+    const digits = setFontAndMeasureDigits(pen, kNameHeight * matrix.panel * viewport.height);
     scene.colors.axes.forEach((color, axis) => {
         const { x, y } = nameCenter(matrix, axis, viewport);
         pen.fillStyle = cssColor(color);
@@ -167,7 +167,7 @@ function drawPoints({ section }: MatrixPanel, points: Pixel[], context: PanelCon
     points.forEach(([x, y], i) => {
         const opacity = opacities[seen?.points[i] ?? 2]! * (balls?.opacity[i] ?? 1);
         if (opacity === 0) return;
-        const isLit = isPointLit(of.points[i]!, highlighted, counts);
+        const isLit = isPointHighlighted(of.points[i]!, highlighted, counts);
         pen.globalAlpha = opacity;
         pen.fillStyle = cssColor(isLit ? scene.colors.highlight : scene.colors.ball);
         pen.beginPath();

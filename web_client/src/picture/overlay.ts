@@ -6,7 +6,7 @@ import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol
 import { drawCoordinates } from "./coordinates";
 import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import { drawMatrix } from "./matrix_drawing";
-import { cssColor, setFont } from "./pen";
+import { cssColor, setFontAndMeasureDigits } from "./pen";
 import type { ViewCamera } from "./view_camera";
 
 /** `leastText` is the least font size of labels, in canvas pixels. */
@@ -23,7 +23,7 @@ export function drawOverlay(
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates && viewCamera.isMoved) clearCoordinates(pen, scene, viewport);
+    if (scene.shown.coordinates && viewCamera.isMoved) clearCoordinatesArea(pen, scene, viewport);
     if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, leastText, highlighted);
     drawLabels(pen, slices, scene, viewCamera, viewport, leastText);
     drawAxes(pen, scene, viewCamera, viewport, leastText);
@@ -36,7 +36,7 @@ export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneD
 }
 
 /** Covers slices that extend into the parallel coordinates. They can do so only if the viewer has moved the camera. */
-function clearCoordinates(pen: CanvasRenderingContext2D, scene: SceneDescription, viewport: Viewport): void {
+function clearCoordinatesArea(pen: CanvasRenderingContext2D, scene: SceneDescription, viewport: Viewport): void {
     const top = Math.round(heightOfCoordinates(scene, viewport));
     pen.fillStyle = cssColor(scene.colors.background);
     pen.fillRect(0, viewport.height - top, viewport.width, top);
@@ -74,10 +74,10 @@ function drawLabels(
     // All labels take as much room as the widest one. Otherwise more labels would be omitted on the side of the focus
     // where they have a minus sign than on the other side.
     const sample = 100; // the font size at which the labels are measured
-    setFont(pen, sample);
+    setFontAndMeasureDigits(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
     // Labels nearer to the focus slice are placed first; of two at the same distance, the one that comes first in
-    // `slices`. LabelLayout::thin() in C++ decides in the same order.
+    // `slices`. LabelLayout::removeOverlappingLabels() in C++ decides in the same order.
     const focusIndex = slices.find((slice) => slice.focus)?.index ?? 0;
     const fromFocus = ({ index }: Slice): number => Math.abs(index - focusIndex);
     labeled.sort((a, b) => fromFocus(a) - fromFocus(b));
@@ -86,7 +86,7 @@ function drawLabels(
         if (!at) continue;
         const wanted = scene.text * slice.label_size * viewport.height;
         const size = Math.max(wanted, leastText);
-        const digits = setFont(pen, size);
+        const digits = setFontAndMeasureDigits(pen, size);
         const half = pen.measureText(slice.label).width / 2;
         const label = { slice, ...at, size, digits, half, room: Math.max(half, (widest * size) / 2) };
         const whole =
@@ -105,7 +105,7 @@ function drawLabels(
 function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: Label): void {
     const { slice, digits } = label;
     const { focus } = slice;
-    setFont(pen, label.size);
+    setFontAndMeasureDigits(pen, label.size);
     const x = Math.round(label.x);
     const baseline = Math.round(label.y + digits);
     // A background behind the label keeps it legible where it covers another slice.
@@ -146,7 +146,7 @@ function drawAxes(
         return { direction: viewCamera.worldAxisInCamera(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
-    const digits = setFont(pen, Math.max(scene.text * viewport.height, leastText));
+    const digits = setFontAndMeasureDigits(pen, Math.max(scene.text * viewport.height, leastText));
     const paint = ({ direction, color, name }: (typeof axes)[number]): void => {
         const [tipX, tipY] = [x + direction.x * length, y - direction.y * length];
         pen.strokeStyle = color;

@@ -51,10 +51,10 @@ export class PaintersOrder {
         const limit = distance(point, viewCamera);
         for (const ranges of this.sliceRanges) {
             this.findFrontElements(ranges, viewCamera);
-            this.sortByDepth(ranges, viewCamera);
+            this.sortVerticesAndEdgesByDepth(ranges, viewCamera);
             for (const front of [0, 1]) {
-                if (this.shown.faces) this.paintFaces(ranges, front);
-                this.paintBallsAndBars(ranges, front);
+                if (this.shown.faces) this.writeFaceIndices(ranges, front);
+                this.writeBallAndBarIndices(ranges, front);
             }
             if (ranges.distance >= limit) this.fartherIndexCount = this.used;
         }
@@ -92,7 +92,7 @@ export class PaintersOrder {
         }
     }
 
-    private sortByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: ViewCamera): void {
+    private sortVerticesAndEdgesByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: ViewCamera): void {
         const { nearness, order, rank } = this;
         const { points, edges } = this.elements;
         for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -101,10 +101,10 @@ export class PaintersOrder {
         }
         sortByKey(order, vertices, nearness, this.scratch);
         for (let i = vertices[0]; i < vertices[1]; ++i) rank[order[i]!] = i;
-        this.edgesByRank.sort(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
+        this.edgesByRank.groupEdges(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
     }
 
-    private paintFaces({ faces }: SliceRanges, front: number): void {
+    private writeFaceIndices({ faces }: SliceRanges, front: number): void {
         const { cornerBegin, vertexCount, edgeCount } = this.elements;
         for (let f = faces[0]; f < faces[1]; ++f) {
             if (this.faceInFront[f] !== front) continue;
@@ -117,20 +117,20 @@ export class PaintersOrder {
         }
     }
 
-    private paintBallsAndBars({ vertices }: SliceRanges, front: number): void {
+    private writeBallAndBarIndices({ vertices }: SliceRanges, front: number): void {
         const { begin, items } = this.edgesByRank;
         const { balls, bars } = this.shown;
         for (let i = vertices[0]; i < vertices[1]; ++i) {
             const v = this.order[i]!;
-            if ((balls || bars) && this.vertexInFront[v] === front) this.paintQuad(v);
+            if ((balls || bars) && this.vertexInFront[v] === front) this.writeQuadIndices(v);
             if (!bars) continue;
             for (let k = begin[i]!; k < begin[i + 1]!; ++k) {
-                if (this.edgeInFront[items[k]!] === front) this.paintQuad(this.elements.vertexCount + items[k]!);
+                if (this.edgeInFront[items[k]!] === front) this.writeQuadIndices(this.elements.vertexCount + items[k]!);
             }
         }
     }
 
-    private paintQuad(number: number): void {
+    private writeQuadIndices(number: number): void {
         for (const corner of kQuadTriangles) this.out[this.used++] = 4 * number + corner;
     }
 }

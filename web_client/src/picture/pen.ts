@@ -8,7 +8,7 @@ export function cssColor(color: number): string {
 }
 
 /** Sets the font, with `size` in canvas pixels; returns the height of its digits. */
-export function setFont(pen: CanvasRenderingContext2D, size: number): number {
+export function setFontAndMeasureDigits(pen: CanvasRenderingContext2D, size: number): number {
     pen.font = `${Math.max(1, Math.round(size))}px ${kFont}`;
     return pen.measureText("0").actualBoundingBoxAscent;
 }

@@ -46,13 +46,13 @@ export class SliceMesh {
         }
         this.writeFaces();
         this.shapes.markChanged();
-        this.paint(picture, highlighted);
+        this.writeColorsToBuffers(picture, highlighted);
         const hasPoints = picture.slices.some((slice) => slice.balls); // points of a cloud are drawn even without balls
         this.order.update({ ...shown, faces: shown.faces && faces, balls: shown.balls || hasPoints });
     }
 
     /** Writes the colors. The picture must be the one that was last passed to update(). */
-    paint({ scene }: Slices, highlighted: HighlightedElements): void {
+    writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements): void {
         const { sliceRanges, cornerBegin, vertexCount, edgeCount } = this.elements;
         const { shown, colors, faded, opacity } = scene;
         const opacities = [0, faded, 1];

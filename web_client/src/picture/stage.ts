@@ -111,7 +111,7 @@ export class Stage {
         this.geometry.update(slices, orbit, counts);
         this.unpresentedRevision = slices.revision;
         this.isDraft = slices.draft ?? false;
-        this.redraw();
+        this.scheduleRedraw();
     }
 
     async showFrame(png: Uint8Array): Promise<void> {
@@ -121,7 +121,7 @@ export class Stage {
         if (this.currentMode !== "frames") return;
         this.unpresentedRevision = state.revision;
         this.isDraft = state.draft ?? false;
-        this.redraw();
+        this.scheduleRedraw();
     }
 
     /** Sets the server's limits on the size of pictures. */
@@ -131,7 +131,7 @@ export class Stage {
     }
 
     /** Schedules a drawing for the next animation frame. */
-    redraw(): void {
+    scheduleRedraw(): void {
         if (this.scheduled) return;
         this.scheduled = true;
         requestAnimationFrame(() => this.draw());
@@ -154,7 +154,7 @@ export class Stage {
     }
 
     /** Fills `canvas` with the picture for print: on white or, if the server has drawn the picture, as it is shown. */
-    print(canvas: HTMLCanvasElement): void {
+    drawForPrint(canvas: HTMLCanvasElement): void {
         const { frame } = this.canvases;
         const { width, height } = this.currentMode === "geometry" ? this.printSize : frame;
         Object.assign(canvas, { width, height });
@@ -163,7 +163,7 @@ export class Stage {
             if (width > 0 && height > 0) pen.drawImage(frame, 0, 0);
             return;
         }
-        this.geometry?.print(pen, this.orbit, { width, height }, (this.leastText * height) / this.size.height);
+        this.geometry?.drawForPrint(pen, this.orbit, { width, height }, (this.leastText * height) / this.size.height);
         this.drawNow();
     }
 
@@ -220,7 +220,7 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
-        this.redraw(); // zooming the page may change the size of texts only
+        this.scheduleRedraw(); // zooming the page may change the size of texts only
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
         this.events.resized(size);

@@ -113,7 +113,7 @@ export class SurfacePainter {
     }
 
     /** Uploads everything again, after the context has been lost and restored. */
-    restore(): void {
+    uploadAfterContextLoss(): void {
         this.resources = undefined;
         if (this.picture) this.upload();
     }

@@ -29,7 +29,7 @@ std::vector<double> opacities(const scene::CellTypeFilter& filter) {
     scene::Composer().compose(support::objectOf(polytope), {}, slices, 0, look, {}, scene);
     std::vector<double> found;
     for (const exports::ShapeGroup& group : exports::drawProjection(scene).groups) {
-        for (const exports::Shape& shape : group.shapes) {
+        for (const exports::DrawnShape& shape : group.shapes) {
             std::visit(slicing::Overloaded{[&](const exports::Line& line) { found.push_back(line.opacity); },
                                            [&](const exports::FilledPolygon& face) { found.push_back(face.opacity); },
                                            [&](const exports::Disk& ball) { found.push_back(ball.opacity); },

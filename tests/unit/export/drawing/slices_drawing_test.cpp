@@ -22,7 +22,8 @@ std::size_t disks(const scene::Scene& scene, const slicing::Object& object) {
     std::size_t count = 0;
     for (const exports::ShapeGroup& group : exports::drawSlices(scene, object, support::unhurried()).groups) {
         if (!group.id.starts_with("slice_")) continue;
-        for (const exports::Shape& shape : group.shapes) count += std::holds_alternative<exports::Disk>(shape) ? 1 : 0;
+        for (const exports::DrawnShape& shape : group.shapes)
+            count += std::holds_alternative<exports::Disk>(shape) ? 1 : 0;
     }
     return count;
 }

@@ -62,8 +62,8 @@ bool mayBeginAFile(std::string_view bytes) {
 
 TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
-        for (const ExportContents contents : format.contents) {
-            using enum ExportContents;
+        for (const ExportContentsKind contents : format.contents) {
+            using enum ExportContentsKind;
             if (contents == projection || contents == matrix || contents == highlight) continue;  // need other scenes
             const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
             const ExportRequest request{.format = &format, .contents = contents};
@@ -214,7 +214,7 @@ TEST(Scad, hasFacesThatAreClockwiseSeenFromOutside) {
 }
 
 TEST(Scad, hasTheBodiesOfTheSlices) {
-    const ExportRequest request{.format = formatNamed("scad"), .contents = ExportContents::oval};
+    const ExportRequest request{.format = formatNamed("scad"), .contents = ExportContentsKind::oval};
     const auto bodies = bodiesOfScad(fileOf(named("16-cell"), {}, {-2, 5, 0.5}, request));
     ASSERT_EQ(bodies.size(), 5U);
     const double scale = 30 / std::sqrt(2);  // millimeters per unit: the circumradius is √2
@@ -234,7 +234,7 @@ TEST(Scad, hasTheBodiesOfTheSlices) {
 TEST(Scad, hasTheSamePointsAsObj) {
     const auto textOf = [](const char* format) {
         const ExportRequest request{
-            .format = formatNamed(format), .contents = ExportContents::oval, .label = LabelPlacement::separate};
+            .format = formatNamed(format), .contents = ExportContentsKind::oval, .label = LabelPlacement::separate};
         return fileOf(named("24-cell"), {}, {-2, 5, 0.5}, request);
     };
     std::vector<glm::dvec3> points;
@@ -262,7 +262,8 @@ std::vector<double> numbersIn(const std::string& row) {
 
 TEST(Csv, hasARowForEachSlice) {
     const Polytope& p = named("8-cell");
-    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .contents = ExportContents::oval}));
+    std::istringstream in(
+        fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .contents = ExportContentsKind::oval}));
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z");
@@ -281,8 +282,8 @@ TEST(Csv, hasARowForEachSlice) {
 }
 
 TEST(Csv, hasARowForEachCriticalW) {
-    std::istringstream in(
-        fileOf(named("8-cell"), {}, {0, 1, 1}, {.format = formatNamed("csv"), .contents = ExportContents::critical}));
+    std::istringstream in(fileOf(named("8-cell"), {}, {0, 1, 1},
+                                 {.format = formatNamed("csv"), .contents = ExportContentsKind::critical}));
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "w,vertices");
@@ -301,7 +302,7 @@ TEST(Off, isReadAgainAsTheSamePolytope) {
     for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
         const Polytope& p = named(name);
         const Rotation turned = randomRotation(random);
-        const std::string text = fileOf(p, turned, {0, 1, 1}, requestFor(*formatNamed("off")));
+        const std::string text = fileOf(p, turned, {0, 1, 1}, defaultRequestFor(*formatNamed("off")));
         const auto read = importPolytope(FileFormat::off4, text, "again", {});
         ASSERT_TRUE(std::holds_alternative<ImportedPolytope>(read)) << std::get<FileError>(read).reason;
         EXPECT_TRUE(std::get<ImportedPolytope>(read).warnings.empty());
@@ -317,7 +318,7 @@ TEST(Off, isReadAgainAsTheSamePolytope) {
 
 TEST(Svg, drawsEachCoordinateOfEachVertex) {
     const Polytope& p = named("24-cell");
-    const std::string text = fileOf(p, {}, {0, 1, 1}, requestFor(*formatNamed("svg")));
+    const std::string text = fileOf(p, {}, {0, 1, 1}, defaultRequestFor(*formatNamed("svg")));
     std::size_t lines = 0;
     for (auto at = text.find("<line"); at != std::string::npos; at = text.find("<line", at + 1)) ++lines;
     EXPECT_EQ(lines, 1 + 4 * p.vertices.size());
@@ -325,14 +326,14 @@ TEST(Svg, drawsEachCoordinateOfEachVertex) {
 
 TEST(Pdf, isAWholeDocument) {
     for (const char* name : {"24-cell", "120-cell"}) {
-        const std::string text = fileOf(named(name), {}, {0, 1, 1}, requestFor(*formatNamed("pdf")));
+        const std::string text = fileOf(named(name), {}, {0, 1, 1}, defaultRequestFor(*formatNamed("pdf")));
         EXPECT_TRUE(text.starts_with("%PDF-1."));
         EXPECT_NE(text.find("%%EOF"), std::string::npos);
     }
 }
 
 TEST(Svg, drawsTheDensityOfManyVertices) {
-    const std::string text = fileOf(named("120-cell"), {}, {0, 1, 1}, requestFor(*formatNamed("svg")));
+    const std::string text = fileOf(named("120-cell"), {}, {0, 1, 1}, defaultRequestFor(*formatNamed("svg")));
     EXPECT_NE(text.find("id=\"density\""), std::string::npos);
     std::size_t lines = 0;
     for (auto at = text.find("<line "); at != std::string::npos; at = text.find("<line ", at + 1)) ++lines;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace oval4d;
 
-std::string documentOf(const exports::Shape& shape) {
+std::string documentOf(const exports::DrawnShape& shape) {
     return exports::pdf({"lines", exports::kDrawingWidth, exports::kDrawingWidth, {{"shapes", {shape}}}});
 }
 

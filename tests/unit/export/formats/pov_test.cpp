@@ -18,7 +18,7 @@ namespace {
 
 using namespace oval4d;
 using namespace oval4d::support;
-using exports::ExportContents;
+using exports::ExportContentsKind;
 
 /// The scene of the slices of a polytope, as a picture with this look shows it, and its file.
 struct PovOfPolytope {
@@ -36,7 +36,7 @@ struct PovOfPolytope {
     PovOfPolytope& operator=(const PovOfPolytope&) = delete;
 
     static exports::ExportRequest oval() {
-        return {.format = exports::formatNamed("pov"), .contents = ExportContents::oval};
+        return {.format = exports::formatNamed("pov"), .contents = ExportContentsKind::oval};
     }
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace oval4d;
 
-std::string tikzOf(const exports::Shape& shape, double size = exports::kDrawingSize) {
+std::string tikzOf(const exports::DrawnShape& shape, double size = exports::kDrawingSize) {
     return exports::tikz({"shapes\nof a test", exports::kDrawingWidth, 240, {{"shapes", {shape}}}, size});
 }
 
@@ -50,9 +50,10 @@ TEST(Tikz, WritesTheRunsOfEachColumnOfAnImage) {
 TEST(Tikz, CutsShapesWhereTexHasNoLengths) {
     for (const double size : {10.0, exports::kDrawingSize, 5000.0}) {
         const double pointsPerUnit = size / exports::kDrawingWidth * 72.27 / 25.4;
-        for (const exports::Shape& shape : {exports::Shape(exports::Line{.from = {0, 0}, .to = {1e9, 5e8}}),
-                                            exports::Shape(exports::FilledPolygon{{{0, 0}, {1e9, 0}, {0, -1e9}}, 0}),
-                                            exports::Shape(exports::Disk{{1e6, 0}, 1e6 - 100, 0})}) {
+        for (const exports::DrawnShape& shape :
+             {exports::DrawnShape(exports::Line{.from = {0, 0}, .to = {1e9, 5e8}}),
+              exports::DrawnShape(exports::FilledPolygon{{{0, 0}, {1e9, 0}, {0, -1e9}}, 0}),
+              exports::DrawnShape(exports::Disk{{1e6, 0}, 1e6 - 100, 0})}) {
             const std::string text = tikzOf(shape, size);
             double farthest = 0;
             for (std::size_t at = text.find("% shapes\n"); at < text.size(); at = text.find_first_of("(,", at)) {

@@ -200,7 +200,7 @@ TEST(OuterSurface, ofStarPolychoraHoldsThePlacesThatTheFacesWindAround) {
         const SliceSet s = cutAt(p, randomRotation(random), 0.1 * p.circumradius);
         const Mesh mesh = solid(p, s);
         expectPrintable(mesh);
-        const Box box = boxOf(mesh);
+        const BoundingBox box = boxOf(mesh);
         std::uniform_real_distribution<double> part(0, 1);
         constexpr int kPlaces = support::kSanitized ? 600 : 6000;
         int inside = 0;

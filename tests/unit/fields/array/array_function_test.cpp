@@ -94,7 +94,7 @@ TEST(ArrayFunction, AddsNoRoundingErrorToAConstantFunction) {
     Points points = randomPoints(kBox, 256, random);
     array.evaluate(points.batch(), points.values);
     for (const float value : points.values) EXPECT_EQ(value, 0.1F);
-    const Bounds bounds = array.boundsIn(kBox);
+    const ValueBounds bounds = array.boundsIn(kBox);
     EXPECT_NEAR(bounds.min, 0.1F, 1e-8);  // rounded by at most one unit in the last place
     EXPECT_NEAR(bounds.max, 0.1F, 1e-8);
 }

@@ -32,7 +32,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
                                       GetParam() ? sampleCount(shape) : 0);
             for (int trial = 0; trial < 150; ++trial) {
                 const Box region = randomBox(box, trial % 3 == 0 ? 1 : 0.1, random);
-                const Bounds bounds = array.boundsIn(region);
+                const ValueBounds bounds = array.boundsIn(region);
                 Points points = randomPoints(region, 64, random);
                 points.add(region.min);
                 points.add(region.max);
@@ -72,7 +72,7 @@ TEST(BrickBounds, AreThoseOfTheBricksThatMeetTheRegion) {
                                   return p.x + 10 * p.y + 100 * p.z + 1000 * p.w;
                               })));
     const auto expectBounds = [&](const glm::dvec4& min, const glm::dvec4& max, double low, double high) {
-        const Bounds bounds = array.boundsIn({min, max});
+        const ValueBounds bounds = array.boundsIn({min, max});
         EXPECT_NEAR(bounds.min, low, 0.1);
         EXPECT_NEAR(bounds.max, high, 0.1);
         EXPECT_TRUE(bounds.hasValueEverywhere);
@@ -115,11 +115,11 @@ TEST(BrickBounds, ReadLittleOfALargeArray) {
     EXPECT_LT(array.statistics().min, -0.99F);  // of a selection
     EXPECT_GT(array.statistics().max, 0.99F);
     const std::size_t before = array.memoryBytes();
-    const Bounds all = array.boundsIn({});
+    const ValueBounds all = array.boundsIn({});
     EXPECT_FALSE(all.hasValueEverywhere);
     EXPECT_EQ(all.min, -std::numeric_limits<double>::infinity());
     EXPECT_EQ(array.memoryBytes(), before);
-    const Bounds part = array.boundsIn({glm::dvec4(-0.1), glm::dvec4(0.1)});
+    const ValueBounds part = array.boundsIn({glm::dvec4(-0.1), glm::dvec4(0.1)});
     EXPECT_TRUE(part.hasValueEverywhere);
     EXPECT_NEAR(part.min, -1, 0.01);
     EXPECT_LE(array.memoryBytes(), before + BrickBounds::kMaxEntries * 4096);

@@ -101,7 +101,7 @@ TEST(MappedFile, WritesAndReadsTheSameFile) {
     EXPECT_THROW(SampleStorage(readable, 0, kSize), std::invalid_argument);
     const SampleStorage samples(readable, kSize - 4, 1);
     EXPECT_EQ(samples.memoryBytes(), 0U);
-    EXPECT_EQ(samples.offset(), kSize - 4);
+    EXPECT_EQ(samples.byteOffsetInFile(), kSize - 4);
 }
 
 TEST(MappedFile, RefusesWhatIsNotAFile) {

@@ -201,7 +201,7 @@ TEST(FormulaFunction, SmoothMinimumWithoutSmoothingIsTheMinimum) {
             EXPECT_EQ(samples.gradients, expected.gradients) << text;
             samples.evaluate(function);
             EXPECT_EQ(samples.values, expected.values) << text;
-            const Bounds bounds = function.boundsIn(box);
+            const ValueBounds bounds = function.boundsIn(box);
             EXPECT_TRUE(bounds.hasValueEverywhere) << text;
             EXPECT_LE(bounds.min, -2) << text;
             EXPECT_GE(bounds.max, 2) << text;

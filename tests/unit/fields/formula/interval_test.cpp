@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-Bounds boundsOfFormula(const std::string& text, const Box& box) { return FormulaFunction(parsed(text)).boundsIn(box); }
-Bounds boundsOfFormula(const std::string& text, double min, double max) {
+ValueBounds boundsOfFormula(const std::string& text, const Box& box) {
+    return FormulaFunction(parsed(text)).boundsIn(box);
+}
+ValueBounds boundsOfFormula(const std::string& text, double min, double max) {
     return boundsOfFormula(text, {{min, min, min, min}, {max, max, max, max}});
 }
 
@@ -42,7 +44,7 @@ void requireSoundBounds(const std::string& text, const Box& box, Random& random)
     if (avx2Kernels() != nullptr) all.push_back(avx2Kernels());
     for (const Kernels* kernels : all) {
         const FormulaFunction function(formula, *kernels);
-        const Bounds bounds = function.boundsIn(box);
+        const ValueBounds bounds = function.boundsIn(box);
         samples.evaluate(function);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double real = realValue(formula.tape(), samples.point(i));
@@ -112,7 +114,7 @@ TEST(Intervals, AreSoundInHugeBoxes) {
             samples.add(point);
         }
         const FormulaFunction function(parsed(text));
-        const Bounds bounds = function.boundsIn(box);
+        const ValueBounds bounds = function.boundsIn(box);
         samples.evaluate(function);
         for (std::size_t j = 0; j < samples.size(); ++j) {
             const double value = samples.values[j];
@@ -136,7 +138,7 @@ TEST(Intervals, ShrinkWithTheBox) {
             part.min[axis] = std::min(a, b);
             part.max[axis] = std::max(a, b);
         }
-        const Bounds whole = boundsOfFormula(text, box), some = boundsOfFormula(text, part);
+        const ValueBounds whole = boundsOfFormula(text, box), some = boundsOfFormula(text, part);
         if (some.min > some.max) continue;
         const auto isWithin = [](double a, double b) { return a <= b || a - b <= 1e-6 * std::abs(b); };
         EXPECT_TRUE(some.hasValueEverywhere || !whole.hasValueEverywhere) << text;
@@ -150,7 +152,7 @@ TEST(Intervals, BecomeTightInSmallBoxes) {
                              "mod(x,1)+atan2(y,z)+abs(w)^2.5", "x^3*y^-2+cbrt(z)-tanh(w)"}) {
         for (const double size : {1e-2, 1e-4}) {
             const glm::dvec4 point(0.3, 0.4, 0.5, 0.6);
-            const Bounds bounds = boundsOfFormula(text, {point, point + size});
+            const ValueBounds bounds = boundsOfFormula(text, {point, point + size});
             EXPECT_TRUE(bounds.hasValueEverywhere) << text;
             EXPECT_LT(bounds.max - bounds.min, 100 * size) << text;
         }
@@ -166,7 +168,7 @@ class TightIntervals : public testing::TestWithParam<Tight> {};
 
 TEST_P(TightIntervals, AreTheRangeOfTheFunction) {
     const auto& [text, from, to, min, max] = GetParam();
-    const Bounds bounds = boundsOfFormula(text, from, to);
+    const ValueBounds bounds = boundsOfFormula(text, from, to);
     const auto isNear = [](double a, double b) {
         return a == b || std::abs(a - b) < 1e-5 * std::max(1.0, std::abs(b));
     };
@@ -205,7 +207,7 @@ TEST(Intervals, KnowWhereThereMayBeNoValue) {
     EXPECT_FALSE(boundsOfFormula("x/y", -1, 1).hasValueEverywhere) << "0/0";
     EXPECT_FALSE(boundsOfFormula("x^0.3", -1, 1).hasValueEverywhere);
     EXPECT_FALSE(boundsOfFormula("mod(1,x)", -1, 1).hasValueEverywhere);
-    const Bounds none = boundsOfFormula("sqrt(x)+1", -2, -1);
+    const ValueBounds none = boundsOfFormula("sqrt(x)+1", -2, -1);
     EXPECT_GT(none.min, none.max);
     EXPECT_FALSE(none.hasValueEverywhere);
     EXPECT_TRUE(none.mayCross(0));
@@ -216,7 +218,7 @@ TEST(Intervals, KnowWhereThereMayBeNoValue) {
 // The float nearest to a point of the box may lie outside of the box.
 TEST(Intervals, ContainPointsThatAreRoundedToFloats) {
     const double third = 1.0 / 3;
-    const Bounds bounds = boundsOfFormula("x", third, third);
+    const ValueBounds bounds = boundsOfFormula("x", third, third);
     EXPECT_LE(bounds.min, third);
     EXPECT_GE(bounds.max, static_cast<float>(third));
 }

@@ -25,7 +25,7 @@ TEST(AxisMapping, SlabsCoverTheArrayInItsOrder) {
         std::vector<float> numbers(mapping->count()), whole(numbers.size()), parts(numbers.size());
         for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(i);
         const auto* from = reinterpret_cast<const std::byte*>(numbers.data());
-        convert({}, from, mapping->layout(), whole.data() + mapping->first());
+        convert({}, from, mapping->layout(), whole.data() + mapping->firstSampleIndex());
         const std::size_t most = 1 + below(2 * numbers.size());
         const auto slabs = mapping->slabs(most);
         for (const Slab& slab : slabs) {

@@ -35,13 +35,13 @@ std::vector<float> numbers() {
     return samples;
 }
 
-std::vector<std::uint32_t> bitsOf(const ReadField& field) {
+std::vector<std::uint32_t> bitsOf(const FieldArray& field) {
     std::vector<std::uint32_t> bits;
     for (const float sample : field.samples.values()) bits.push_back(std::bit_cast<std::uint32_t>(sample));
     return bits;
 }
 
-ReadField readOrFail(const std::string& bytes, const ReadOptions& options = {}) {
+FieldArray readOrFail(const std::string& bytes, const ReadOptions& options = {}) {
     auto field = readField(FileContents::copyOf(bytes), options);
     if (!field) throw std::runtime_error(field.error().message);
     return *field;
@@ -616,14 +616,14 @@ TEST(Hdf5, ReadsDimensionScalesAsNetcdfDoes) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     ASSERT_GE(H5Adelete(file, "_NCProperties"), 0);
     H5Fclose(file);
-    const ReadField field = readOrFail(readFile(path));
+    const FieldArray field = readOrFail(readFile(path));
     EXPECT_TRUE(field.boxIsKnown);
     EXPECT_EQ(field.shape, (Shape{2, 1, 1, 1}));
     EXPECT_EQ(field.box, (Box{{0, 0, 0, 3}, {1, 0, 0, 3}}));
 }
 
 // A series of files with these times.
-Result<ReadField> seriesOf(const std::vector<double>& times) {
+Result<FieldArray> seriesOf(const std::vector<double>& times) {
     std::vector<FileContents> files;
     for (const double time : times) files.push_back(FileContents::copyOf(netcdfOfMoment(time)));
     return readSeries(files, {});

@@ -15,12 +15,12 @@
 namespace oval4d::fields::test {
 namespace {
 
-std::vector<float> samplesOf(const Result<ReadField>& field) {
+std::vector<float> samplesOf(const Result<FieldArray>& field) {
     const auto values = field->samples.values();
     return {values.begin(), values.end()};
 }
 
-ReadField readNpyOrFail(const std::string& file, const ReadOptions& options = {}) {
+FieldArray readNpyOrFail(const std::string& file, const ReadOptions& options = {}) {
     auto field = readNpy(FileContents::copyOf(file), options);
     if (!field) throw std::runtime_error(field.error().message);
     return *field;
@@ -264,7 +264,7 @@ TEST(Npy, ReadsLittleOfAFileLargerThanTheMemory) {
     std::vector<float> x{249, 248.5, 10}, y{399, 399, 20}, z{399, 399, 30}, w{99, 99, 40}, values(3);
     f.evaluate({x, y, z, w}, values);
     EXPECT_EQ(values, (std::vector<float>{7, 3.5, 0}));
-    const Bounds corner = f.boundsIn({{245, 395, 395, 95}, {249, 399, 399, 99}});
+    const ValueBounds corner = f.boundsIn({{245, 395, 395, 95}, {249, 399, 399, 99}});
     EXPECT_GE(corner.max, 7);
     EXPECT_TRUE(corner.hasValueEverywhere);
     EXPECT_FALSE(f.boundsIn(f.box()).hasValueEverywhere);

@@ -16,8 +16,8 @@ namespace {
 
 using Files = std::map<std::string, std::string>;  // the contents of each file by its path
 
-Result<ReadField> readFiles(const Files& files, const std::string& variable = "") {
-    const FolderReader folder = [&](const std::string& path) -> Result<std::optional<FileContents>> {
+Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
+    const FolderFileReader folder = [&](const std::string& path) -> Result<std::optional<FileContents>> {
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<FileContents>();
         return std::optional(FileContents::copyOf(found->second));

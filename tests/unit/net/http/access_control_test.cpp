@@ -66,10 +66,11 @@ TEST(AccessControl, AcceptsOnlyHttpOrigins) {
 
 TEST(AccessControl, RecognizesCrossSiteRequests) {
     const AccessControl access({"*"}, {"https://pages.example"}, "", false);
-    EXPECT_TRUE(access.isCrossSite({.host = "a", .fetchSite = "cross-site"}));
-    EXPECT_FALSE(access.isCrossSite({.host = "a", .fetchSite = "same-origin"}));
-    EXPECT_FALSE(access.isCrossSite({.host = "a"}));
-    EXPECT_FALSE(access.isCrossSite({.host = "a", .origin = "https://pages.example", .fetchSite = "cross-site"}));
+    EXPECT_TRUE(access.isUnwantedCrossSite({.host = "a", .fetchSite = "cross-site"}));
+    EXPECT_FALSE(access.isUnwantedCrossSite({.host = "a", .fetchSite = "same-origin"}));
+    EXPECT_FALSE(access.isUnwantedCrossSite({.host = "a"}));
+    EXPECT_FALSE(
+        access.isUnwantedCrossSite({.host = "a", .origin = "https://pages.example", .fetchSite = "cross-site"}));
 }
 
 TEST(RequestTarget, DecodesPathAndQuery) {

@@ -11,12 +11,12 @@ constexpr Pacing::Clock::time_point kStart{};
 
 TEST(Pacing, AllowsTwoUnshownPictures) {
     Pacing pacing;
-    EXPECT_FALSE(pacing.newest());
+    EXPECT_FALSE(pacing.newestSentOrSkipped());
     pacing.recordSent(0);
     EXPECT_TRUE(pacing.hasRoom());
     pacing.recordSent(5);
     EXPECT_FALSE(pacing.hasRoom());
-    EXPECT_EQ(pacing.newest(), 5U);
+    EXPECT_EQ(pacing.newestSentOrSkipped(), 5U);
     pacing.recordShown(0);
     EXPECT_TRUE(pacing.hasRoom());
 }
@@ -56,7 +56,7 @@ TEST(Pacing, WrittenPicturesExpireInOrder) {
 TEST(Pacing, ASkippedRevisionIsNewestButNotInFlight) {
     Pacing pacing;
     pacing.recordSkipped(7);
-    EXPECT_EQ(pacing.newest(), 7U);
+    EXPECT_EQ(pacing.newestSentOrSkipped(), 7U);
     pacing.recordSent(8);
     EXPECT_TRUE(pacing.hasRoom());
 }

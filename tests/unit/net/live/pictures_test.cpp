@@ -23,7 +23,7 @@ SnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) 
     return snapshot;
 }
 
-SnapshotPictureCache::List pictureOf(const StreamKey& key, const std::string& text) {
+SnapshotPictureCache::MessagesByStream pictureOf(const StreamKey& key, const std::string& text) {
     return {{key, textMessage(text)}};
 }
 
@@ -31,8 +31,8 @@ TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
     SnapshotPictureCache pictures;
     EXPECT_EQ(pictures.find(kFrames, 0, Quality::draft), nullptr);
     const SnapshotPtr draft = snapshotOf(3, Quality::draft);
-    pictures.add(draft, pictureOf(kFrames, "frame"));
-    pictures.add(draft, pictureOf(kGeometry, "slices"));
+    pictures.addUnlessOlder(draft, pictureOf(kFrames, "frame"));
+    pictures.addUnlessOlder(draft, pictureOf(kGeometry, "slices"));
     EXPECT_NE(pictures.find(kFrames, 3, Quality::draft), nullptr);
     EXPECT_NE(pictures.find(kGeometry, 3, Quality::draft), nullptr);
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::full), nullptr);
@@ -43,15 +43,15 @@ TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
 
 TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {
     SnapshotPictureCache pictures;
-    pictures.add(snapshotOf(3), pictureOf(kFrames, "3"));
-    pictures.add(snapshotOf(4, Quality::draft), pictureOf(kGeometry, "4"));
+    pictures.addUnlessOlder(snapshotOf(3), pictureOf(kFrames, "3"));
+    pictures.addUnlessOlder(snapshotOf(4, Quality::draft), pictureOf(kGeometry, "4"));
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
-    pictures.add(snapshotOf(3), pictureOf(kFrames, "3"));  // made by a slower worker
+    pictures.addUnlessOlder(snapshotOf(3), pictureOf(kFrames, "3"));  // made by a slower worker
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
     EXPECT_NE(pictures.find(kGeometry, 4, Quality::draft), nullptr);
-    pictures.add(snapshotOf(4, Quality::full), {});
+    pictures.addUnlessOlder(snapshotOf(4, Quality::full), {});
     EXPECT_EQ(pictures.find(kGeometry, 4, Quality::draft), nullptr);
-    pictures.add(nullptr, {});  // a job that made none
+    pictures.addUnlessOlder(nullptr, {});  // a job that made none
     EXPECT_NE(pictures.snapshot(), nullptr);
     pictures.clear();
     EXPECT_EQ(pictures.snapshot(), nullptr);
@@ -59,19 +59,19 @@ TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {
 
 TEST(PictureJobs, TheNextJobMayBeginOnceThePictureIsDrawn) {
     PictureJobs inProgress;
-    EXPECT_FALSE(inProgress.isDrawing());
-    EXPECT_EQ(inProgress.job(), 1U);
+    EXPECT_FALSE(inProgress.isQueuedOrDrawing());
+    EXPECT_EQ(inProgress.currentOrNextJobNumber(), 1U);
     inProgress.recordQueued();
-    EXPECT_TRUE(inProgress.isDrawing());
-    EXPECT_EQ(inProgress.job(), 1U);
-    inProgress.recordDrawn({1, 7, Quality::full, kFrames});
-    EXPECT_FALSE(inProgress.isDrawing());
+    EXPECT_TRUE(inProgress.isQueuedOrDrawing());
+    EXPECT_EQ(inProgress.currentOrNextJobNumber(), 1U);
+    inProgress.recordLastPictureDrawn({1, 7, Quality::full, kFrames});
+    EXPECT_FALSE(inProgress.isQueuedOrDrawing());
     EXPECT_TRUE(inProgress.isEncoding(kFrames, 7, Quality::draft));
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 6, Quality::draft));
     EXPECT_FALSE(inProgress.isEncoding(kGeometry, 7, Quality::draft));
-    EXPECT_EQ(inProgress.job(), 2U);
+    EXPECT_EQ(inProgress.currentOrNextJobNumber(), 2U);
     inProgress.recordQueued();
-    inProgress.recordDrawn({2, 8, Quality::draft, kFrames});
+    inProgress.recordLastPictureDrawn({2, 8, Quality::draft, kFrames});
     EXPECT_EQ(inProgress.countEncoding(kFrames), 2U);
     EXPECT_FALSE(inProgress.isEncoding(kFrames, 8, Quality::full));
     inProgress.recordDone(1);
@@ -83,8 +83,8 @@ TEST(PictureJobs, AJobWithoutAFrameEndsAtOnce) {
     PictureJobs inProgress;
     inProgress.recordQueued();
     inProgress.recordDone(1);
-    EXPECT_FALSE(inProgress.isDrawing());
-    EXPECT_EQ(inProgress.job(), 2U);
+    EXPECT_FALSE(inProgress.isQueuedOrDrawing());
+    EXPECT_EQ(inProgress.currentOrNextJobNumber(), 2U);
 }
 
 }  // namespace

@@ -48,22 +48,22 @@ TEST(MotionTiming, NothingJumpsAfterAPause) {
 
 TEST(DraftTiming, OneChangeIsNotQuick) {
     DraftTiming timing(kOpened);
-    EXPECT_FALSE(timing.isQuick());
+    EXPECT_FALSE(timing.hasQuickChanges());
     timing.recordChange(kOpened + 1ms);
-    EXPECT_FALSE(timing.isQuick());
-    EXPECT_EQ(timing.changed(), kOpened + 1ms);
+    EXPECT_FALSE(timing.hasQuickChanges());
+    EXPECT_EQ(timing.lastChangeTime(), kOpened + 1ms);
 }
 
 TEST(DraftTiming, ChangesThatFollowEachOtherAreQuickUntilTheSessionRests) {
     DraftTiming timing(kOpened);
     timing.recordChange(kOpened);
     timing.recordChange(kOpened + 299ms);
-    EXPECT_TRUE(timing.isQuick());
+    EXPECT_TRUE(timing.hasQuickChanges());
     EXPECT_EQ(timing.restEnds(), kOpened + 499ms);
     timing.endIfRested(kOpened + 498ms);
-    EXPECT_TRUE(timing.isQuick());
+    EXPECT_TRUE(timing.hasQuickChanges());
     timing.endIfRested(kOpened + 499ms);
-    EXPECT_FALSE(timing.isQuick());
+    EXPECT_FALSE(timing.hasQuickChanges());
 }
 
 TEST(DraftTiming, ALaterChangeIsNotQuick) {
@@ -71,16 +71,16 @@ TEST(DraftTiming, ALaterChangeIsNotQuick) {
     timing.recordChange(kOpened);
     timing.recordChange(kOpened + 100ms);
     timing.recordChange(kOpened + 400ms);
-    EXPECT_FALSE(timing.isQuick());
+    EXPECT_FALSE(timing.hasQuickChanges());
 }
 
 TEST(DraftTiming, APeriodOfQuickChangesMayBegin) {
     DraftTiming timing(kOpened);
     timing.recordChange(kOpened);
     timing.begin();
-    EXPECT_TRUE(timing.isQuick());
+    EXPECT_TRUE(timing.hasQuickChanges());
     timing.endIfRested(kOpened + 200ms);
-    EXPECT_FALSE(timing.isQuick());
+    EXPECT_FALSE(timing.hasQuickChanges());
 }
 
 }  // namespace

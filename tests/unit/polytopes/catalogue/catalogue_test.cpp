@@ -189,7 +189,7 @@ TEST(CatalogueNames, nothingIsSuggestedForLongTexts) {
         EXPECT_EQ(nearestName(std::string(size, 'q')), "") << size;
         EXPECT_EQ(nearestName("tesseract" + std::string(size, 't')), "") << size;
     }
-    EXPECT_EQ(editDistance("tesseract", std::string(1'000'000, 't')), 254U);
+    EXPECT_EQ(editDistanceOfNames("tesseract", std::string(1'000'000, 't')), 254U);
 }
 
 TEST(CatalogueNames, nearMissesAreSuggested) {
@@ -197,8 +197,8 @@ TEST(CatalogueNames, nearMissesAreSuggested) {
     EXPECT_EQ(nearestName("teseract"), "tesseract");
     EXPECT_EQ(nearestName("601cell"), "600-cell");
     EXPECT_EQ(nearestName("omnitruncate 120 cell"), "omnitruncated 120-cell");
-    EXPECT_EQ(nearestNames("teseract"), (std::vector<std::string_view>{"tesseract"}));
-    EXPECT_EQ(nearestNames("truncated 14-cell"),
+    EXPECT_EQ(equallyNearestNames("teseract"), (std::vector<std::string_view>{"tesseract"}));
+    EXPECT_EQ(equallyNearestNames("truncated 14-cell"),
               (std::vector<std::string_view>{"truncated 16-cell", "truncated 24-cell"}));
 }
 

@@ -43,7 +43,7 @@ TEST(Notations, parseTheirExamples) {
         EXPECT_FALSE(examplesOf(*notation).empty()) << notation->polytopes;
         for (const std::string& example : examplesOf(*notation)) {
             SCOPED_TRACE(example);
-            const std::vector<std::string> words = text::wordsOf(example);
+            const std::vector<std::string> words = text::lowerCaseWords(example);
             const auto parsed = notation->parse({words, lookup});
             ASSERT_TRUE(parsed && std::holds_alternative<Design>(*parsed));
             const std::string& name = std::get<Design>(*parsed).name;

@@ -19,7 +19,7 @@ TEST(PolytopeCache, buildsEachPolytopeOnceWhileItIsHeld) {
     PolytopeCache cache(0);
     const auto design = designFor("runcinated 120-cell");
     EXPECT_EQ(cache.find(design), nullptr);
-    std::vector<PolytopeCache::Shared> got(4);
+    std::vector<PolytopeCache::SharedPolytope> got(4);
     {
         std::vector<std::jthread> threads;
         for (auto& mine : got) threads.emplace_back([&] { mine = cache.get(design); });

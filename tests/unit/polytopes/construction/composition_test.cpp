@@ -90,7 +90,7 @@ class OverPolyhedra : public testing::TestWithParam<const char*> {};
 
 TEST_P(OverPolyhedra, haveTheElementsThatTheBaseImplies) {
     const std::string base = GetParam();
-    const auto solid = std::get<Solid>(*solidNamed(text::wordsOf(base)));
+    const auto solid = std::get<Solid>(*solidNamed(text::lowerCaseWords(base)));
     const SolidMesh mesh = meshOf(solid);
     const std::size_t v = mesh.vertices.size(), f = mesh.faces.size(), e = v + f - 2;
     const auto stated = countsOf(solid);

@@ -211,7 +211,7 @@ TEST(Flatten, DividesCellsThatItMayNotMakeFlat) {
     PolygonSoup soup = soupOf(cube);
     soup.vertices = noisy(soup.vertices, 1e-4, random);
     const Points before = soup.vertices;
-    const FlatteningReport done = flatten(soup, halfDiagonal(soup.vertices), 1e-7, 0);
+    const FlatteningReport done = flattenOrSplit(soup, halfDiagonal(soup.vertices), 1e-7, 0);
     EXPECT_EQ(done.split, 8U);
     EXPECT_EQ(done.moved, 0U);
     EXPECT_GT(done.deviation, 1e-5);

@@ -34,7 +34,7 @@ struct FogPicture : HandMade {
     }
 
     void setOpacity(double opacity) {
-        scene::makeFogTable(std::vector<slicing::FogPoint>{{0, opacity, kRed}, {1, opacity, kRed}}, scene.fog);
+        scene::makeFogTable(std::vector<slicing::FogControlPoint>{{0, opacity, kRed}, {1, opacity, kRed}}, scene.fog);
     }
 };
 
@@ -80,7 +80,7 @@ TEST(FogPainter, LooksTheSameInAnyUnitOfLength) {
         slicing::SliceFog& fog = picture.slices.fogs[0];
         fog.min *= unit;
         fog.step *= unit;
-        for (slicing::FieldSection::Wall& wall : fog.walls) wall.offset *= unit;
+        for (slicing::FieldSection::HalfSpace& wall : fog.walls) wall.offset *= unit;
         picture.scene.circumradius = unit;
         picture.scene.scale = 1 / unit;
         EXPECT_LE(difference(centerOf(picture), expected), 2) << unit;
@@ -96,7 +96,7 @@ TEST(FogPainter, AnOpacityOfOneLetsAlmostNothingThrough) {
 TEST(FogPainter, TheTotalDoesNotDependOnTheLattice) {
     // The opacity along the ray is not constant: the total is an integral.
     const auto ramp = [](const glm::dvec3& p) { return std::lround(1 + 254 * std::clamp((p.z + 1) / 2, 0.0, 1.0)); };
-    std::vector<slicing::FogPoint> points{{0, 0, kRed}, {1, 0.9, kRed}};
+    std::vector<slicing::FogControlPoint> points{{0, 0, kRed}, {1, 0.9, kRed}};
     // ∫ −log(1 − a(z)) dz for a(z) = 0.9 (z + 1) / 2, numerically.
     double thickness = 0;
     constexpr int kParts = 10'000;

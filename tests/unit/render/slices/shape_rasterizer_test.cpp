@@ -163,7 +163,7 @@ TEST_F(Depths, PointsThatAreNotFiniteDrawNothingOutsideThePicture) {
         for (ShapeBatch* shapes : {&solid, &translucent}) {
             shapes->addBall({odd, 0, -10}, 0.3F, kRed);
             shapes->addBall({0, odd, -10}, 0.3F, kRed);
-            shapes->addBar({0, odd, -10}, {odd, 0, -9}, 0.1F, kRed);
+            shapes->addBarFromFarEnd({0, odd, -10}, {odd, 0, -9}, 0.1F, kRed);
             shapes->addFace(std::vector<glm::vec3>{{0, 0, -9}, {odd, 1, -9}, {1, odd, -8}}, {0, 0, 1}, kRed, 1, true);
             shapes->addFace(std::vector<glm::vec3>{{0, 0, -9}, {1, 1, odd}, {1, -1, -8}}, {0, 0, 1}, kRed, 1, false);
             shapes->addFace(std::vector<glm::vec3>{}, {0, 0, 1}, kRed, 1, false);
@@ -175,14 +175,14 @@ TEST_F(Depths, PointsThatAreNotFiniteDrawNothingOutsideThePicture) {
 TEST_F(Depths, ABarGoesThroughABall) {
     // The bar's front is nearer than the ball's center, and farther than the ball's front.
     solid.addBall({0, 0, -10}, 0.5F, kRed);
-    solid.addBar({-0.9F, 0, -10}, {0.9F, 0, -10}, 0.1F, kBlue);
+    solid.addBarFromFarEnd({-0.9F, 0, -10}, {0.9F, 0, -10}, 0.1F, kBlue);
     EXPECT_GT(drawnAt(32, 32)[0], drawnAt(32, 32)[2]) << "inside the ball";
     EXPECT_GT(drawnAt(32 + 22, 32)[2], drawnAt(32 + 22, 32)[0]) << "outside the ball";
 }
 
 TEST_F(Depths, FacesAreHiddenWhereSolidShapesAreNearer) {
     // A face that comes toward the eye from left to right passes through the plane of a bar at x = 0.
-    solid.addBar({-0.9F, 0, -10}, {0.9F, 0, -10}, 0.1F, kRed);
+    solid.addBarFromFarEnd({-0.9F, 0, -10}, {0.9F, 0, -10}, 0.1F, kRed);
     const std::vector<glm::vec3> corners{
         {-0.9F, -0.9F, -10.9F}, {0.9F, -0.9F, -9.1F}, {0.9F, 0.9F, -9.1F}, {-0.9F, 0.9F, -10.9F}};
     translucent.addFace(corners, glm::normalize(glm::vec3(-1, 0, 1)), kBlue, 1, false);

@@ -50,7 +50,8 @@ struct FieldSubject {
         const geometry::Hyperplanes planes{-half, example.slices, 2.0 / std::max(half, 1)};
         scene::Composer composer;
         slicing::SurfaceDetail detail;
-        composer.chooseDetail(object, planes, 0, example.look, example.viewport, slicing::Quality::full, scene, detail);
+        composer.layOutAndChooseDetail(object, planes, 0, example.look, example.viewport, slicing::Quality::full, scene,
+                                       detail);
         slicing::Slicer().slice(object, orientation, planes, example.look.field, detail, slices);
         composer.compose(object, orientation, slices, 0, example.look, example.viewport, scene);
     }
