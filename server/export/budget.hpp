@@ -17,8 +17,9 @@ struct ExportLimits {
     std::size_t triangles = 5'000'000;       ///< maximum for all bodies together
     std::size_t bytes = 512U << 20U;         ///< maximum size of the file
     std::chrono::duration<double> time{20};  ///< from the construction of the Budget to the end of the export
-    /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
-    /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
+    /// Called on the exporting thread each time the export makes a new estimate of the bytes that it needs. The
+    /// argument is this estimate of the total, not an increment. The function returns false to refuse the memory. If it
+    /// is null, memory is not limited.
     std::function<bool(std::size_t)> grantTotalBytes = nullptr;
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
     std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
@@ -26,8 +27,8 @@ struct ExportLimits {
     int slices = 201;
 };
 
-/// Why an export produces no file: the cause, and a text for the user. ExportRefused carries the refusal to
-/// exportScene(), which returns it.
+/// Why an export produces no file: the cause, and a text for the user. Functions throw it within ExportRefused;
+/// exportScene() returns it.
 struct ExportRefusal {
     enum class Cause : std::uint8_t {
         no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
@@ -39,7 +40,7 @@ struct ExportRefusal {
     std::string message;
 };
 
-/// The exception by which functions in this folder refuse an export. exportScene() catches the exception and returns
+/// The exception by which functions in this folder refuse an export. exportScene() catches it and returns its member
 /// `error`.
 struct ExportRefused {
     ExportRefusal error;
@@ -87,15 +88,15 @@ class Budget {
         }
         requireMemory(count);
     }
-    /// Returns ExportLimits::triangles.
+    /// Returns the maximum number of triangles of all bodies together (ExportLimits::triangles).
     std::size_t triangleLimit() const { return limits_.triangles; }
-    /// Returns ExportLimits::time.
+    /// Returns the maximum time of the whole export (ExportLimits::time).
     std::chrono::duration<double> time() const { return limits_.time; }
     /// Returns the token by which a stop is requested.
     std::stop_token stopToken() const { return stop_; }
 
   private:
-    static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
+    static constexpr std::size_t kBytesOfTriangle = 64;  // the approximate size of a triangle, in the file or in memory
 
     void requireMemory(std::size_t bytes) const {
         if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))

@@ -28,9 +28,9 @@ namespace oval4d::exports {
 
 namespace {
 
-// The width of the cubes in which a skeleton is meshed, as a multiple of the bar radius. It is kFineCube, unless the
-// file would then have more than kTargetTriangles triangles, or the cubes would be less than kGoodFieldStep grid steps
-// wide. In these two cases, the cubes are larger, up to kCoarseCube.
+// The width of the cubes in which a skeleton is meshed, as a multiple of the bar radius, is from kFineCube to
+// kCoarseCube. It is kFineCube unless this would give more than kTargetTriangles triangles, or cubes less than
+// kGoodFieldStep grid steps wide.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;
@@ -94,7 +94,7 @@ class Exporter {
 
     std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
-        std::vector<int> empty, thin;  // the slices that are left out: empty ones, and those too thin for a body
+        std::vector<int> empty, thin;  // slices that the file lacks: empty ones, and those too thin for a body
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == BodyKind::skeleton) prepareSkeleton();
@@ -132,7 +132,7 @@ class Exporter {
         return solids;
     }
 
-    /// Returns the color of the parts of solids that belong to no cell.
+    /// Returns the color of solid bodies. Triangles that were cut from a cell have the color of the cell instead.
     scene::Color colorOfSolids() const {
         const bool isCell = element_ && element_->kind == slicing::ElementKind::cell;
         return isCell ? scene_.cellColors[element_->index] : scene::style().ball;
@@ -259,8 +259,9 @@ class Exporter {
                                                                 (isCell ? ", or too little for this size" : "") +
                                                                 "; choose body=skeleton, its balls and bars"}};
     }
-    /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most a few grid steps large, as
-    /// it is if it is far from its origin.
+    /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most a few grid steps large.
+    /// This happens if the polytope is far from the origin, because ExportRequest::size is the diameter of a sphere
+    /// around the origin.
     void refuseTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         BoundingBox box;
@@ -313,10 +314,11 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
-    std::optional<slicing::Element> element_;  // the element that is exported alone; absent for other contents
+    std::optional<slicing::Element>
+        element_;  // the element for ExportContentsKind::highlight; empty for other contents
     SkeletonRadii radii_;
     double cube_ = 0;
-    bool hasSurfaces_ = false;  // whether the bodies are those that the surfaces of a field enclose
+    bool hasSurfaces_ = false;  // whether the bodies are enclosed by the surfaces of a field
     std::vector<std::string> warnings_;
 };
 

@@ -17,8 +17,9 @@ namespace oval4d::exports {
 /// An exported file.
 struct ExportedFile {
     std::string bytes;
-    /// What the user may miss in the file: slices without a body, and labels without room. A warning contains no
-    /// semicolon and does not end with a full stop. Its only character outside of ASCII is the minus sign U+2212.
+    /// Texts for the user about what the file lacks: slices without a body, labels without room and so on. A warning
+    /// contains no semicolon and does not end with a full stop. Its only character outside of ASCII is the minus sign
+    /// U+2212.
     std::vector<std::string> warnings;
 };
 
@@ -37,9 +38,9 @@ struct ExportedFile {
 /// Bodies are closed and 2-manifold: every edge belongs to exactly two triangles, which traverse it in opposite
 /// directions. Their normals point outward. They are in millimeters, unless the format requires meters.
 ///
-/// Returns an error if a limit is exceeded, if there is nothing to export, if the format cannot contain what is asked,
-/// or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font of a label
-/// cannot be read, or if the plate of a label cannot be made.
+/// Returns an ExportRefusal if a limit is exceeded, if there is nothing to export, if the format cannot contain what is
+/// requested, or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font
+/// of a label cannot be read, or if the plate of a label cannot be made.
 std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene, const slicing::Object& object,
                                                       const geometry::Rotation& orientation,
                                                       const ExportRequest& request, const ExportLimits& limits,

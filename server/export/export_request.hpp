@@ -41,7 +41,7 @@ struct ExportRequest {
     double size = 60;
     LabelPlacement label = LabelPlacement::none;
     /// For ExportContentsKind::oval: slices that replace those of the session. At most one of `chosenW` and
-    /// `fittedSlices` is given.
+    /// `fittedSlices` is given. If neither is, the slices are those of the session.
     /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see
     ///   ObjectInfo::originInFile), and in this order.
     /// - `fittedSlices`: the number of equal parts into which the object's extent along w is divided; there is a slice

@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about slices that are not in a file.
+// Warnings about slices that an exported file lacks.
 
 #include <span>
 #include <string>
@@ -10,10 +10,10 @@
 namespace oval4d::exports {
 
 /// Returns a warning that a file lacks some of the slices in `planes`. `slices` are the indices of the missing slices,
-/// from 0 and in ascending order; there must be at least one. The warning states how many slices are missing, out of
-/// how many, for which reason, and the values of w of the first ones, for example "2 of 5 slices are empty and left
-/// out: w = −2, 2". `reason` is the reason without the verb: "empty". `origin`, the w of ObjectInfo::originInFile, is
-/// added to each w. The text contains no semicolon. Its only character outside of ASCII is the minus sign U+2212.
+/// from 0 and in ascending order; there must be at least one. The warning states how many of the slices are missing,
+/// the reason, and the w of the first missing ones, for example "2 of 5 slices are empty and left out: w = −2, 2".
+/// `reason` is the reason without the verb: "empty". `origin`, the w of ObjectInfo::originInFile, is added to each w.
+/// The text contains no semicolon. Its only character outside of ASCII is the minus sign U+2212.
 std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<const int> slices, std::string_view reason,
                               double origin = 0);
 

@@ -31,8 +31,9 @@ struct SecondFunction {
     std::string variable = {};                        ///< the name of the array in its file; empty if it has none
 };
 
-/// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
-/// it. The members have the meaning of the members of session::LoadObject with the same names.
+/// Where the samples of a field come from if they are too large for memory: a file in the server's data folder, and the
+/// options with which it is read. The members have the meaning of the members of session::LoadObject with the same
+/// names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;
@@ -61,7 +62,8 @@ struct Field : geometry::ObjectInfo {
                                                ///< of sessions then do not count it
     std::shared_ptr<const FileSource> source;  ///< null unless the samples are too large for memory
 
-    /// Returns whether samples of the field or of its second array are in a mapped file that can no longer be read.
+    /// Returns whether the samples of the field or of its second array are in a mapped file of which a part could not
+    /// be read, or which has changed (see MappedFile::isLost()).
     bool isLost() const;
 
     /// Returns the function whose values color the surfaces if the coloring is scene::Coloring::value: the second
@@ -81,7 +83,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 void setSecondFunction(Field& field, SecondFunction second);
 
 /// Returns the image of the field in the frame of reference `frame`, with the serial number `serial`. The image has the
-/// same functions on the same box; only its coordinates as a 4-D object differ.
+/// same functions on the same box as `field`; only the coordinates of the 4-D object differ.
 Field transformedTo(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::fields

@@ -50,7 +50,7 @@ FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(
 
 const ValueRange& TypicalRangeOnBox::get() const {
     std::call_once(measured_, [&] {
-        // Slow functions are evaluated at fewer points.
+        // The slower the function, the fewer batches are evaluated.
         constexpr double kTime = 1e6;  // nanoseconds, for all points
         constexpr std::size_t kMaxBatches = 8, kCorners = 81;
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);

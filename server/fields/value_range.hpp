@@ -30,7 +30,7 @@ void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out);
 
 /// Two ranges of a set of values. `full` is from the least to the greatest value. `typical` leaves out outliers, such
 /// as values near a pole: it is the range of the middle 98 % of the values, extended by a tenth of its length at both
-/// ends, but not beyond `full`. For most functions, both ranges are the same.
+/// ends, but not beyond `full`. For most functions, the two ranges are equal.
 struct FullAndTypicalRange {
     ValueRange full, typical;
 };

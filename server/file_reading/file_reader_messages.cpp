@@ -19,8 +19,8 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings from a reader process, which a malicious file may control. Usual errors and
-// warnings are far below these limits.
+// Limits on the errors and warnings that the server accepts from a reader process, because a malicious file may control
+// that process. Usual errors and warnings are far below these limits.
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 
@@ -51,8 +51,8 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Estimates the size in bytes of the samples that the encoded outcome itself contains. Arrays with more than
-/// `maxInMemory` samples do not count, because their samples are in mapped files.
+/// Returns the size in bytes of the samples that the encoded outcome contains. Arrays with more than `maxInMemory`
+/// samples do not count, because the outcome only refers to the mapped files with their samples.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -102,7 +102,7 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
         return;
     }
     out.reserve(
-        sampleBytes(outcome->object, maxInMemory));  // so that a large array is not copied while the string grows
+        sampleBytes(outcome->object, maxInMemory));  // otherwise, a large array would be copied while the string grows
     archive(OutcomeKind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);
@@ -132,8 +132,8 @@ Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const 
 }
 
 std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits) {
-    // In the text of a file, a number takes at least two bytes, including the blank after it. In the outcome, an index
-    // takes four bytes, and a cell of a convex hull with its 2-faces takes less than kPerCell bytes.
+    // In the text of a file, a number and the blank after it take at least two bytes. In the outcome, an index takes
+    // four bytes, and a cell of a convex hull with its 2-faces takes less than kPerCell bytes.
     constexpr std::size_t kPerTextByte = 16, kPerCell = 512, kBase = 1U << 20U;
     if (load.isArrayInFiles() || session::isArrayFormat(load.format)) return kBase + limits.maxFieldBytes;
     return kBase + kPerTextByte * load.data.size() + kPerCell * limits.maxHullCells;

@@ -14,14 +14,15 @@ namespace oval4d::file_reading {
 
 /// What a file reader process must read.
 struct ReadRequest {
-    session::LoadObject load;      ///< its open files and folder, `dataName`, `continues` and `append` are not sent
-    std::size_t seriesLength = 0;  ///< the number of files of a series, whose descriptors follow in further messages
+    session::LoadObject load;      ///< sent without its open files and folder, `dataName`, `continues` and `append`
+    std::size_t seriesLength = 0;  ///< the number of files of a series; further messages carry their descriptors
     bool isFolder = false;         ///< whether a Zarr folder is read; the reader process asks the server for its files
     bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or go to a new one
     session::Limits limits;        ///< only maxVertices, maxHullCells and maxFieldBytes are sent
 };
 
-/// Encodes a request to read the file of `load` within `limits`. Overwrites `out`.
+/// Encodes a request to read the file of `load` within `limits`, and writes it to `out`. `mayMap`: see
+/// ReadRequest::mayMap.
 void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out);
 /// Decodes the bytes of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
@@ -31,7 +32,7 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
                    slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 
-/// Decodes the result of encodeOutcome(). `files` are the mapped files to which the bytes may refer. The bytes need not
+/// Decodes the result of encodeOutcome(). `files` are the mapped files to which the bytes may refer. `bytes` need not
 /// be trusted: a malicious file may control the process that sent them. Returns a valid object called `name` with a
 /// bounded number of printable warnings, or an error about the file that can be sent to the client. Throws
 /// std::runtime_error if the bytes are invalid.
@@ -39,7 +40,7 @@ Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const 
                                                   const session::Limits& limits,
                                                   const slicing::MappedFiles& files = {});
 
-/// Returns the maximum size in bytes of the encoded outcome of reading this file.
+/// Returns the maximum number of bytes that encodeOutcome() writes for the file of `load`.
 std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits);
 
 }  // namespace oval4d::file_reading

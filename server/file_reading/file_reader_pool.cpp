@@ -22,7 +22,8 @@ using process::WaitLimit;
 
 namespace {
 
-// Drawing has priority: a reader that shares a core with a process that draws gets a quarter of the CPU time.
+// The nice value of reader processes. Drawing has priority: a reader that shares a core with a rasterizer process gets
+// about a quarter of the CPU time.
 constexpr int kNiceness = 5;
 
 }  // namespace
@@ -56,7 +57,7 @@ void FileReaderPool::retire(ChildProcessPtr used) {
     wake_.notify_all();
 }
 
-/// Kills processes that have read a file, and starts new ones in their place. If no file is read for
+/// Kills processes that have read a file, and starts a new process in place of each. If no file is read for
 /// FileReaderOptions::idle, kills the waiting processes. Runs on its own thread, so that no client waits for the
 /// replacement.
 void FileReaderPool::replaceUsed(const std::stop_token& stop) {
@@ -72,7 +73,8 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // acquire() may have created further processes while none was waiting, so there may now be more than needed.
+        // If no process was waiting, acquire() has created further ones, so there may now be more processes than
+        // needed.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
@@ -94,7 +96,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
 
 namespace {
 
-// The conversation about one file with a reader process. The process may be controlled by whoever made the file.
+// The conversation with a reader process about one file. Whoever made the file may control the process.
 class FileReadConversation {
   public:
     FileReadConversation(const session::LoadObject& load, const FileAllocator& allocate)
@@ -149,7 +151,7 @@ class FileReadConversation {
     }
 
     int makeFile(WaitLimit& limit) {
-        constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
+        constexpr std::size_t kMaxFiles = 4;  // a decompressed and a converted file for each of two arrays
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
             throw std::runtime_error("a reader process asked for a file that it does not need");

@@ -23,7 +23,7 @@ namespace oval4d::file_reading {
 /// The options of FileReaderPool.
 struct FileReaderOptions {
     std::chrono::duration<double> timeout;  ///< the time allowed for reading one file
-    std::chrono::duration<double> idle;     ///< the time after which waiting processes end if no file is read
+    std::chrono::duration<double> idle;     ///< waiting processes end if no file is read for this time
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called when a process is lost, on any thread
     std::vector<std::string> environment;                     ///< see process::ChildOptions
     std::size_t maxWaiting;                                   ///< the maximum number of processes that wait for a file
@@ -44,11 +44,11 @@ class FileReaderPool {
     FileReaderPool(const FileReaderPool&) = delete;
     FileReaderPool& operator=(const FileReaderPool&) = delete;
 
-    /// Reads a file as session::readObject() does, but in another process. Blocks the calling thread.
+    /// Reads a file as session::readObject() does, but in another process. Returns when the file has been read.
     ///
     /// If `allocate` is given, arrays of more than Limits::maxFieldBytes are allowed: their samples stay in the file,
-    /// which is mapped, or are in a new file that `allocate` makes. The timeout is extended by one second for each
-    /// kBytesPerSecond bytes of a new file.
+    /// which is mapped, or are in a new file that `allocate` makes. The timeout (FileReaderOptions::timeout) is
+    /// extended by one second for each kBytesPerSecond bytes of a new file.
     ///
     /// Errors: those of session::readObject() and of `allocate`, and `too_large` if the process needs more memory or
     /// time than is allowed. Throws process::Canceled if `stop` is requested. Throws std::runtime_error if the process
@@ -64,7 +64,7 @@ class FileReaderPool {
     using ChildProcessPtr = std::unique_ptr<process::ChildProcess>;
 
     ChildProcessPtr acquire();
-    void retire(ChildProcessPtr used);  // passes a process that has read its file to the thread that replaces it
+    void retire(ChildProcessPtr used);  // passes a process that has read a file to the thread of replaceUsed()
     void replaceUsed(const std::stop_token& stop);
 
     const FileReaderOptions options_;

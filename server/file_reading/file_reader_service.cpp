@@ -33,7 +33,8 @@ int receiveDescriptor(const Channel& channel) {
     return descriptor;
 }
 
-// Receives and maps the files of a series. Closes each file after it is mapped, because a process may open only a few.
+// Receives and maps the `count` files of a series. Closes the descriptor of each file when the file is mapped, because
+// the process may have only few descriptors open.
 Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, std::size_t count) {
     std::vector<fields::FileContents> files;
     std::optional<Error> fault;  // the first error; the other files must be received, too
@@ -55,7 +56,7 @@ class RequestedObjectReader {
     RequestedObjectReader(const Channel& channel, ReadRequest request)
         : channel_(channel), request_(std::move(request)) {}
 
-    // Writes the outcome to `body`.
+    // Reads what is requested, and writes the encoded outcome to `body`.
     void run(std::string& body) {
         auto outcome = object();
         if (outcome && std::ranges::any_of(sources_, [](const auto& each) { return each.file && each.file->isLost(); }))
@@ -89,7 +90,8 @@ class RequestedObjectReader {
         return session::readArray(*contents, load.name, options, {load.secondFormula, load.secondVariable});
     }
 
-    // Gets a new file from the server. If there is no room, the server kills this process instead.
+    // Gets a new file of `bytes` bytes from the server. If there is no room for the file, the server kills this process
+    // instead of answering.
     Result<std::shared_ptr<fields::MappedFile>> requestFile(std::size_t bytes) {
         channel_.send(MessageType::new_file, {reinterpret_cast<const char*>(&bytes), sizeof bytes});
         auto file =
@@ -98,7 +100,8 @@ class RequestedObjectReader {
         return file;
     }
 
-    // Gets a file of the folder from the server; an empty optional if there is no such file.
+    // Gets the file at `path` in the requested folder from the server; returns an empty optional if there is no such
+    // file.
     Result<std::optional<fields::FileContents>> openFile(const std::string& path) {
         channel_.send(MessageType::open_file, path);
         const fields::FileHandle file(receiveDescriptor(channel_));
@@ -127,7 +130,7 @@ void replaceByOutcome(const Channel& channel, std::string& body, int descriptor)
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
     }
-    encodeOutcome(kNoMemory, body);  // can allocate memory, because stack unwinding has freed that of the file
+    encodeOutcome(kNoMemory, body);  // memory is available: stack unwinding has freed that of the file
 }
 
 }  // namespace

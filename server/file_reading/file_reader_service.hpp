@@ -5,11 +5,11 @@
 
 namespace oval4d::file_reading {
 
-/// The subcommand of this program that runs it as a reader process.
+/// The subcommand with which this program runs as a reader process.
 inline constexpr const char* kFileReaderCommand = "read";
 
-/// Confines this process to a sandbox, receives one file over `socket`, sends back the object in the file or an error,
-/// and returns.
+/// Confines this process to a sandbox, receives the request for one file over `socket`, answers with the object in the
+/// file or with an error, and returns.
 void runFileReader(int socket, const process::Confinement& confinement);
 
 }  // namespace oval4d::file_reading

@@ -20,12 +20,12 @@ struct Header {
     std::uint64_t size;
 };
 
-// The ancillary data of a message that carries one file descriptor.
+// The ancillary data of a message on a Unix socket (unix(7)) that carries one file descriptor.
 struct alignas(cmsghdr) AncillaryData {
     char bytes[CMSG_SPACE(sizeof(int))];
 };
 
-// The interval at which a wait checks for a stop request.
+// The interval at which waitFor() checks whether a stop has been requested.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
 /// Waits until `event`, an event of poll(2), happens. Returns false if the time limit passes or a stop is requested
@@ -42,7 +42,7 @@ bool waitFor(int socket, short event, const WaitLimit& limit) {
 }
 
 /// Repeats `call`, a nonblocking system call that sends or receives, until it succeeds, and sets `moved` to the number
-/// of bytes. Waits for `event` while the call would block.
+/// of bytes that were sent or received. Waits for `event` whenever the call would block.
 template <typename Call>
 TransferResult moveSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {

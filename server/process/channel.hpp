@@ -12,11 +12,12 @@
 namespace oval4d::process {
 
 /// The types of messages; the comment on each describes the body. A child process first sends `ready` or `failed`. A
-/// rasterizer process replies to `draw` with `drawn` or `failed`. If it does not have the object to draw, it first
-/// sends `object_missing`; the server then sends a `file_descriptor` for each mapped file to which the object refers,
-/// and then `object`. After `file`, the server sends a `file_descriptor` for each file of a series. A file reader
-/// process replies to `file` with `outcome`. Before that, it may send `new_file` and `open_file`; the server replies to
-/// each with `file_descriptor`, which carries no file descriptor if there is no such file.
+/// rasterizer process replies to `draw` with `drawn` or `failed`. If the process lacks the object to draw, it first
+/// sends `object_missing`; the server replies with a `file_descriptor` for each mapped file to which the object refers,
+/// followed by `object`. After `file`, the server sends a `file_descriptor` for each file of the series, if a series is
+/// to be read. A file reader process replies to `file` with `outcome`. Before that, it may send `new_file` and
+/// `open_file`; the server replies to each with `file_descriptor`, which carries no file descriptor if there is no such
+/// file.
 enum class MessageType : std::uint32_t {
     ready,            ///< empty
     draw,             ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
@@ -32,7 +33,7 @@ enum class MessageType : std::uint32_t {
 };
 
 /// Limits how long an operation of a Channel waits for the other end: until a point in time, or until a stop is
-/// requested. By default, it waits without a limit.
+/// requested. The default is no limit.
 struct WaitLimit {
     using Clock = std::chrono::steady_clock;
     Clock::time_point until = Clock::time_point::max();
@@ -66,7 +67,7 @@ class Channel {
     TransferResult receive(MessageType& type, std::string& body, int* file = nullptr, const WaitLimit& limit = {},
                            std::size_t maxBytes = kNoLimit) const;
 
-    /// Waits until a message can be received or the other end is closed. Returns false if the limit is reached first.
+    /// Waits until a message can be received or the other end is closed. Returns false if `limit` is reached before.
     bool wait(const WaitLimit& limit) const;
 
   private:

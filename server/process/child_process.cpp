@@ -25,7 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = WaitLimit::Clock;
 
-// The maximum size in bytes of the reason that a child process sends with MessageType::failed.
+// The maximum size in bytes of the text in which a child process says why it failed (MessageType::failed).
 constexpr std::size_t kMaxReason = 64U << 10U;
 
 /// The environment of a child process: the variables of this process, without those named OVAL4D_… except OVAL4D_FONT,
@@ -55,8 +55,8 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// The time after which a process whose channel was closed is killed if it has not exited. Also the maximum time to wait
-// for the end of a killed process, which may be delayed, for example by a debugger.
+// How long a process may take to exit after its channel was closed; after this time, it is killed. Also the maximum
+// time to wait for the end of a killed process, because a debugger, for example, may delay the end.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process has not exited
@@ -86,8 +86,8 @@ void ChildProcess::start() {
     channel_ = std::make_unique<Channel>(sockets[0]);
     const Channel theirs(sockets[1]);
 
-    // Close the server's other file descriptors in the child; otherwise the server's connections would stay open as
-    // long as the child runs.
+    // The child gets no file descriptors of the server above kChildSocket; otherwise the server's connections would
+    // stay open as long as the child runs.
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, sockets[1], kChildSocket);
@@ -100,8 +100,8 @@ void ChildProcess::start() {
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) {
-        // The parent sets the priority, so that it also applies to the start of the child. For many child processes,
-        // the start is most of the work.
+        // The parent sets the child's priority, so that the priority applies already while the child starts. For many
+        // child processes, starting is most of the work.
         if (options_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), options_.niceness);
         return;
     }
@@ -113,8 +113,8 @@ void ChildProcess::kill() {
     if (channel_) endProcess(true);
 }
 
-/// Closes the channel and ends the process: kills it immediately if `atOnce`, else after kExitTimeout if it has not
-/// exited by then. Returns its signal or exit status as text.
+/// Closes the channel and ends the process. Kills the process immediately if `atOnce` is true; otherwise, kills it only
+/// if it has not exited after kExitTimeout. Returns the signal or exit status of the process as text.
 std::string ChildProcess::endProcess(bool atOnce) {
     channel_.reset();
     ready_ = false;
@@ -147,12 +147,12 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // If the process hangs while it starts, this conversation is not the cause: `talked` stays false.
+            // `talked` stays false if the process hangs while it starts, because this conversation is not the cause.
             if (!ready_) awaitReady(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
-            endProcess(true);  // kills the process, which could send a late reply into the next conversation
+            endProcess(true);  // kills the process, whose late reply could disturb the next conversation
             throw;
         }
         if (transfer == TransferResult::complete) return;
@@ -173,7 +173,7 @@ void initializeChild() {
     // end.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a child that hangs or is stopped would not notice that its socket is closed
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise, a child that hangs or is stopped would outlive the server
 }
 
 }  // namespace oval4d::process

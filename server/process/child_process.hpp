@@ -37,13 +37,13 @@ struct ChildOptions {
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
 };
 
-/// Thrown when a conversation fails because the process was lost and the conversation must not be repeated, or because
-/// the process that replaced it was lost, too.
+/// Thrown when a conversation fails: the process was lost, and either the conversation must not be repeated, or the new
+/// process was lost, too.
 class ProcessLostError : public std::runtime_error {
   public:
     ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Returns true if a process hung during the conversation and ChildOptions::repeatAfterHang is false. Otherwise,
-    /// returns false: a process and then its replacement were lost.
+    /// Returns true if the conversation was not repeated because the process hung (see ChildOptions::repeatAfterHang).
+    /// Returns false if both the process and the new process that replaced it were lost.
     bool hung() const { return hung_; }
 
   private:
@@ -51,13 +51,13 @@ class ProcessLostError : public std::runtime_error {
 };
 
 /// A child process that runs this program. The process is started on demand, and a new process replaces it if it is
-/// lost. It ends when this object is destroyed or the server ends. The process inherits only one file descriptor of the
-/// server, standard error (the log). It inherits the environment variables of the server, but only OVAL4D_FONT of those
-/// named OVAL4D_…, because the others may hold secrets. Not thread-safe: one thread at a time may use an object.
+/// lost. The process ends when this object is destroyed or the server ends. It inherits only one file descriptor of the
+/// server, standard error (the log). It inherits the environment variables of the server without those named OVAL4D_…,
+/// which may hold secrets; only OVAL4D_FONT is inherited, too. Not thread-safe: one thread at a time may use an object.
 class ChildProcess {
   public:
-    /// A conversation: sends messages to the process and receives its replies within the limit. Returns the result of
-    /// its last transfer.
+    /// A function that sends messages to the process and receives the replies, within the WaitLimit that it gets.
+    /// Returns the result of its last call of Channel::send() or Channel::receive().
     using ConversationFunction = std::function<TransferResult(const Channel&, const WaitLimit&)>;
 
     explicit ChildProcess(ChildOptions options);
@@ -66,7 +66,7 @@ class ChildProcess {
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Starts the process unless it is running. Does not wait until the process is ready. Throws std::runtime_error if
-    /// it cannot be started.
+    /// the process cannot be started.
     void start();
 
     /// Starts the process if necessary, and calls `conversation` when the process is ready. If the process is lost,
@@ -90,7 +90,7 @@ class ChildProcess {
     std::unique_ptr<Channel> channel_;  // null while no process is running
     bool ready_ = false;
     pid_t process_ = 0;
-    std::vector<pid_t> unreaped_;  // killed processes that had not ended after kExitTimeout
+    std::vector<pid_t> unreaped_;  // killed processes that did not end within kExitTimeout
 };
 
 /// Makes this process end when the server ends, and ignore SIGINT and SIGTERM. A child process must call this first.

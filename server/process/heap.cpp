@@ -8,8 +8,8 @@ namespace oval4d::process {
 
 namespace {
 
-// Thresholds in bytes. If they are not set, glibc raises its own thresholds step by step, to at most these values, when
-// large blocks are freed.
+// Fixed thresholds of glibc's allocator, in bytes. Without them, glibc would raise its own thresholds step by step, to
+// at most these values, when large blocks are freed.
 constexpr int kMapThreshold = 32 << 20;  // a block of at least this size is mapped, and unmapped when it is freed
 constexpr int kTrimThreshold = 2 * kMapThreshold;
 
@@ -23,8 +23,8 @@ HeapConfiguration::HeapConfiguration() {
     malloc_trim(0);
 }
 
-/// malloc_trim does not return the free memory at the end of a thread's arena, however much there is. glibc returns it
-/// when the thread frees a large block and the free memory exceeds the trim threshold. Therefore this function sets the
+/// malloc_trim does not return the free memory at the end of a thread's arena. glibc returns this memory only when the
+/// thread frees a large block and there is more free memory than the trim threshold. Therefore this function sets the
 /// threshold to 0 for a moment, and frees a large block.
 void HeapConfiguration::returnFreeMemory() {
     mallopt(M_TRIM_THRESHOLD, 0);

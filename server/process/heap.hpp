@@ -2,8 +2,8 @@
 
 namespace oval4d::process {
 
-/// The heap of this process, which glibc's allocator manages. The constructor configures the allocator: construct one
-/// object in main(), before the program allocates much memory.
+/// The heap of this process, which glibc's allocator manages. The constructor configures the allocator, so main() must
+/// construct the only object before the program allocates much memory.
 class HeapConfiguration {
   public:
     HeapConfiguration();

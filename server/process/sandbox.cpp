@@ -28,8 +28,8 @@ void check(int error) {
     if (error < 0) throw std::runtime_error(std::string("cannot filter system calls: ") + std::strerror(-error));
 }
 
-// System calls that are allowed in all roles, with any arguments. None of them affects anything outside the process and
-// its open files.
+// System calls that the filter allows in all roles, with any arguments. They affect nothing but the process and its
+// open files.
 constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "clock_getres",
                                                           "clock_gettime",
@@ -78,14 +78,15 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// Calls that Mesa, the graphics library, makes in its threads, mainly to set their processor affinity and priority.
+// System calls that Mesa, the graphics library, makes in its threads, mainly to set their processor affinity and
+// priority.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
 
-// Calls that kill the process: no library makes them, so they show that an attacker controls the process. All other
-// calls that are not allowed fail with an error instead, because newer versions of libraries may try new calls and can
-// handle the error.
+// System calls for which the kernel kills the process: no library makes them, so they show that an attacker controls
+// the process. Every other call that is not allowed fails with an error, because newer versions of libraries may try
+// new calls and can handle the error.
 constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "accept4",
                                                             "bind",
@@ -117,17 +118,18 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "userfaultfd",
                                                             "vfork"});
 
-/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. `allThreads`: whether the
-/// filter applies to all threads of the process, or only to the calling one. Rules for calls that do not exist on this
-/// architecture are skipped.
+/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. If `allThreads` is true, the
+/// filter applies to all threads of the process, else only to the calling thread. Rules for calls that do not exist on
+/// this architecture are skipped.
 class SeccompFilter {
   public:
     SeccompFilter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
         if (!context_) check(-ENOMEM);
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
-        // Kill the process for calls of another architecture, such as 32-bit ones: no part of this program makes them.
+        // System calls of another architecture, such as 32-bit calls on x86-64, kill the process: no part of this
+        // program makes them.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
-        // 2: arrange the rules in a binary search tree, because calls are frequent.
+        // The value 2 arranges the rules in a binary search tree, which is faster to search at every call.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     }
 
@@ -175,14 +177,14 @@ std::size_t dataInUse() {
     return pages.back() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Returns whether a filter of system calls can be set on this system. If it cannot, sets `why` to the reason.
+/// Returns whether a filter of system calls can be set on this system. If it cannot be set, sets `why` to the reason.
 bool canFilter(std::string& why) {
     if (kSanitized) {
         why = "this is a build with a sanitizer";
         return false;
     }
     // Only a trial shows whether a filter can be set, because the filter of a container may forbid setting another one.
-    // The trial filter applies to one temporary thread, and ends with this thread.
+    // The trial filter applies only to a temporary thread, and ends with that thread.
     std::thread([&why] {
         try {
             SeccompFilter filter(SCMP_ACT_ALLOW, false);
@@ -209,8 +211,8 @@ void filterSystemCalls(SandboxRole role) {
     // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
     // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
-    // Shared memory without a file would not count as memory of the process, so mmap must not get these two flags
-    // together.
+    // mmap must not get these two flags together: they request shared memory without a file, which would not count
+    // toward the memory limit of the process.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == SandboxRole::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});

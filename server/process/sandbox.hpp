@@ -19,8 +19,9 @@ enum class SandboxMode : std::uint8_t {
 };
 
 /// Returns whether child processes are to be confined by a filter of system calls. Unless `wanted` is `off`, tries to
-/// set such a filter for a temporary thread. If that fails, sets `why` to the reason; throws std::runtime_error if
-/// `wanted` is `required`. Builds with a sanitizer have no sandbox, because sanitizers need more system calls.
+/// set such a filter for a temporary thread. If the filter cannot be set, sets `why` to the reason and, if `wanted` is
+/// `required`, throws std::runtime_error. Builds with a sanitizer have no sandbox, because sanitizers need more system
+/// calls.
 bool shouldSandbox(SandboxMode wanted, std::string& why);
 
 /// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
@@ -34,8 +35,9 @@ enum class SandboxRole : std::uint8_t {
 /// The restrictions that a child process applies to itself.
 struct Confinement {
     bool filtered = false;  ///< whether to allow only the system calls that the role needs
-    /// The maximum number of bytes of private memory, written or not, beyond the memory already in use; 0 means no
-    /// limit. Mapped files do not count. Ignored in builds with a sanitizer.
+    /// The maximum number of bytes of private memory that the process may allocate in addition to what it already uses,
+    /// whether it writes to the memory or not; 0 means no limit. Mapped files do not count. Ignored in builds with a
+    /// sanitizer.
     std::size_t memory = 0;
     /// The maximum number of open file descriptors, including those already open; 0 means no limit. Ignored in builds
     /// with a sanitizer.

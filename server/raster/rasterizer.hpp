@@ -15,7 +15,8 @@
 
 namespace oval4d::raster {
 
-/// The seconds that each step of drawing a picture took: slicing the object, composing the scene, and rendering it.
+/// How many seconds each step of drawing a picture took: slicing the object, composing the scene, and rendering the
+/// scene.
 struct DrawTimes {
     double slice = 0, compose = 0, draw = 0;
 };
@@ -25,8 +26,8 @@ class Rasterizer {
   public:
     virtual ~Rasterizer() = default;
 
-    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when everything is
-    /// ready. Throws std::runtime_error if pictures cannot be drawn.
+    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when the rasterizer is
+    /// ready to draw. Throws std::runtime_error if pictures cannot be drawn.
     virtual void warmUp() = 0;
 
     /// Draws the picture of `state` and sets `times`. Returns the pixels, with the layout of image::Image, which are
@@ -34,7 +35,7 @@ class Rasterizer {
     virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
                                                slicing::Quality quality, DrawTimes& times) = 0;
 
-    /// Frees the memory that is kept for the next picture.
+    /// Frees the memory that this object keeps between pictures, to draw the next one faster.
     virtual void freeMemory() = 0;
 };
 
@@ -42,7 +43,7 @@ class Rasterizer {
 /// only the thread that made this call may use and destroy the rasterizer.
 class LocalRasterizer : public Rasterizer {
   public:
-    /// If `forkJoin` is not null, slices and draws on two cores. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, slicing and drawing use two cores. `forkJoin` must outlive this object.
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), workspace_(forkJoin) {}
 
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
@@ -52,8 +53,8 @@ class LocalRasterizer : public Rasterizer {
     void warmUp() override;
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                                        DrawTimes& times) override;
-    /// Frees the memory that is kept for the next picture, except what Renderer::freeMemory() keeps, such as the GL
-    /// context.
+    /// Frees the memory that this object keeps between pictures, except what Renderer::freeMemory() keeps, such as the
+    /// GL context.
     void freeMemory() override;
 
     /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see
@@ -62,7 +63,7 @@ class LocalRasterizer : public Rasterizer {
               std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
-    // The memory that is kept for the next picture.
+    // What this object keeps between pictures, so that the next one needs no new memory.
     struct Workspace {
         explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
         slicing::Slicer slicer;
@@ -79,7 +80,8 @@ class LocalRasterizer : public Rasterizer {
     Workspace workspace_;
 };
 
-/// Runs `work` and returns how many seconds it took. A template, because a std::function would allocate memory.
+/// Runs `work` and returns how many seconds it took. It is a template and does not take a std::function, which might
+/// allocate memory.
 template <typename Work>
 double measureSeconds(Work&& work) {
     const auto start = std::chrono::steady_clock::now();

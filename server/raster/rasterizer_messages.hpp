@@ -15,18 +15,19 @@ namespace oval4d::raster {
 /// Limits on the work and memory of a rasterizer process.
 struct RasterizerLimits {
     std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::FaceFiller::fill()
-    std::size_t objectBytes = 0;  ///< the maximum size of the cache of objects, which always keeps the latest
+    std::size_t objectBytes = 0;  ///< the maximum size of the cache of objects; the latest object may exceed it
 };
 
 /// The request for one picture.
 struct DrawRequest {
-    /// The serial number of State::source. The object itself is sent in another message, and only if the rasterizer
-    /// process does not have it.
+    /// The serial number of State::source. The object itself is sent in a separate message, and only if the rasterizer
+    /// process does not have this object in its cache.
     std::uint64_t source = 0;
     /// The serial number of State::object. This object is never sent: the rasterizer process makes it from the source
     /// object and the frame of reference.
     std::uint64_t object = 0;
-    /// Only the members that affect pictures are sent, without the objects State::source and State::object.
+    /// The state to draw. Only its members that affect pictures are sent, and not the objects State::source and
+    /// State::object.
     session::State state;
     scene::Viewport viewport;
     slicing::Quality quality = slicing::Quality::full;

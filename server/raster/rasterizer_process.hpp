@@ -19,10 +19,10 @@ namespace oval4d::raster {
 /// The options of rasterizer processes.
 struct RasterizerOptions {
     RasterizerLimits limits;
-    /// The maximum time for starting a process, and for drawing a picture. A process that takes longer is killed and
-    /// counts as lost.
+    /// The maximum time in which a process must start, and in which it must draw a picture. A process that takes longer
+    /// is killed and counts as lost.
     std::chrono::duration<double> timeout;
-    /// Called when a process is lost, by the thread that waits for it.
+    /// Called when a process is lost, on the thread that waits for an answer of this process.
     std::function<void(const process::ProcessLoss&)> onLoss;
     std::vector<std::string> environment;  ///< "NAME=value"; see process::ChildOptions
 };
@@ -37,14 +37,16 @@ struct RasterizerOptions {
 /// cannot be started or reports an error.
 class RasterizerProcess {
   public:
-    /// `threads` is the number of threads of llvmpipe. If it is 0, the main thread of the process does all the drawing.
+    /// `threads` is the number of threads that llvmpipe starts. If it is 0, the main thread of the process does all the
+    /// drawing.
     RasterizerProcess(int threads, const RasterizerOptions& options);
 
-    /// Starts the process if it is not running. Does not wait until it is ready. Throws std::runtime_error if it cannot
-    /// be started.
+    /// Starts the process if it is not running. Does not wait until the process is ready. Throws std::runtime_error if
+    /// the process cannot be started.
     void start() { process_.start(); }
 
-    /// Starts the process if it is not running, and waits until it is ready to draw and has compiled its shaders.
+    /// Starts the process if it is not running, and waits until the process has compiled its shaders and is ready to
+    /// draw.
     void warmUp(const std::stop_token& stop);
 
     /// Like Rasterizer::draw(), but draws into `pixels`, which this function resizes if necessary. The result is valid
@@ -53,7 +55,7 @@ class RasterizerProcess {
                                        SharedPixels& pixels, DrawTimes& times, const std::stop_token& stop);
 
   private:
-    // Receives the answer to a request. Sends the object first if the process asks for it.
+    // Receives the answer to a draw request. Before that, sends the object if the process asks for it.
     process::TransferResult receiveAnswerSendingObject(const session::State& state, const process::Channel& channel,
                                                        const process::WaitLimit& limit);
 

@@ -43,13 +43,14 @@ class RecentObjects {
         }
         return &found->inFrame;
     }
-    /// Adds an object as it was loaded; it becomes the latest object. `bytes`: the memory of the object.
+    /// Adds an object, in the form in which it was loaded, as the latest object. `bytes` is the memory that the object
+    /// takes.
     void add(const slicing::Object& source, std::size_t bytes) {
         kept_.push_front({source, source, bytes});
         bytes_ += bytes;
     }
-    /// Removes the least recently drawn objects until the cache takes at most this much memory, but keeps the latest
-    /// object.
+    /// Removes the least recently drawn objects until the cache takes at most `bytes` bytes of memory. Never removes
+    /// the latest object.
     void shrink(std::size_t bytes) {
         for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back())
             bytes_ -= kept_.back().bytes + kept_.back().inFrameBytes;
@@ -71,14 +72,14 @@ class RasterizerService {
 
     void run(const process::Confinement& confinement) {
         const bool ready = attempt([&] {
-            rasterizer_.warmUp();  // before confine(), because it reads the font and other files
+            rasterizer_.warmUp();  // before confine(), because warmUp() reads the font and other files
             process::confine(process::SandboxRole::draw, confinement);
         });
         if (!ready) return;
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::file_descriptor) continue;  // an object that refers to the file follows
+            if (type == MessageType::file_descriptor) continue;  // the object that refers to this file comes later
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.state.object = *object;

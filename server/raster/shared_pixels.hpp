@@ -7,8 +7,8 @@
 
 namespace oval4d::raster {
 
-/// A memory file (memfd_create(2)) and its mapping into this process. A process to which the file descriptor is sent
-/// over a socket can map the same memory.
+/// A memory file (memfd_create(2)) and its mapping into this process. Another process can map the same memory if it
+/// gets the file descriptor over a socket.
 class SharedPixels {
   public:
     /// Creates an empty file. Throws std::system_error if that fails.
@@ -20,9 +20,9 @@ class SharedPixels {
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Makes the file large enough for `size` bytes; shrinks it if it is more than 4 times as large. Returns the first
-    /// `size` bytes, which are valid until the next call of resize() or remap(). Throws std::system_error if the file
-    /// cannot be resized or mapped.
+    /// Makes the file large enough for `size` bytes. Shrinks the file if it has more than 4 times as many bytes.
+    /// Returns the first `size` bytes, which are valid until the next call of resize() or remap(). Throws
+    /// std::system_error if the file cannot be resized or mapped.
     std::span<std::uint8_t> resize(std::size_t size);
 
     /// Maps the file again if the other process has resized it. Returns the first `size` bytes, which are valid until

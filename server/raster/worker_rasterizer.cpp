@@ -11,11 +11,12 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// For this long after two pictures were drawn or queued at the same time, more such pictures are expected.
+// For this long after two pictures were drawn or queued at the same time, the next pictures are expected to overlap,
+// too.
 constexpr auto kCrowded = 100ms;
-// The next picture is expected to be large if the last one took longer than this to draw, in seconds.
+// The next picture is expected to be large if drawing the last one took more than this number of seconds.
 constexpr double kLarge = 0.004;
-constexpr std::size_t kMostThreads = 8;  // more threads would wait for the thread that gives them work
+constexpr std::size_t kMostThreads = 8;  // more threads of llvmpipe would wait for the thread that gives them work
 
 }  // namespace
 

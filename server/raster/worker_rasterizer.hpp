@@ -13,17 +13,17 @@
 
 namespace oval4d::raster {
 
-/// Holds the rasterizer process that all workers of the server share. This process draws with one thread per core, at
-/// most 8, and therefore draws a single large picture fastest. A worker uses it only if the previous picture of any
-/// worker was large, that is, took more than 4 ms to draw; if no other picture is being drawn or queued; and if no two
-/// pictures were drawn or queued at the same time in the last 100 ms. Otherwise the worker uses its own single-threaded
-/// process: concurrent pictures are drawn with a higher throughput if they do not compete for threads, and for a small
-/// picture, waking threads would take longer than drawing. Thread-safe.
+/// Holds the rasterizer process that all workers of the server share. This process has one drawing thread per core, at
+/// most 8, and therefore draws a single large picture faster than the workers' own processes. A worker uses it only if
+/// the previous picture of any worker was large, that is, took more than 4 ms to draw; if no other picture is being
+/// drawn or queued; and if no two pictures were drawn or queued at the same time in the last 100 ms. Otherwise the
+/// worker uses its own single-threaded process: concurrent pictures are drawn with a higher throughput if they do not
+/// compete for threads, and for a small picture, waking threads would take longer than drawing. Thread-safe.
 class SharedRasterizerProcess {
   public:
-    /// `cores` is the number of processor cores; if it is 1, there is no shared process. `morePicturesQueued` returns
-    /// whether more pictures are queued; any thread may call it. Throws std::runtime_error if the shared process cannot
-    /// be started.
+    /// `cores` is the number of processor cores; on a single core, there is no shared process. `morePicturesQueued`
+    /// returns whether more pictures are queued; any thread may call it. Throws std::runtime_error if the shared
+    /// process cannot be started.
     SharedRasterizerProcess(std::size_t cores, RasterizerOptions options, std::function<bool()> morePicturesQueued);
 
   private:
@@ -31,7 +31,8 @@ class SharedRasterizerProcess {
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
     std::atomic<int> drawing_ = 0;  // the number of workers that are drawing
-    // When a picture was last drawn while another one was drawn or queued, as the time since the clock's epoch.
+    // The last time at which a picture was drawn while another one was drawn or queued, counted from the epoch of the
+    // clock.
     std::atomic<std::chrono::steady_clock::duration> lastQueued_{};
     std::atomic<double> lastDrawSeconds_ = 0;  // the drawing time of the last picture
     std::mutex multithreadedInUse_;

@@ -58,8 +58,8 @@ class ShapeCutter {
     std::optional<DrawnShape> operator()(const DensityImage& density) const { return density; }
 
   private:
-    // Returns the distance of a position from a bound, positive inside and negative outside. The bounds 0 … 3 are
-    // x = farthest, x = −farthest, y = farthest and y = −farthest.
+    // Returns the distance of the position `at` from a bound: positive inside the bound, negative outside. The bounds 0
+    // … 3 are x = farthest, x = −farthest, y = farthest and y = −farthest.
     double insideBound(const glm::dvec2& at, int bound) const {
         return farthest_ - (bound % 2 == 0 ? 1 : -1) * at[bound / 2];
     }

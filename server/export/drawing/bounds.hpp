@@ -1,5 +1,5 @@
 #pragma once
-// Drawings within bounds, for file formats that cannot hold large numbers.
+// Cuts the shapes of drawings at bounds, for file formats that cannot contain large numbers.
 
 #include <optional>
 
@@ -7,9 +7,9 @@
 
 namespace oval4d::exports {
 
-/// Returns the part of a shape that is nearer to both axes of the drawing than `farthest` units, or nothing if there is
-/// none. Lines of slices close to the eye may reach that far beyond the drawing. A disk that reaches farther becomes a
-/// polygon with 360 corners; images are returned unchanged, because they are in the drawing.
+/// Returns the part of a shape in the square −farthest < x, y < farthest, in units of the drawing; an empty optional if
+/// no part is in it. Shapes of slices close to the eye may reach so far beyond the drawing. A disk that is cut becomes
+/// a polygon with 360 corners. Images are returned unchanged, because they lie within the drawing.
 std::optional<DrawnShape> cutAtBounds(const DrawnShape& shape, double farthest);
 
 }  // namespace oval4d::exports

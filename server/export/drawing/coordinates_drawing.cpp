@@ -12,11 +12,11 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kAmplitude = 40;  // the length of the line for a coordinate that equals the circumradius
-constexpr double kMaxColumn = 48;  // the maximum and the minimum width of a vertex's column
-constexpr double kMinColumn = 5;
+constexpr double kAmplitude = 40;          // the length of the line for a coordinate that equals the circumradius
+constexpr double kMaxColumn = 48;          // the maximum width of a vertex's column
+constexpr double kMinColumn = 5;           // the minimum width of a vertex's column
 constexpr double kText = 7;                // font size
-constexpr double kNameRoom = 3.2 * kText;  // the width of the label of a vertex
+constexpr double kNameRoom = 3.2 * kText;  // the width that the label of a vertex needs
 
 /// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
 /// columns are arranged in rows.

@@ -28,7 +28,7 @@ struct Line {
     scene::Color color = 0;
     bool roundEnds = false;
     double opacity = 1;   ///< 0 … 1
-    std::string id = {};  ///< identifies the line in the file; may be empty
+    std::string id = {};  ///< the id of the line in an SVG file; may be empty
 };
 /// The interior of a polygon.
 struct FilledPolygon {
@@ -88,18 +88,18 @@ struct ShapeGroup {
     std::vector<DrawnShape> shapes;
 };
 
-/// A drawing without a background, for white paper.
+/// A drawing for white paper. It has no background.
 struct Drawing {
     std::string title;
     double width = 0, height = 0;
     std::vector<ShapeGroup> groups;  ///< later groups cover earlier ones
     double size = kDrawingSize;      ///< the larger of width and height on paper, in millimeters
 
-    /// Returns the length of a unit on paper, in millimeters.
+    /// Returns the length on paper of one unit of the drawing, in millimeters.
     double millimetersPerUnit() const { return size / std::max(width, height); }
 };
 
-/// The width of drawings in units. A unit is about 1/72 inch if the drawing has its default size.
+/// The width of drawings in units. If the drawing is as large as kDrawingSize, a unit is about 1/72 inch.
 inline constexpr double kDrawingWidth = 480;
 inline constexpr double kDrawingMargin = 12;
 inline constexpr scene::Color kDrawingText = 0x444444;

@@ -11,7 +11,7 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
-constexpr double kNumberRoom = 14;       // the room for numbers to the left of the matrix and below it
+constexpr double kNumberRoom = 14;       // the room for the numbers at the left of the matrix and below the matrix
 constexpr double kNumberCharacters = 4;  // how many characters of the size kNumberSize fit into kNumberRoom
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
@@ -27,7 +27,7 @@ double tickSpacing(double reach) {
     return 5 * power;
 }
 
-/// Returns the number multiple · step with as many decimals as `step` has.
+/// Returns multiple · step as text, with as many decimals as `step` has.
 std::string numberText(double multiple, double step) {
     if (multiple == 0) return "0";
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
@@ -73,7 +73,7 @@ class SectionDrawer {
                                            .roundEnds = true,
                                            .opacity = opacity});
         }
-        const bool isCloud = !from.ballScale.empty();  // each point of a cloud has its own radius and opacity
+        const bool isCloud = !from.ballScale.empty();  // a point cloud, whose points have their own radii and opacities
         for (std::size_t i = 0; i < from.points.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
@@ -83,8 +83,8 @@ class SectionDrawer {
         return group;
     }
 
-    /// Draws numbers and marks at the outer edges of the outermost panels: at the left of each row, and below each
-    /// column. Numbers with more than kNumberCharacters characters are smaller.
+    /// Draws tick marks and their numbers: at the left edge of each row of panels, and at the lower edge of each
+    /// column. Numbers with more than kNumberCharacters characters have a smaller font size.
     ShapeGroup drawNumbers() const {
         constexpr double kMark = 3, kWidth = 0.6;  // kWidth: of a character, as a fraction of the font size
         const double half = kPanel / 2;
@@ -113,8 +113,8 @@ class SectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name what
-    /// must be added to them.
+    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name the
+    /// number that must be added to each of them.
     void drawName(int axis, std::vector<DrawnShape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
@@ -131,7 +131,8 @@ class SectionDrawer {
                kPanel / 2;
     }
 
-    // Returns the number of steps to subtract from the numbers at an axis to shorten them; 0 if they are short enough.
+    // Returns how many tick spacings (step_) are subtracted from all numbers at an axis, to shorten them; 0 if the
+    // numbers are short enough.
     double offset(int axis) const {
         const double middle = std::round(origin_[axis] / step_);
         return static_cast<double>(numberText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;

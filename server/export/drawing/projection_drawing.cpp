@@ -17,7 +17,7 @@ namespace {
 using slicing::SliceSet;
 
 constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
-constexpr double kHaloWidth = 1.8;  // width of the gap in a bar behind another one, in widths of the front bar
+constexpr double kHaloWidth = 1.8;  // the width of the gap that a bar makes in bars behind it, in widths of the bar
 
 scene::Color mix(scene::Color a, scene::Color b, double t) {
     scene::Color mixed = 0;
@@ -48,7 +48,7 @@ class ProjectionDrawer {
     }
 
   private:
-    // Adds a shape; depths increase toward the viewer.
+    // Adds a shape at a depth. Depths increase toward the viewer.
     template <typename S>
     void add(double depth, S shape) {
         depths_.push_back(depth);
@@ -58,7 +58,8 @@ class ProjectionDrawer {
     glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
     static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
-    // Returns the color of a bar or ball at this depth, in part 0 (the object) or in another part (a section).
+    // Returns the color of a bar or ball at this depth. Part 0 of the projection is the object; all other parts are
+    // sections.
     scene::Color colorAt(std::size_t part, double depth) const {
         const scene::Color focus = scene_.style().axes[3];
         if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;
@@ -90,7 +91,8 @@ class ProjectionDrawer {
                              b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
-            // The white halo makes a gap in the bars behind this one, but not in those that meet it at its ends.
+            // A white line, wider than this bar, makes a gap in the bars behind it. The white line is shorter than the
+            // bar, so that it makes no gap in bars that meet this one at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
             add(depth, Line{.from = onPaper(a + gap),
                             .to = onPaper(b - gap),

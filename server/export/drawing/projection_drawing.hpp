@@ -5,9 +5,9 @@
 
 namespace oval4d::exports {
 
-/// Draws the projection of the whole object to three dimensions, and the sections in it. The drawing is a parallel
-/// projection along the direction in which the camera looks. Sorts the shapes by depth; nearer bars are darker. The
-/// scene must show the projection.
+/// Draws the projection of the whole object to three dimensions, with the sections that it contains. From three to two
+/// dimensions, the drawing is a parallel projection along the direction in which the camera looks. Nearer shapes cover
+/// farther ones, and nearer bars are darker. The scene must show the projection.
 Drawing drawProjection(const scene::Scene& scene);
 
 }  // namespace oval4d::exports

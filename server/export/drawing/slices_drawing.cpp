@@ -26,12 +26,12 @@ namespace {
 
 using slicing::SliceSet;
 
-// Shapes behind the eye, or less than this in front of it, in world units, are not drawn.
+// Shapes less than this distance in front of the eye, or behind it, are not drawn; in world units.
 constexpr double kNearest = 1e-3;
 constexpr double kDigitHeight = 0.73;            // the height of a digit, as a fraction of the font size
 constexpr std::size_t kTypicalShapeBytes = 150;  // the approximate size of a shape in a file
 
-/// Returns the label with hyphens in place of minus signs, because drawings contain only ASCII text.
+/// Returns the label with hyphens in place of minus signs (U+2212), because texts of drawings are ASCII.
 std::string withAsciiMinus(const std::string& label) {
     constexpr std::string_view kMinus = "\u2212";
     std::string text = label;
@@ -40,7 +40,7 @@ std::string withAsciiMinus(const std::string& label) {
     return text;
 }
 
-/// Maps view space to the paper.
+/// Maps points in view space to positions in the drawing.
 class PaperProjection {
   public:
     explicit PaperProjection(const scene::Scene& scene)
@@ -49,7 +49,7 @@ class PaperProjection {
           height_(kDrawingWidth / aspect_) {}
 
     double height() const { return height_; }
-    /// Returns how long one world unit is in the drawing if it lies at the point `seen`, in view space.
+    /// Returns the length in the drawing of one world unit at the point `seen` in view space.
     double scaleAt(const glm::dvec3& seen) const { return camera_.focalLength() * height_ / -seen.z; }
     glm::dvec2 operator()(const glm::dvec3& seen) const {
         const glm::dvec2 at = glm::dvec2(seen) * (camera_.focalLength() / -seen.z) +
@@ -89,7 +89,8 @@ class SliceDrawer {
     }
 
   private:
-    /// The layers of a convex slice, in drawing order. In a slice whose faces may cross, everything is in one layer.
+    /// The layers of a convex slice, in drawing order: faces turned away from the eye, their bars and balls, faces
+    /// turned toward the eye, their bars and balls. In a slice whose faces may cross, everything is in the first layer.
     enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
     struct LayeredShape {
         Layer layer;
@@ -121,7 +122,7 @@ class SliceDrawer {
         return corners;
     }
 
-    /// Finds which edges and vertices belong to a face that is turned toward the eye.
+    /// Sets towardVertices_ and towardEdges_: which vertices and edges belong to a face that is turned toward the eye.
     void findSides() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
@@ -136,8 +137,8 @@ class SliceDrawer {
         }
     }
 
-    /// Returns `color` with the light that falls on a face in the picture. `area` is a multiple of the normal of the
-    /// face in view space.
+    /// Returns the color of a lit face: `color` under the light of pictures. `area` is any vector normal to the face,
+    /// in view space.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
@@ -173,7 +174,7 @@ class SliceDrawer {
         }
     }
 
-    /// Adds the convex pieces of faces that cross each other.
+    /// Adds the convex pieces into which faces that may cross each other are divided.
     void addPieces() {
         const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
@@ -190,13 +191,14 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the layer of a bar or ball. `toward`: whether it belongs to a face that is turned toward the eye.
+    /// Returns the layer of a bar or ball. `toward` is whether the bar or ball belongs to a face that is turned toward
+    /// the eye.
     Layer frameLayer(bool toward) const {
         if (scene_.needsDepthBuffer) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 
-    /// Returns for each vertex whether the round end of a bar is drawn there in place of a ball.
+    /// Returns, for each vertex of the slice, whether the round end of a bar is drawn there and not a ball.
     std::vector<bool> findRoundEnds() const {
         std::vector<bool> found(points_.size(), false);
         if (scene_.look.parts.balls) return found;
@@ -251,7 +253,7 @@ class SliceDrawer {
     const scene::Style& style_;
     const PaperProjection& paper_;
     const glm::dmat4 view_;
-    double hiddenEnd_ = 0;  // the length of a bar's end that is inside a ball, in world units
+    double hiddenEnd_ = 0;  // how much of each end of a bar is inside a ball, in world units
     std::size_t slice_ = 0;
     std::vector<glm::dvec3> points_;  // in view space
     std::vector<bool> towardVertices_, towardEdges_;
@@ -292,7 +294,7 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
         axes.shapes.emplace_back(
             Line{.from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
         axes.shapes.emplace_back(Disk{place(direction), kTip * length, color});
-        // The name of an axis that points at the viewer is beside the axis.
+        // If the axis points at the viewer, its name would cover the center, so the name is placed beside the axis.
         glm::dvec2 name = kNameAt * direction;
         if (glm::length(name) < 0.3) name = {0.3, -0.3};
         axes.shapes.emplace_back(
@@ -308,7 +310,7 @@ bool showsFocusPoint(const scene::Look& look) {
     return !showsAllSlices(look.view) && look.focusPoint != glm::dvec3(0);
 }
 
-/// Draws the focus point in the focus slice: a line along each axis through it.
+/// Draws the focus point in the focus slice: three lines through the point, one along each axis.
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement,
                           const PaperProjection& paper) {
     ShapeGroup point{"focus-point", {}};

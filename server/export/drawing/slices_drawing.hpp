@@ -12,8 +12,8 @@ namespace oval4d::exports {
 /// the width that the middle of the bar has in the picture. The drawing has the proportions of the scene's viewport.
 ///
 /// Slices are drawn from far to near. The faces of a convex slice are drawn in two layers, first those turned away from
-/// the viewer, then those turned toward the viewer. This order is exact. Faces that cross each other are drawn in
-/// pieces from far to near. That order is not exact where pieces cross.
+/// the viewer, then those turned toward the viewer. This order is exact. Faces that cross each other are divided into
+/// pieces, which are drawn from far to near. The order of the pieces is not exact where they cross.
 ///
 /// Throws ExportRefused if `object` is a field, whose surfaces are too fine for a drawing; if the drawing would be too
 /// large; if the time limit is exceeded; or if a stop is requested.

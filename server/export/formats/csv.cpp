@@ -49,8 +49,8 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
 
-// Returns the size in bytes of the tables of a ClosedSurfaceSlicer, which have two numbers for each index along each
-// axis of an array. Returns 0 for a formula, whose tables are small.
+// Returns the size in bytes of the tables of a slicing::ClosedSurfaceSlicer for the field. They have two numbers for
+// each index along each axis of an array. For a formula, whose tables are small, returns 0.
 std::size_t tableBytes(const fields::Field& field) {
     std::size_t indices = 0;
     if (field.array)
@@ -117,7 +117,7 @@ std::string criticalCsv(const SceneToWrite& source) {
 std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
     slicing::CriticalOptions options{.stop = source.budget.stopToken()};
-    // A search ends after at most 1.5 times this time, when sections are no longer compared.
+    // The search takes up to 1.5 times `options.time`; it must end within the time of the export.
     options.time = std::min(options.time, source.budget.time() / 2);
     const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, options);
     source.budget.checkTimeAndStop();

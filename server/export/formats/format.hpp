@@ -30,7 +30,7 @@ struct MeshesToWrite {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
-    /// Returns whether any mesh has pointColors.
+    /// Returns whether the points of any mesh have colors (Mesh::pointColors).
     bool anyHasPointColors() const {
         return std::ranges::any_of(solids, [](const PlacedMesh& solid) { return !solid.mesh.pointColors.empty(); });
     }
@@ -59,10 +59,11 @@ struct Format {
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
-    std::vector<ExportContentsKind> contents;  ///< what a file can contain; the first of them is the default
+    std::vector<ExportContentsKind> contents;  ///< what a file can contain; the first is the default of new requests
     bool readsSurfaces = false;  ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
-    /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
-    /// background. If false, the scene has the default look, but the colors, levels and fog of the picture.
+    /// Whether writeScene gets the scene that the picture shows, with its view, camera, visible parts, highlight and
+    /// background. If false, writeScene gets a scene of the default look with the colors, levels and fog of the
+    /// picture.
     bool showsPicture = false;
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneToWrite&) = nullptr;

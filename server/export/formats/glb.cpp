@@ -34,8 +34,8 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. If `bounded` is true,
-    /// the accessor states the minimum and maximum of the values, as glTF requires for positions.
+    /// Appends the values to the only buffer of `model`, and returns the index of the new accessor for them. If
+    /// `bounded` is true, the accessor states the minimum and maximum of the values, as glTF requires for positions.
     int store(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;
@@ -70,7 +70,8 @@ glm::vec3 linearColor(scene::Color color) {
     return {linear(color >> 16U & 0xffU), linear(color >> 8U & 0xffU), linear(color & 0xffU)};
 }
 
-/// Adds a solid to the model. Triangles do not share vertices, so that each corner has its own normal and color.
+/// Adds a solid to the model. Each triangle has vertices of its own, because its corners have their own normals and
+/// colors.
 void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;

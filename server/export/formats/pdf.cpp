@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kPointsPerMillimeter = 72 / 25.4;
 
-// libharu reports errors to this function, and prescribes its parameters. `first` is the HPDF_STATUS that keeps the
-// first error. After an error, the functions of libharu do nothing.
+// The error handler of libharu, which prescribes the parameters. `first` points to the HPDF_STATUS that keeps the first
+// error. After an error, the functions of libharu do nothing.
 void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
     auto& status = *static_cast<HPDF_STATUS*>(first);
     if (status == HPDF_OK) status = error;
@@ -33,8 +33,9 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// libharu writes numbers beyond ±32,767 as ±32,767. This would bend lines that reach so far beyond the page, such as
-// lines of slices close to the eye. Shapes are therefore cut at ±kFarthest, in the units of the drawing.
+// libharu writes numbers beyond ±32,767 as ±32,767. This would change the direction of lines that reach so far beyond
+// the page, such as lines of slices close to the eye. Therefore shapes are cut at ±kFarthest, in the units of the
+// drawing.
 constexpr double kFarthest = 30'000;
 
 // Draws shapes on a page, in the units of the drawing. PDF measures positions from the lower left corner.
@@ -73,8 +74,8 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // Draws an image whose colors are interpolated between DensityImage::colors. Its soft mask, which determines the
-    // opacity of each pixel, holds DensityImage::alphas.
+    // Draws a density image: an image with the colors of DensityImage::colorOfColumn(), and DensityImage::alphas as its
+    // soft mask, which determines the opacity of each pixel.
     void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
@@ -89,7 +90,8 @@ class PageWriter {
         const auto mask =
             HPDF_LoadRawImageFromMem(document_, density.alphas.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
-        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
+        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
+        // (see DensityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};
@@ -106,7 +108,8 @@ class PageWriter {
         HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
     }
 
-    // In PDF, an opacity is a property of a graphics state. Shapes with the same opacity in percent share one state.
+    // Sets the opacity of the next shapes. In PDF, opacity is a parameter of an extended graphics state. All shapes
+    // with the same opacity in percent share one such state.
     void setOpacity(double opacity) {
         const int percent = static_cast<int>(std::lround(100 * std::clamp(opacity, 0.0, 1.0)));
         if (percent == percent_) return;

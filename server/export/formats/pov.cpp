@@ -91,7 +91,7 @@ struct PovMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<std::uint32_t, 3>> textures;  ///< per triangle: the numbers of its corners' textures
-    /// Whether light from behind shines on a triangle as light from the front does, as on faces in pictures.
+    /// Whether light from behind lights a triangle as light from the front does. Faces in pictures are lit in this way.
     bool isLitFromBehind = false;
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t texture) {
@@ -130,7 +130,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     out += mesh.isLitFromBehind ? " }\ndouble_illuminate\n}\n" : " }\n}\n";
 }
 
-/// The place of a slice or of a part of the projection, and how its balls and bars are drawn.
+/// The place of a slice or of a part of the projection, and the radii and colors of its balls and bars.
 struct PovPlacement {
     glm::dvec3 position;
     double scale;                  ///< world units per unit of the object
@@ -191,8 +191,8 @@ class PovWriter {
 
     /// Appends the camera. POV-Ray looks from `location` through the points direction + x · right + y · up, where x and
     /// y are −1/2 … 1/2. POV-Ray also accepts right-handed vectors, although its own coordinates are left-handed. If
-    /// the image has another aspect ratio than the picture, `right` or `up` is lengthened, so that the image shows the
-    /// whole picture.
+    /// the aspect ratio of the rendered image differs from that of the picture, `right` or `up` is lengthened, so that
+    /// the image shows the whole picture.
     void appendCamera(std::string& out) const {
         const scene::Camera& camera = scene_.camera;
         const double aspect = static_cast<double>(scene_.viewport.width) / scene_.viewport.height;
@@ -245,7 +245,8 @@ class PovWriter {
         }
     }
 
-    /// Adds convex faces. `opacity` is that of fully visible faces; `cellOf` returns the cell that colors a face.
+    /// Adds the convex faces of a slice of `set`. `opacity` is the opacity of fully visible faces; `cellOf` returns the
+    /// cell whose color a face has.
     template <typename CellOf>
     void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part, double opacity,
                   CellOf cellOf) {
@@ -264,7 +265,7 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    /// Adds the convex pieces of faces that may cross each other.
+    /// Adds the convex pieces into which faces that may cross each other are divided.
     void addPieces(std::size_t slice, const PovPlacement& part) {
         const slicing::FilledFaces& fill = scene_.fill;
         PovMesh mesh;
@@ -293,8 +294,8 @@ class PovWriter {
         }
     }
 
-    /// Adds the smooth level set of a level, or its flat caps. The level set and the caps are separate meshes, because
-    /// the points where they meet have different normals and colors in each.
+    /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. The level set and the caps are separate
+    /// meshes, because the points where they meet have different normals and colors in each.
     void addSurface(std::size_t slice, const PovPlacement& part, const scene::SurfaceLook::LevelLook& level,
                     bool ofCaps) {
         const slicing::SliceSurface& surface = set_.surfaces[slice];
@@ -356,7 +357,7 @@ class PovWriter {
         }
     }
 
-    /// Appends the texture and the closing brace of a ball or bar. A line of sight crosses the surface of the shape
+    /// Appends the texture and the closing braces of a ball or bar. A line of sight crosses the surface of the shape
     /// twice. Each crossing lets the fraction √(1 − opacity) of the light pass, so that the shape as a whole has the
     /// opacity `opacity`.
     void endShape(scene::Color color, double opacity) {

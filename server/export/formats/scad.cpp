@@ -22,8 +22,8 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 }
 
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
-    // When OpenSCAD previews a difference or an intersection, it omits parts of a body that a line of sight enters more
-    // than `convexity` times.
+    // `convexity` is the number of times that a line of sight may enter the body. Previews of differences and
+    // intersections in OpenSCAD are wrong where a line enters the body more often.
     out += "\n// " + onlyXmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
            scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";
@@ -35,7 +35,7 @@ void appendModule(std::string& out, const std::string& name, const PlacedMesh& s
     separator = "\n[";
     for (const auto& [a, b, c] : solid.mesh.triangles) {
         out += std::exchange(separator, ",\n[");
-        // Faces of OpenSCAD are clockwise seen from outside, and triangles of a Mesh are counterclockwise.
+        // Seen from outside, faces of OpenSCAD are clockwise, but triangles of a Mesh are counterclockwise.
         out += std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + ']';
     }
     out += "\n]);\n}\n";

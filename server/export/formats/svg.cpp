@@ -27,7 +27,7 @@ std::string opacityAttribute(std::string_view name, double opacity) {
 }
 
 /// Returns the opacities of the image (DensityImage::alphas) as SVG paths. The opacities are rounded to multiples of
-/// 1/kTones. Each opacity except 0 has one path, with the outlines of all pixels of this opacity.
+/// 1/kTones. For each opacity except 0, there is one path with the outlines of all pixels of this opacity.
 std::string densityPaths(const DensityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
@@ -91,7 +91,8 @@ struct ElementWriter {
                attribute("x", line.at.x) + attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const DensityImage& density) const {
-        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
+        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
+        // (see DensityImage).
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;

@@ -10,7 +10,7 @@
 
 namespace oval4d::exports {
 
-/// Appends the shortest decimal text from which the same number can be read.
+/// Appends the shortest decimal text that is read as exactly this number.
 void appendDecimal(std::string& out, double number);
 void appendDecimal(std::string& out, float number);
 /// Appends three numbers separated by spaces.

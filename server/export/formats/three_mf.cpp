@@ -21,8 +21,8 @@ void check(LIB3MFRESULT result, const char* what) {
 template <typename Thing>
 using Lib3mfPointer = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 
-// Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to the object. `what`: the
-// message of the exception if this fails.
+// Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to the object. If the call
+// fails, throws an exception with the message `what`.
 template <typename Thing, typename Make>
 Lib3mfPointer<Thing> owned(const char* what, Make&& make) {
     Thing* made = nullptr;

@@ -36,7 +36,7 @@ std::string decimals(double value, int count) {
 
 std::string position(const glm::dvec2& at) { return '(' + decimals(at.x, 2) + ',' + decimals(at.y, 2) + ')'; }
 
-// Returns ASCII text as LaTeX, with a minus sign before numbers.
+// Returns ASCII text as LaTeX. A hyphen before a digit, at the start or after a blank, becomes a minus sign.
 std::string latexEscaped(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -91,7 +91,8 @@ class CommandWriter {
                "}\\selectfont] at " + position(line.at) + " {" + latexEscaped(line.text) + "};\n";
     }
     void operator()(const DensityImage& density) {
-        // The image is larger than its rectangle: the centers of the outer pixels lie on the edges (see DensityImage).
+        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
+        // (see DensityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
         for (int column = 0; column < density.columns; ++column) {
@@ -131,7 +132,7 @@ class CommandWriter {
         return digits.data();
     }
     static std::string nameFor(scene::Color color) { return "oval" + hexadecimal(color); }
-    // Returns the name of a color, and defines it.
+    // Returns the LaTeX name of a color, and remembers the color for colorDefinitions().
     std::string use(scene::Color color) {
         colors_.insert(color);
         return nameFor(color);

@@ -27,8 +27,8 @@ struct SliceLattice {
     std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
 };
 
-/// Returns a lattice that fills the bounding box of the domain's slice. Along each axis, neighboring points are at most
-/// `step` apart.
+/// Returns a lattice that fills the bounding box of the slice of the field's domain. Along each axis, neighboring
+/// points are at most `step` apart.
 SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;
     for (const glm::dvec3& vertex : slices.vertices) {
@@ -47,7 +47,7 @@ SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
 }
 
 /// Returns the values at the points of the lattice in the hyperplane at `w`, x fastest; NaN outside of the domain.
-/// `toFunction` maps the coordinates of the rotated object to those of the function, relative to Field::center.
+/// `toFunction` maps coordinates of the rotated object to coordinates of the function, measured from Field::center.
 std::vector<float> sample(const fields::Field& field, const SliceLattice& lattice, const glm::dmat4& toFunction,
                           double w, const Budget& budget) {
     std::vector<float> values(lattice.size());

@@ -13,8 +13,8 @@
 
 namespace oval4d::exports {
 
-/// Returns a complete file with a data set of the type `type`, such as "PolyData". `attributes` are the XML attributes
-/// of the element of the data set, each preceded by a space; `elements` is the content of this element.
+/// Returns a complete file with one data set: an XML element named `type`, such as "PolyData". `attributes` are the
+/// attributes of this element, each preceded by a space; `elements` is the content of the element.
 std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
 
 /// Appends a DataArray element with `bytes` in Base64. `bytes` must be little-endian numbers of the type `type`, such

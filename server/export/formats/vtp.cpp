@@ -16,7 +16,8 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The kind of elements of slices that the file lists: the kind of the highest dimension.
+/// The kind of elements of the slices that the file lists: the one of the highest dimension that slices of the object
+/// have.
 enum class ListedElementKind : std::uint8_t { vertices, edges, faces };
 
 ListedElementKind elementsOf(const slicing::Object& object) {
@@ -96,9 +97,10 @@ std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& p
     return first;
 }
 
-/// Adds a copy of each point of a cap, with the mean normal of the caps at this point, because the first instance of
-/// the point has the normal of the level set. `first` is the index of the first point of the surface in the file.
-/// Returns, for each point of the surface, the index of its copy in the file, or −1 if it is in no cap.
+/// Adds a second copy of each point that is in a cap. This copy has the mean normal of the caps at the point; the first
+/// copy, which addPoints() added, has the normal of the level set. `first` is the index in the file of the first point
+/// of the surface. Returns, for each point of the surface, the index in the file of its second copy; −1 if the point is
+/// in no cap.
 std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
     std::vector<std::int64_t> copies(surface.points.size(), -1);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {

@@ -71,9 +71,9 @@ std::string off(const SceneToWrite& source);
 std::string pov(const SceneToWrite& source);
 
 /// Returns a VTK XML file of the type ImageData: the values of a field in slice 0, on a regular lattice that fills the
-/// bounding box of the domain's slice, in the object's own units. The values of points outside the domain are NaN. The
-/// object must be a field, and the contents must be ExportContentsKind::focus. Throws ExportRefused if the slice is
-/// empty, if a limit is exceeded, or if a stop is requested.
+/// bounding box of the domain's slice, in the object's own units. Points of the lattice outside the domain have the
+/// value NaN. The object must be a field, and the contents must be ExportContentsKind::focus. Throws ExportRefused if
+/// the slice is empty, if a limit is exceeded, or if a stop is requested.
 std::string vti(const SceneToWrite& source);
 
 /// Returns a VTK XML file of the type PolyData, in the object's own units. For ExportContentsKind::oval, the slices are
@@ -97,13 +97,13 @@ std::string pdf(const Drawing& drawing);
 std::string svg(const Drawing& drawing);
 
 /// Returns the drawing as an environment `tikzpicture` for LaTeX with the package tikz, in ASCII but for the title in
-/// its first line, a comment. Shapes are cut where TeX has no lengths, at 16,000 points.
+/// its first line, a comment. Shapes are cut at 16,000 points, because TeX has no lengths of 16,384 points or more.
 std::string tikz(const Drawing& drawing);
 
 // --- All of them.
 
-/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two functions are
-/// null. `readsSurfaces` and `showsPicture` are those of Format.
+/// The name of a format, and the function that writes it, from bodies, a scene or a drawing; the other two functions
+/// are null. `readsSurfaces` and `showsPicture` have the meaning of the members of Format with these names.
 struct FormatWriterRow {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;

@@ -20,7 +20,7 @@ constexpr double kMargin = 0.6;     // margin around the text, in heights of a c
 constexpr double kMinDepth = 0.25;  // minimum depth of the letters in millimeters
 constexpr double kMaxDepth = 0.8;   // maximum depth of the letters in millimeters
 
-/// The face formed by the triangles of one cell.
+/// A face of a body: all triangles of the mesh with the same cell.
 struct CellFace {
     std::vector<std::uint32_t> loop;  // mesh points, counterclockwise
     glm::dvec3 normal{0};
@@ -37,8 +37,8 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh; the key of a face is its cell. Omits faces without area, and faces with several
-/// boundary loops.
+/// Returns the faces of the mesh; the key of a face is its cell. Omits faces without area, and faces that have holes or
+/// consist of several parts.
 std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, CellFace> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -69,9 +69,9 @@ std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
     return faces;
 }
 
-/// Returns the placement with the largest letters that leave the margin free on this face. The text runs along `right`
-/// or, if the letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
-/// result.
+/// Returns the placement of `text` in the middle of `face` with the largest letters that leave the margin free. The
+/// text runs along `right` or, if the letters would be upside down, in the opposite direction. The caller must set
+/// `cell` and `depth` of the result.
 TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
@@ -119,7 +119,7 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, 
     return triangles == mesh.triangles.size();
 }
 
-/// Engraves the text: replaces the face by a face with holes for the letters, and adds the letters' walls and floors.
+/// Engraves the text: cuts holes for the letters into the face, and adds the walls and the floors of the letters.
 /// Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
 bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
@@ -129,8 +129,8 @@ bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placemen
     std::vector<Contour> holed(1);
     std::vector<Contour> letters;
     std::vector<std::uint32_t> boundary = face.loop;  // the mesh point of each corner of `holed`
-    std::vector<std::uint32_t> bottoms;               // the mesh point at the bottom of each corner of `letters`
-    std::vector<std::uint32_t> tops;                  // the mesh point at the top of each corner of `letters`
+    std::vector<std::uint32_t> bottoms;               // the mesh points below the corners of `letters`
+    std::vector<std::uint32_t> tops;                  // the mesh points at the corners of `letters`
     for (const std::uint32_t p : face.loop) holed[0].push_back(flat(mesh.points[p]));
     Mesh result = mesh;
     for (const Contour& outline : placement.text->contours) {

@@ -107,7 +107,7 @@ class TextOutliner {
     std::vector<Contour>* out_ = nullptr;
 };
 
-/// Removes points that are equal to the previous point of a closed contour.
+/// Removes each point that is equal to the point before it; the point before the first one is the last one.
 void removeDuplicates(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

@@ -10,7 +10,7 @@ namespace oval4d::exports {
 
 /// The outlines of a block of text, centered at the origin. The unit is the height of a capital letter.
 struct Lettering {
-    std::vector<Contour> contours;  ///< the area of the letters lies on their left (see outlineOf())
+    std::vector<Contour> contours;  ///< the areas of the letters lie on the left of the contours (see outlineOf())
     glm::dvec2 size{0};             ///< width and height of the bounding box
 };
 

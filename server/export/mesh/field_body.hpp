@@ -1,5 +1,5 @@
 #pragma once
-// Bodies for the surfaces of fields.
+// Bodies that the surfaces of fields enclose.
 
 #include <cstddef>
 
@@ -10,10 +10,10 @@
 namespace oval4d::exports {
 
 /// Returns the body that the surface of one level encloses, together with its caps (see slicing::SliceSurface), in
-/// slice i of a field. The points of the body have the colors of the picture, and the values of the function. `level`
-/// is an index into scene.surfaces.levels. `scene.slices` must contain the surfaces of the slices. `scale` is in
-/// millimeters per unit of the object. Returns an empty mesh if the rounded body has no volume (see isThickEnough()).
-/// Throws the exceptions of snapSurface().
+/// slice i of a field. The mesh has Mesh::pointColors, as in the picture, and Mesh::pointValues. `level` is an index
+/// into scene.surfaces.levels. `scene.slices` must contain the surfaces of the slices. `scale` is in millimeters per
+/// unit of the object. Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the
+/// exceptions of snapSurface().
 Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
                  const Budget& budget);
 

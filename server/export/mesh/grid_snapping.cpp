@@ -23,7 +23,8 @@ std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
 std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
 std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
-/// A closed surface as half-edges. Each half-edge has a twin, which leads the opposite way.
+/// A closed surface as half-edges. Each half-edge has a twin: the half-edge of the neighboring triangle that joins the
+/// same points in the opposite direction.
 class HalfEdgeMesh {
   public:
     HalfEdgeMesh(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -60,7 +61,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Collapses edges whose ends coincide.
+    /// Collapses edges whose ends coincide on the grid (see collapse()), until no more can be collapsed.
     void collapseEdges() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -71,7 +72,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Flips the longest edges of triangles whose corners lie on a line.
+    /// Flips the longest edge of each triangle whose corners lie on a line (see flip()).
     void flipDegenerate() {
         constexpr int kRounds = 4;
         for (int round = 0; round < kRounds; ++round) {
@@ -86,7 +87,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Moves points that coincide with others to free grid points nearby.
+    /// Moves each point that coincides with an earlier point to a free grid point nearby.
     void separatePoints() {
         std::unordered_set<std::uint64_t> taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
@@ -133,7 +134,7 @@ class HalfEdgeMesh {
             const auto [low, high] = std::minmax({origins_[edge], endOf(edge)});
             halfEdges.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
         }
-        // Sorts half-edges with the same ends next to each other, grouped by direction.
+        // After sorting, half-edges with the same ends follow one another, those of one direction first.
         std::ranges::sort(halfEdges, [](const HalfEdge& a, const HalfEdge& b) {
             return std::tuple(a.ends, a.upward, a.edge) < std::tuple(b.ends, b.upward, b.edge);
         });
@@ -151,8 +152,8 @@ class HalfEdgeMesh {
         }
     }
 
-    // If several fans of triangles share a point, gives each fan a point of its own, at which the half-edges of the fan
-    // start.
+    // A fan is a ring of triangles around a point. If a point has several fans, gives each fan a point of its own, at
+    // which the half-edges of the fan start.
     void separateFans(std::span<const glm::dvec3> points) {
         std::vector<bool> seen(origins_.size());
         std::vector<std::uint32_t> pointOf(origins_.size());
@@ -181,8 +182,8 @@ class HalfEdgeMesh {
     }
 
     // Collapses an edge into its origin, and returns true. Returns false and changes nothing if the ends of the edge
-    // have a common neighbor that is not a corner of a triangle at the edge, or if the connected part of the surface is
-    // a tetrahedron.
+    // have a common neighbor other than the third corners of the two triangles at the edge, or if the edge belongs to a
+    // tetrahedron.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -219,8 +220,8 @@ class HalfEdgeMesh {
     }
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
-    // Flips an edge: replaces it by an edge between the two other corners of its triangles. Changes nothing if these
-    // corners are already joined by an edge, or if a new triangle would be degenerate.
+    // Flips an edge: replaces it by an edge between the third corners of the two triangles at it. Changes nothing if an
+    // edge already joins these two corners, or if a new triangle would be degenerate.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];

@@ -1,5 +1,5 @@
 #pragma once
-// Rounds closed surfaces to the grid.
+// Rounds the points of closed surfaces to a RoundingGrid.
 
 #include <array>
 #include <cstdint>
@@ -21,11 +21,11 @@ struct SnappedSurface {
 /// equal. `points` are in millimeters. The surface counts as closed if each edge of `triangles` occurs equally often in
 /// both directions.
 ///
-/// - If several fans of triangles share a point, each fan gets a point of its own.
+/// - If several fans (rings of triangles around a point) share their point, each fan gets a point of its own.
 /// - Edges whose ends coincide on the grid are collapsed, unless that would join different parts of the surface (the
 ///   link condition: T. Dey et al., "Topology preserving edge contraction", 1999).
 /// - Triangles whose corners lie on a line are removed by flipping their longest edge, where possible.
-/// - Other points that coincide are moved to free grid points nearby.
+/// - Of other points that coincide, all but one are moved to free grid points nearby.
 /// - Connected parts that are smaller than 4 grid steps along all axes are removed.
 ///
 /// Throws ExportRefused if the time limit is exceeded or a stop is requested, and std::invalid_argument if the surface

@@ -13,8 +13,8 @@ using GridPoint = std::array<std::int64_t, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
 // Incremental convex hull: for each point, the triangles that are visible from the point are removed, and a fan of
-// triangles from the point to the boundary of the hole replaces them. Triangles coplanar with the point are kept, so
-// that no new triangle is degenerate.
+// triangles from the point to the boundary of the hole replaces them. Triangles whose plane contains the point are
+// kept, so that no new triangle is degenerate.
 class IncrementalHull {
   public:
     IncrementalHull(const std::vector<glm::dvec3>& points, double step) {

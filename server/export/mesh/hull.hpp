@@ -9,9 +9,10 @@
 namespace oval4d::exports {
 
 /// Returns the convex hull of points that lie on the grid. The computation uses integers and has no rounding errors.
-/// Therefore the mesh is closed, 2-manifold and convex for all inputs. The caller must ensure that the extent of the
-/// points along each axis is at most 2^18 grid steps; otherwise the integers may overflow. Returns an empty mesh if all
-/// points lie in one plane. Takes up to quadratic time. `budget` may be null; throws ExportRefused if it is exceeded.
+/// Therefore the mesh is always closed, 2-manifold and convex. The caller must ensure that the extent of the points
+/// along each axis is at most 2^18 grid steps; otherwise the integers may overflow. Returns an empty mesh if all points
+/// lie in one plane. Takes up to quadratic time in the number of points. `budget` may be null; otherwise, throws
+/// ExportRefused as Budget::checkTimeAndStop() does.
 Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget = nullptr);
 
 }  // namespace oval4d::exports

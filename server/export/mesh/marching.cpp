@@ -37,8 +37,8 @@ glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
-// For each set of inside corners of a tetrahedron (bit c stands for corner c): an even permutation of the corners. It
-// puts the inside corners first; if only one corner is outside, it puts this corner first instead.
+// For each set of inside corners of a tetrahedron (bit c stands for corner c): an even permutation of the corners that
+// puts the inside corners first or, if only one corner is outside, puts this corner first.
 constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
                                                           {0, 1, 2, 3},
                                                           {1, 0, 3, 2},
@@ -74,8 +74,9 @@ class MarchingTetrahedra {
     }
 
   private:
-    // Sets `inside_` for the block at `corner`: whether each corner of the block's cubes is inside. The cubes of a
-    // block are the cubes whose lowest corner is in the block. Some of their corners are therefore in adjacent blocks.
+    // Sets inside_, which says of each corner of the cubes of the block at `corner` whether it is inside the surface.
+    // The cubes of a block are the cubes whose lowest corner is in the block. Some of their corners are therefore in
+    // adjacent blocks.
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
@@ -132,8 +133,8 @@ class MarchingTetrahedra {
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // The least distance of a crossing from each end of its edge, as a fraction of the edge. Because of this
-            // distance, crossings on two edges that share an end are several grid steps apart.
+            // The least distance of a crossing from each end of its edge, as a fraction of the edge. It keeps crossings
+            // on two edges with a common end several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);

@@ -27,7 +27,7 @@ namespace oval4d::exports {
 class SampledField {
   public:
     static constexpr int kSide = 8;  ///< points along each edge of a block
-    /// The greatest absolute value of an index i, j or k of a point. The caller must ensure that no index exceeds it.
+    /// The greatest absolute value that the indices i, j and k of a point may have. The caller must ensure this.
     static constexpr int kFarthest = 1 << 19;
 
     SampledField(const glm::dvec3& origin, double step) : origin_(origin), step_(step) {}
@@ -35,7 +35,8 @@ class SampledField {
     double step() const { return step_; }
     /// Returns the position of the point with these indices.
     glm::dvec3 positionOf(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
-    /// Returns (place − origin) / step, with each coordinate rounded down to an integer.
+    /// Returns the indices of the point at `place` or next below it: (place − origin) / step, with each coordinate
+    /// rounded down.
     glm::ivec3 floorIndex(const glm::dvec3& place) const;
 
     /// Returns a reference to the value at a point. Creates the point's block if it does not exist.
@@ -71,14 +72,15 @@ struct EdgeCrossing {
 /// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
 using CrossingFinder = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in grid steps; see marchTetrahedra()
+inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in RoundingGrid steps; see marchTetrahedra()
 
-/// Returns a mesh of the surface that separates inside points from outside points. For each cube with an inside corner,
-/// the caller must ensure that `field` has the values that `crossing` reads for the edges of the cube, and the block of
-/// the cube's lowest corner (see SampledField::ensureBlock()); cubes without this block are skipped. The points of the
-/// mesh are rounded to `grid`. The field's step must be at least kLeastFieldStep steps of `grid`: then no two crossings
-/// coincide after rounding, because crossings are kept away from the ends of their edges. From kGoodFieldStep on,
-/// crossings are far enough apart that the triangles keep their shapes. Throws ExportRefused if `budget` is exceeded.
+/// Returns a mesh of the surface that separates inside points from outside points. The caller must ensure two
+/// conditions for each cube with an inside corner: the block of the cube's lowest corner exists (see
+/// SampledField::ensureBlock()), because other cubes are skipped; and `field` has the values that `crossing` reads for
+/// the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be at least
+/// kLeastFieldStep steps of `grid`: then no two crossings coincide after rounding, because crossings are kept away from
+/// the ends of their edges. From kGoodFieldStep on, crossings are far enough apart that the triangles keep their
+/// shapes. Throws ExportRefused if `budget` is exceeded.
 Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 

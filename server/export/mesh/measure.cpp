@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// A volume up to this fraction of e³, or an area up to this fraction of e², is a rounding error; e is the greatest
-// distance of a vertex of the slice from the mean of its vertices.
+// Let e be the greatest distance of a vertex of the slice from the mean of the vertices. A volume up to this fraction
+// of e³, or an area up to this fraction of e², counts as a rounding error.
 constexpr double kRoundingError = 1e-12;
 
 struct WeightedMean {

@@ -17,7 +17,7 @@ RoundingGrid::RoundingGrid(double size, double extent) {
 }
 
 glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
-    // Adding zero turns -0 into 0.
+    // Adding 0 turns −0 into 0, so that equal coordinates are also written as equal text and bytes.
     return glm::round(point / step_) * step_ + 0.0;
 }
 

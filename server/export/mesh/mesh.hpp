@@ -67,16 +67,16 @@ bool isClosedManifold(const Mesh& mesh);
 /// Returns the volume that the mesh encloses, in cubic millimeters; negative if its triangles face inward.
 double volumeOf(const Mesh& mesh);
 
-/// Returns whether the volume of the mesh is more than a rounding error: the mean thickness of the mesh, which is the
-/// volume divided by half the surface area, must exceed 4 grid steps.
+/// Returns whether the body is thick enough to keep its shape on the grid: its mean thickness, the volume divided by
+/// half the surface area, must exceed 4 grid steps.
 bool isThickEnough(const Mesh& mesh, const RoundingGrid& grid);
 
 /// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.
 glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
 /// Returns a unit normal for each corner of each triangle: the mean of the normals of the triangles around the corner's
-/// point, weighted by their areas. Triangles whose normals differ by more than 40° from the normal of the corner's own
-/// triangle do not count. The result is 0 for the corners of triangles without area.
+/// point, weighted by their areas. Leaves out triangles whose normal differs by more than 40° from the normal of the
+/// corner's own triangle. The result is 0 for the corners of triangles without area.
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh);
 
 /// An axis-aligned bounding box. It is empty until it includes a point.

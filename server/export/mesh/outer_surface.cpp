@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kCubes = 128;  // number of cubes along the slice's largest dimension
 
-/// A triangle of the fan into which a face is decomposed. Even if the face is a star polygon, its winding number around
-/// a point of its plane is the sum of the winding numbers of the triangles.
+/// A triangle of the fan into which a face is divided. Even for a star polygon, the winding number of the face around a
+/// point of its plane is the sum of the winding numbers of these triangles.
 struct FanTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t cell;
@@ -45,7 +45,8 @@ class OuterSurfaceMesher {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > kGoodFieldStep * grid.step())) return {};
-        // The offset keeps the points of the field off the symmetry planes of the slice, where they might lie on faces.
+        // The offset keeps the points of the field away from the symmetry planes of the slice, where they might lie
+        // exactly on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         fill(field);
         sortIntoBoxes(4 * cube);
@@ -81,7 +82,7 @@ class OuterSurfaceMesher {
         return p.y <= row.y ? -1 : 1;
     }
 
-    /// Sets the values of all points inside the surface to −1, line by line along x.
+    /// Sets the field to −1 at all points inside the surface, line by line along x.
     void fill(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<LineCrossing>> lines;
         for (const FanTriangle& triangle : triangles_) {
@@ -127,7 +128,7 @@ class OuterSurfaceMesher {
         }
     }
 
-    /// Lists, for each box of a grid of cubic boxes of this width, the triangles that may intersect the box.
+    /// Divides space into cubic boxes of the given width, and lists for each box the triangles that may intersect it.
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {

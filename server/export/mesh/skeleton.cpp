@@ -27,9 +27,9 @@ struct Capsule {
     }
 };
 
-/// Adds a capsule to a field of distances: lowers the values of the points near the capsule to their distances from the
-/// capsule, where these are less. The points near the capsule include all corners of each cube that has a corner inside
-/// the capsule.
+/// Adds a capsule to a field of distances: at each point near the capsule, lowers the value to the distance from the
+/// capsule, if this is less. The points near the capsule include all corners of each cube that has a corner inside the
+/// capsule.
 void addCapsule(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
@@ -39,8 +39,8 @@ void addCapsule(const Capsule& capsule, SampledField& field) {
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
             const glm::dvec3 row = field.positionOf({0, j, k});
-            // The part of the capsule's axis whose y and z differ by at most `reach` from those of this line: from
-            // `low` to `high`, as fractions of the axis.
+            // The part of the capsule's axis that is near this line, where y and z differ by at most `reach` from those
+            // of the line. It is from `low` to `high`, as fractions of the axis.
             double low = 0;
             double high = 1;
             for (const int axis : {1, 2}) {
@@ -101,8 +101,8 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const RoundingGrid& grid, const Budget& budget) {
-    // The offset keeps the sample points off the symmetry planes of the polytope. There, many samples could be exactly
-    // 0 at once, and triangles with corners at such points degenerate.
+    // The offset keeps the sample points off the symmetry planes of the polytope. On these planes, many samples could
+    // be exactly 0, and triangles with corners at such points would degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTimeAndStop();

@@ -17,8 +17,8 @@ struct SkeletonRadii {
 SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
 /// Returns the estimated total number of triangles of the skeletons of all slices if skeletonOf() uses cubes as wide as
-/// the radius of a bar. Cubes of half this width give four times as many triangles. `scale` is in millimeters per unit
-/// of the polytope.
+/// the radius of a bar. With cubes half as wide, there are four times as many triangles. `scale` is in millimeters per
+/// unit of the polytope.
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is

@@ -51,8 +51,7 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
         budget.checkTimeAndStop();
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = doubleAreaNormalOfFace(slices, i, f);
-        // The normal of a sliver, a face with almost no area, is unreliable. The tests of the neighboring faces
-        // suffice.
+        // The normal of a face with almost no area is unreliable. It suffices to test the neighboring faces.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
         for (std::size_t v = 0; v < count; ++v) {
@@ -125,8 +124,8 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Rou
 }
 
 /// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. Assigns each triangle to the
-/// cell of the slice face with the most similar normal. The hull is used instead of the faces if points of the slice
-/// coincide on the grid, because two faces may then share more than one edge.
+/// cell of the slice face with the most similar normal. The hull is needed if points of the slice coincide on the grid,
+/// because two of the rounded faces may share more than one edge in that case.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid,
                 const Budget& budget) {
     Mesh hull = hullOf(faces.points, grid, &budget);

@@ -9,7 +9,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// The data that the callbacks of GLU's tessellator share. (This tessellator needs no OpenGL context.) The tessellator
+// The data that the callbacks of GLU's tessellator share. The tessellator needs no OpenGL context. The tessellator
 // passes pointers to elements of `corners` to the callback `vertex`: the pointers that tessellate() gave to it, and
 // those that the callback `combine` made where contours cross.
 struct TessellatorData {
@@ -33,7 +33,7 @@ void vertex(void* data, void* to) {
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
 
-// Does nothing, but must be registered: with this callback, GLU outputs only independent triangles, no strips or fans.
+// Does nothing. GLU outputs independent triangles, not strips or fans, if an edge flag callback is registered.
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {

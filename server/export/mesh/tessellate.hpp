@@ -13,8 +13,8 @@ namespace oval4d::exports {
 using Contour = std::vector<glm::dvec2>;
 
 /// Returns the boundary of the region in which the winding number of `contours` is not 0. The returned contours have
-/// the region on their left: outer ones are counterclockwise, holes clockwise. They do not cross, and no two share an
-/// edge. Returns an empty list if the tessellator fails.
+/// the region on their left: outer ones are counterclockwise, holes clockwise. The contours do not cross, and no two of
+/// them share an edge. Returns an empty list if the tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
 /// Returns counterclockwise triangles that fill the region in which the winding number of `contours` is not 0. The

@@ -22,9 +22,10 @@ SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
     return samples;
 }
 
-// Returns the indices of the first and the last sample on which the values at coordinates from `min` to `max` depend.
-// LatticeAxis::continuousIndex() is monotonic, so the position of every 32-bit float in the interval lies between the
-// positions of the rounded ends. If `min` or `max` is NaN, returns the first and the last sample of the axis.
+// Returns the indices along an axis of the first and the last sample on which interpolated values at coordinates from
+// `min` to `max` depend. Rounding to floats and LatticeAxis::continuousIndex() are monotonic. Therefore every float
+// from `min` to `max` has a position between those of the two rounded ends. If `min` or `max` is NaN, returns the first
+// and the last sample of the axis.
 std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
@@ -61,9 +62,9 @@ ValueBounds ArrayFunction::boundsIn(const Box& region) const {
     }
     ValueBounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
-    // An interpolated value is the result of four linear interpolations, each with a rounding error of at most 4.3 ·
-    // 2⁻²⁴ · (max − min). Together these are less than 2⁻¹⁹ · (max − min). The summand 2⁻¹⁴⁶ covers underflow. If max −
-    // min is greater than the largest float, an interpolated value may be NaN.
+    // Interpolation takes four steps, one along each axis. Each step has a rounding error of at most 4.3 · 2⁻²⁴ ·
+    // extent, and all four together of less than 2⁻¹⁹ · extent. The summand 2⁻¹⁴⁶ covers underflow. If the extent is
+    // greater than the largest float, an interpolated value may be NaN.
     const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
     if (extent > double{std::numeric_limits<float>::max()}) bounds.hasValueEverywhere = false;
     bounds.min -= rounding;
@@ -99,7 +100,8 @@ const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4>
 }
 
 void ArrayFunction::releasePages() const {
-    // The pages of an eager array stay resident, because reading them again would take longer than interpolating.
+    // If the constructor has read the samples, their pages stay resident, because reading them again would take longer
+    // than the interpolation.
     if (!isEager() && samples_.file()) samples_.file()->releasePages();
 }
 
@@ -107,7 +109,7 @@ std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!isEager()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
-        coarser = bytes + bytes / 10;  // the selection; a tenth more for its bricks and coarser versions
+        coarser = bytes + bytes / 10;  // the selection, and a tenth more for its bricks and downsampled versions
     }
     return samples_.memoryBytes() + bricks_.memoryBytes() + coarser;
 }

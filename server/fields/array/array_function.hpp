@@ -57,9 +57,9 @@ class ArrayFunction final : public ScalarFunction {
     /// axis is NaN, the region is taken to extend along the whole axis.
     ValueBounds boundsIn(const Box& region) const override;
 
-    /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long;
-    /// this array itself if a step is shorter than a cell of this array. If the constructor has not read the array,
-    /// returns a selection of at most kSelectedSamples of its samples, or a coarser version of the selection.
+    /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long. If
+    /// a step is shorter than a cell of this array, returns this array. If the constructor has not read the array, a
+    /// selection of at most kSelectedSamples of the samples takes the place of this array in these rules.
     const ScalarFunction& versionForSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:
@@ -68,9 +68,10 @@ class ArrayFunction final : public ScalarFunction {
 
     EvaluationCost cost() const override { return {10, 25, 100}; }
 
-    /// Returns the sum of the memory, in bytes, of the BrickBounds, of the coarser versions (at most about 1/15 of that
-    /// of the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
-    /// read, the sum contains the maximum that the BrickBounds and the selection of versionForSteps() may take.
+    /// Returns the sum of the memory, in bytes, of the BrickBounds, of the downsampled versions (at most about 1/15 of
+    /// the memory of the samples), and of the samples unless they are in a mapped file. For an array that the
+    /// constructor has not read, the sum contains the maximum that the BrickBounds and the selection of
+    /// versionForSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
@@ -83,11 +84,11 @@ class ArrayFunction final : public ScalarFunction {
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     bool rangeIsExact() const { return isEager(); }
 
-    /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. Along each axis, a
-    /// sample is the mean of the interpolant over the length of one coarse cell around it; the first and the last
-    /// sample along the axis are not averaged. Missing samples are left out of a mean; if all samples of a mean are
-    /// missing, the result is missing. Reads all samples once, in order. Returns an equal array if no axis has more
-    /// than one cell.
+    /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. A sample of the
+    /// result is the mean of the interpolant along each axis over an interval around the sample, which is as long as a
+    /// coarse cell. It is not averaged along an axis where it is the first or the last sample. Missing samples are left
+    /// out of a mean; if all samples of a mean are missing, the result is missing. Reads all samples once, in order.
+    /// Returns an equal array if no axis has more than one cell.
     std::shared_ptr<const ArrayFunction> downsampled() const;
 
   private:
@@ -100,7 +101,7 @@ class ArrayFunction final : public ScalarFunction {
     const std::size_t eagerSamples_;
     const SampleStorage samples_;
     const BrickBounds bricks_;
-    const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null if the array is small, or if !isEager()
+    const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null for small arrays and unless isEager()
     // The result of selection(), which is made when it is first needed; always null if isEager().
     mutable std::once_flag selected_;
     mutable std::shared_ptr<const ArrayFunction> selection_;

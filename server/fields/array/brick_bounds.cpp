@@ -16,9 +16,9 @@ constexpr std::size_t kCells = BrickBounds::kCells;
 constexpr std::size_t kRun = 64;  // the maximum number of bricks along x that are read at once
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
-// An entry packs the minimum (high half) and the maximum of a brick into 8 bytes, so that threads can write it
-// atomically. The lowest bit of the maximum is set if and only if a sample is missing; if this bit of the actual
-// maximum has the other value, the maximum is rounded up to the next float. A minimum of 0 is stored as −0, so that no
+// Returns the entry of a brick: its minimum (high half) and maximum (low half) in 8 bytes, so that threads can write
+// the entry atomically. The lowest bit of the maximum is set if and only if a sample is missing. If this bit of the
+// actual maximum has the other value, the next greater float is stored. A minimum of 0 is stored as −0, so that no
 // entry is 0: the number 0 stands for an empty slot.
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
@@ -55,7 +55,8 @@ const float* rowAt(const SampledLattice& from, const std::array<std::size_t, 4>&
     return from.samples + at[0] + at[1] * axes[1].stride + at[2] * axes[2].stride + at[3] * axes[3].stride;
 }
 
-// Calls `visit` for each row of `range` along x, with a pointer to its first sample and the indices of that sample.
+// Divides `range` into rows of samples along x. For each row, calls `visit` with a pointer to the first sample of the
+// row and the indices of this sample.
 template <typename Visit>
 void visitRows(const SampledLattice& from, const SampleIndexRange& range, const Visit& visit) {
     auto at = range.first;
@@ -84,8 +85,8 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange
     return statistics;
 }
 
-// Writes the statistics of bricks that follow one another along x; `range` contains all of them. Reads a brick with
-// missing samples a second time, to leave these samples out of its bounds and to count them.
+// Writes to `bricks` the statistics of bricks that are neighbors along x and together have the samples in `range`. If a
+// brick has missing samples, reads the brick a second time, to count these samples and leave them out of the bounds.
 void readRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
     std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
@@ -117,8 +118,8 @@ void readRun(const SampledLattice& from, const SampleIndexRange& range, std::spa
     }
 }
 
-// Returns the number of missing samples of a brick, without those on faces that the brick shares with an earlier brick,
-// so that the sum over all bricks counts each sample once.
+// Returns the number of missing samples of a brick. Does not count samples on faces that the brick shares with an
+// earlier brick, so that the sum over all bricks counts each sample once.
 std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
     SampleIndexRange range = rangeOf(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
@@ -174,8 +175,9 @@ void BrickBounds::readAll() {
 
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    // The multiples of this number modulo 1 are spread evenly, but not at equal distances. Therefore, in a periodic
-    // array, the runs do not all begin at the same phase.
+    // A run is a sequence of samples in memory. The runs begin at multiples of this number modulo 1, as fractions of
+    // the array, because these are spread evenly, but not at equal distances. At equal distances, all runs might begin
+    // at the same phase of a periodic array.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {
@@ -185,7 +187,7 @@ void BrickBounds::estimateStatistics() {
     }
 }
 
-// Adds the next coarser level to the pyramid.
+// Adds a level to the pyramid. Each brick of the new level joins up to 2⁴ bricks of the coarsest level so far.
 void BrickBounds::joinBricks() {
     const PyramidLevel fine = levels_.back();
     PyramidLevel coarse;
@@ -217,7 +219,8 @@ std::uint64_t BrickBounds::entryAt(const PyramidLevel& level, const BrickIndex& 
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
-    // Several threads may compute an entry at the same time. No lock is needed, because all store the same numbers.
+    // Several threads may compute an entry at the same time. No lock is needed, because all of them store the same
+    // entry.
     known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));
     entry.store(known, std::memory_order_relaxed);
     check.store(known ^ index, std::memory_order_relaxed);

@@ -30,12 +30,12 @@ struct SampleIndexRange {
 /// Bounds of the samples in each brick of 4 × 4 × 4 × 4 cells. Neighboring bricks share the samples on their common
 /// face.
 ///
-/// Small arrays are read once, by the constructor. A pyramid of coarser bricks, each of which joins up to 2⁴ bricks of
-/// the level below, then answers queries of any size from at most kMaxEntries entries (an entry is the bounds of one
-/// brick). Large arrays may be in files that are larger than the memory; each brick of a large array is read when a
-/// query first needs it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded, because
-/// such a query would have to read a large part of the file. The bounds of bricks that were read are kept in a cache of
-/// at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
+/// The constructor reads small arrays once, and makes a pyramid of coarser bricks, each of which joins up to 2⁴ bricks
+/// of the level below. From this pyramid, a query of any size reads at most kMaxEntries entries (an entry is the bounds
+/// of one brick). Large arrays may be in files that are larger than the memory; each brick of a large array is read
+/// when a query first needs it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded,
+/// because such a query would have to read a large part of the file. The bounds of bricks that were read are kept in a
+/// cache of at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -56,21 +56,22 @@ class BrickBounds {
     /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
     const SampleStatistics& statistics() const { return statistics_; }
 
-    /// Returns the memory used, in bytes; without `eager`, the maximum that the cache may use.
+    /// Returns the memory used, in bytes. If the constructor has not read the samples, returns the maximum that the
+    /// cache may use.
     std::size_t memoryBytes() const;
 
   private:
-    using BrickIndex = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
+    using BrickIndex = std::array<std::size_t, 4>;  // a brick's indices in its level, along x, y, z, w
 
-    // A level of the pyramid; `entries` are the packed bounds of its bricks, empty unless eager_.
+    // A level of the pyramid; `entries` are the packed bounds of the bricks of this level, empty unless eager_.
     struct PyramidLevel {
         BrickIndex size;  // the number of bricks along each axis
         std::span<std::uint64_t> entries;
     };
 
     void readAll();
-    /// For an array that is too large to read whole: computes the statistics of a selection of samples that are spread
-    /// evenly over the array.
+    /// Sets statistics_ to the statistics of a selection of samples that are spread evenly over the array, because the
+    /// array is too large to be read in full.
     void estimateStatistics();
     void joinBricks();
     std::uint64_t entryAt(const PyramidLevel& level, const BrickIndex& brick) const;
@@ -80,8 +81,8 @@ class BrickBounds {
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
     // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
-    // implementation for parallel search": `check` is the brick's index XOR its entry. Therefore, a slot whose two
-    // members were written by different threads is practically never taken for the entry of a brick.
+    // implementation for parallel search": `check` is the brick's index XOR its entry. If different threads have
+    // written the two members of a slot, the members practically never fit together, so the slot counts as empty.
     struct CacheSlot {
         std::uint64_t check, entry;
     };

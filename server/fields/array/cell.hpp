@@ -75,13 +75,12 @@ struct CellPoint {
         return isFinite(weighted) ? weighted : kNoValue;
     }
 
-    /// Returns the interpolated value and its derivatives. If any corner is not finite, none of these numbers is
-    /// finite.
+    /// Returns the interpolated value and its derivatives. If a corner is NaN or infinite, so are all of these numbers.
     ValueAndDerivatives valueAndDerivatives() const {
-        std::array<std::array<float, 4>, 2> ends{};  // at the lower and upper x: value, derivatives along y, z, w
+        std::array<std::array<float, 4>, 2> ends{};  // at x = 0 and x = 1 of the cell: value, derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {
             const float* const c = &corners[x * kRows];
-            std::array<float, 4> v{}, dw{};  // at the lower and upper y of the lower z, then of the upper z
+            std::array<float, 4> v{}, dw{};  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cell
             for (std::size_t i = 0; i < 4; ++i) {
                 v[i] = mix(c[i], c[i + 4], t[3]);
                 dw[i] = c[i + 4] - c[i];

@@ -11,13 +11,14 @@ namespace oval4d::fields {
 
 namespace {
 
-// The weight with which a fine sample contributes to the coarse sample with the index `coarse`.
+// The weight with which a sample of the array contributes to the sample with the index `coarse` of the downsampled
+// array.
 struct CoarseSampleWeight {
     std::uint32_t coarse;
     float weight;
 };
 
-// The weights of each fine sample along an axis: those of sample i are items[begin[i]] … items[begin[i + 1] − 1].
+// The weights of the samples along an axis: sample i has the weights items[begin[i]] … items[begin[i + 1] − 1].
 struct AxisWeights {
     std::vector<std::uint32_t> begin{0};  // size() + 1 entries
     std::vector<CoarseSampleWeight> items;
@@ -58,7 +59,8 @@ AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
     return weights;
 }
 
-// For each sample of a coarse row: the weighted sum of fine samples, and the sum of their weights.
+// For each sample in a row of the downsampled array: the weighted sum of samples of the array, and the sum of their
+// weights.
 struct RowSums {
     std::vector<float> values, weights;
 

@@ -17,13 +17,14 @@ Shape downsampledShape(const Shape& shape);
 /// `samples`.
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples);
 
-/// Repeatedly halves the number of samples along the axis that has the most samples at that time, rounding up, until
-/// there are at most `maxSamples` samples in all. Returns the resulting shape.
+/// Returns the shape of a selection of at most `maxSamples` samples of an array with the shape `shape`. Repeatedly
+/// halves the number of samples, rounding up, along the axis that has the most samples at that time, until there are
+/// few enough.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
-/// Returns a selection of `samples` with the shape `size`: for each point of a lattice of this shape in the same box,
-/// the nearest sample. Along an axis with several points, the selection includes the first and the last sample; along
-/// an axis with one point, only the first. `shape` is the shape of `samples`. Reads only the selected samples.
+/// Returns a selection of `samples`: for each point of a lattice with the shape `size` in the same box, the nearest
+/// sample. Along an axis with several points, the selection includes the first and the last sample; along an axis with
+/// one point, only the first. `shape` is the shape of `samples`. Reads only the selected samples.
 std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size);
 
 }  // namespace oval4d::fields

@@ -50,7 +50,7 @@ Batch subBatch(const Batch& batch, std::size_t begin, std::size_t count) {
             batch.w.subspan(begin, count)};
 }
 
-// A batch of fewer than kLanes points, padded with zeros to kLanes.
+// A batch of fewer than kLanes points, filled up to kLanes points with points at the origin.
 class PaddedBatch {
   public:
     explicit PaddedBatch(const PointBatch& points) {

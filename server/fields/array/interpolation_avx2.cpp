@@ -22,8 +22,9 @@ namespace {
 
 constexpr std::size_t kLanes = ScalarFunction::kLanes;
 
-// While a group of 8 points is computed, the samples of the group that comes kAhead groups later are prefetched. Only
-// the samples of every second point are prefetched, because neighboring points often share cache lines.
+// While the values of a group of 8 points are computed, the samples for the group that comes kAhead groups later are
+// prefetched. Only the samples of every second point are prefetched, because neighboring points often share cache
+// lines.
 constexpr std::size_t kAhead = 4;
 
 // The members of LatticeAxis, each copied to all lanes.
@@ -60,7 +61,7 @@ OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
     std::memcpy(to, &integers, sizeof integers);
 }
 
-// Finds the cells of the kLanes points from index `begin` on.
+// Sets `cells` to the cells that contain the kLanes points from index `begin` on.
 OVAL4D_AVX2 inline void locate(const AxisLanes* axes, const PointBatch& points, std::size_t begin, CellLanes& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
@@ -107,7 +108,7 @@ OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const RowOffse
                                             InterpolatedAlongWzy& out) {
     PairLanes rows[kRows];
     for (std::size_t row = 0; row < kRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
-    PairLanes v[4];  // at the lower and upper y of the lower z, then of the upper z
+    PairLanes v[4];  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cells
     for (std::size_t i = 0; i < 4; ++i) v[i] = mix(rows[i], rows[i + 4], w);
     const PairLanes y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
     out.value = mix(y0, y1, y);
@@ -143,7 +144,7 @@ OVAL4D_AVX2 inline __m256 isFinite(const __m256& numbers) {
     return _mm256_cmp_ps(magnitude, _mm256_set1_ps(std::numeric_limits<float>::max()), _CMP_LE_OQ);
 }
 
-// Returns the lanes in which the point lies on a face of its cell, so that some corners have the weight 0.
+// Returns a mask of the lanes whose points lie on a face of their cell, so that some corners have the weight 0.
 OVAL4D_AVX2 inline __m256 onFaces(const CellLanes& cells) {
     __m256 faces = _mm256_setzero_ps();
     for (const __m256& t : cells.t) {
@@ -204,8 +205,8 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             _mm256_storeu_ps(&gradients.w[i], _mm256_and_ps(w, exists));
         }
         if (_mm256_movemask_ps(valid) == 0xff) continue;
-        // A value that is not finite here may be a number in truth, because a corner that is not finite may have the
-        // weight 0.
+        // At a point on a face of its cell, the value may exist although the result so far is not finite, because a
+        // corner that is not finite may have the weight 0.
         const int unknown = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), onFaces(cells)));
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if ((unknown >> lane & 1) == 0) continue;

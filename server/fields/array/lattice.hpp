@@ -28,9 +28,9 @@ struct LatticeAxis {
     }
 };
 
-/// A regular 4-D lattice. Its first and last samples lie at the box's min and max. In memory, the sample with the
-/// indices i, j, k, l along x, y, z, w is at i + nx · (j + ny · (k + nz · l)), where nx, ny, nz are the first three
-/// sizes in `shape`.
+/// A regular 4-D lattice. Its first sample lies at the min of the box, and its last sample at the max. In memory, the
+/// sample with the indices i, j, k, l along x, y, z, w is at i + nx · (j + ny · (k + nz · l)), where nx, ny, nz are the
+/// first three sizes in `shape`.
 struct Lattice {
     Shape shape{1, 1, 1, 1};
     Box box;

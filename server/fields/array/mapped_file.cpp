@@ -16,8 +16,8 @@ namespace oval4d::fields {
 
 namespace {
 
-/// An entry in the list of mapped files that the signal handler reads. The entry is free if `begin` is 0. The handler
-/// reads only atomic members, because a signal handler may not wait for a mutex.
+/// An entry in the list of mapped files, in which the signal handler looks for the address of a fault. The entry is
+/// free if `begin` is 0. The handler reads only atomic members, because a signal handler may not wait for a mutex.
 struct MappedRange {
     std::atomic<std::uintptr_t> begin = 0;
     std::atomic<std::size_t> size = 0;
@@ -127,16 +127,16 @@ MappedFile::~MappedFile() {
 bool MappedFile::isLost() const {
     const MappedRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
-    // The file may have been shortened and restored since it was mapped. While it was shortened, another process of the
-    // server that has mapped it may have read zeros. Therefore any modification since the mapping counts as a loss.
+    // The file may have been shortened and then restored since it was mapped. In between, another process of the server
+    // that has mapped the file may have read zeros. Therefore, any modification since the mapping counts as a loss.
     struct stat status{};
     return fstat(file_->descriptor(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size_ ||
            status.st_mtim.tv_sec != range.modified.tv_sec || status.st_mtim.tv_nsec != range.modified.tv_nsec;
 }
 
 void MappedFile::releasePages() const {
-    // For a shared mapping, this only takes the pages out of the page table; changed pages are still written to the
-    // file.
+    // The mapping is shared, so this call only takes the pages out of the page table; changed pages are still written
+    // to the file.
     if (!isLost()) madvise(at_, size_, MADV_DONTNEED);
 }
 

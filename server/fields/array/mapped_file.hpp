@@ -65,8 +65,8 @@ class MappedFile {
     /// mapped.
     bool isLost() const;
 
-    /// Releases this process's resident pages of the file. They stay in the system's cache of files, so the next access
-    /// is fast. Thread-safe.
+    /// Removes the file's pages from the memory of this process. The pages stay in the system's page cache, so the next
+    /// access is fast. Thread-safe.
     void releasePages() const;
 
   private:

@@ -17,12 +17,13 @@ namespace oval4d::fields {
 /// A formula with the values of its named constants. Copies are cheap.
 class Formula {
   public:
-    /// The named constants: first those of a shared formula (see parseFormula()), then those of the text, in its order.
+    /// The named constants: first those of a shared formula (see parseFormula()), then those that the text defines, in
+    /// the order of the text.
     const std::vector<FormulaConstant>& constants() const { return parsed_->constants; }
 
-    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if the formula has no
-    /// constant of this name; `out_of_range` if a value is not finite, or if the result exceeds a limit (see
-    /// FormulaLimits).
+    /// Returns this formula with other values for the constants that `values` names. Errors: `bad_expression` if the
+    /// formula has no constant of this name; `out_of_range` if a value is not finite, or if the result exceeds a limit
+    /// (see FormulaLimits).
     Result<Formula> with(std::span<const FormulaConstant> values) const;
 
     /// Returns the formula as normalized text, with the values of its constants. parseFormula() reads it as the same

@@ -28,8 +28,8 @@ float* scratch(std::size_t size) {
 }
 
 using PaddedPoints = std::array<Lanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
-// Returns kKernelLanes points: the points from index `begin` to the end of the batch, which must be fewer than
-// kKernelLanes, and then copies of the last point.
+// Returns kKernelLanes points: first the points from index `begin` to the end of the batch, then copies of the last
+// point. There must be fewer than kKernelLanes points from `begin` on.
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
     const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};

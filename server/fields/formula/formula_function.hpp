@@ -22,8 +22,8 @@ class FormulaFunction final : public ScalarFunction {
     void evaluate(const PointBatch& points, std::span<float> values) const override;
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
-    /// The bounds contain the values that evaluate() returns and the exact real values: the values at all points of the
-    /// region, and the values at these points rounded to floats.
+    /// The bounds contain both the values that evaluate() returns and the exact real values, at all points of the
+    /// region and at these points rounded to 32-bit floats.
     ValueBounds boundsIn(const Box& region) const override;
     EvaluationCost cost() const override;
     std::size_t memoryBytes() const override;

@@ -66,7 +66,8 @@ class GradientLoops : private ValueLoops<Math> {
         return index == Tape::kResult ? block.gradients[axis]
                                       : outputRegister(block, index) + (1 + axis) * kGradientBlockPoints;
     }
-    // A coordinate has the derivative 1 (the array `ones`) with respect to itself.
+    // Returns the derivatives of the register `index` along `axis`, which must not be 0 everywhere. For a coordinate,
+    // `axis` is its own axis, and the derivatives are 1: the array `ones`.
     static const float* inputDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
         return index < Tape::kResult ? ones : outputDerivative(block, index, axis);
     }
@@ -80,8 +81,8 @@ class GradientLoops : private ValueLoops<Math> {
     };
 
     // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
-    // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that cannot is not read.
-    // min and max take the derivative of one operand, even if the other derivative is not finite.
+    // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that is always 0 is not
+    // read. min and max take the derivative of one operand, even if the other derivative is not finite.
     static void applyChainRule(const Instruction& instruction, const BlockValuesAndPartials& partials, bool byA,
                                bool byB, float* out, const float* ofA, const float* ofB, SizeType size) {
         const NumberOperand zero{0};
@@ -103,8 +104,8 @@ class GradientLoops : private ValueLoops<Math> {
         for (SizeType i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
-    // Sets to 0 the derivatives that the last instruction has not written, and then each gradient that is not finite or
-    // whose value is not finite.
+    // Sets to 0 the derivatives that the last instruction has not written. Then sets each gradient to 0 if one of its
+    // components, or the value at its point, is not finite.
     static void zeroInvalidGradients(const Instruction& last, const GradientBlock& block) {
         for (unsigned axis = 0; axis < 4; ++axis) {
             if ((last.axes >> axis & 1U) == 0)
@@ -206,7 +207,7 @@ class GradientLoops : private ValueLoops<Math> {
         powerOrAtan2(instruction, out.value, a, b, size);
     }
 
-    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a, which is 0 for a = 0 < b.
+    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a. The latter is 0 for a = 0 and b > 0.
     static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
                               const float* b, SizeType size) {
         if (instruction.axesOfB != 0) {

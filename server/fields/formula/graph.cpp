@@ -8,7 +8,7 @@ namespace oval4d::fields {
 
 namespace {
 
-// For larger integer exponents, pow is used, because it is more accurate than many multiplications.
+// Powers with greater integer exponents are computed by pow, which is more accurate than many multiplications.
 constexpr double kMaxIntegerExponent = 64;
 
 bool isPowerOfTwo(double value) {
@@ -58,7 +58,8 @@ Graph::Ref Graph::binary(Operation operation, Ref a, Ref b) {
     return node(operation, a, b, 0);
 }
 
-// The exponent is rounded to a float first, so that all evaluations agree on whether it is an integer.
+// The exponent is rounded to a float first, so that the kernels (in floats) and interval arithmetic (in doubles) agree
+// on whether it is an integer.
 Graph::Ref Graph::power(Ref a, double exponent) {
     exponent = static_cast<float>(exponent);
     const bool isInteger = std::floor(exponent) == exponent && std::abs(exponent) <= kMaxIntegerExponent;

@@ -114,14 +114,13 @@ ValueBounds log(const ValueBounds& a) {
     return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
 }
 
-// Returns whether, for some integer k, phase + k · period is in `a`, or outside of `a` by no more than rounding errors
-// may be.
+// Returns whether `a`, widened by possible rounding errors, contains phase + k · period for some integer k.
 bool containsPhase(const ValueBounds& a, double phase, double period) {
     const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
 }
 
-// Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where it is greatest.
+// Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where `f` is 1.
 template <typename F>
 ValueBounds sine(F f, double top, const ValueBounds& a) {
     constexpr double kLarge = 1e6;  // beyond ±kLarge, the slack of containsPhase() is too large to be useful
@@ -167,7 +166,8 @@ ValueBounds power(const ValueBounds& a, const ValueBounds& b) {
     if (a.min >= 0) return powerOfPositive(a, b);
     const bool mayBeInteger = std::floor(b.max) >= b.min;
     if (!mayBeInteger) {
-        // `b` contains no integers. For such exponents, pow(−∞, b) is pow(∞, b) in C, not NaN.
+        // `b` contains no integers. With such exponents, C's pow is NaN for finite negative bases, and pow(−∞, b) is
+        // pow(∞, b).
         if (a.max < 0 && a.min > -kInfinity) return kEmpty;
         const ValueBounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
         return powerOfPositive(positive, b);
@@ -188,7 +188,7 @@ ValueBounds arctangent2(const ValueBounds& y, const ValueBounds& x) {
 }
 
 // Returns the interval of a − b⌊q⌋, where q is the computed quotient: a/b times a factor from 1 − 2⁻²⁴ to 1 + 2⁻²⁴. The
-// value is between 0 and b, except for a few rounding errors of numbers that are at most |a| + |b|.
+// computed value is between 0 and b, or beyond by a few rounding errors of numbers that are at most |a| + |b|.
 ValueBounds modulo(const ValueBounds& a, const ValueBounds& b) {
     const ValueBounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};

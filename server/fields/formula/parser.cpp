@@ -50,7 +50,7 @@ bool isTaken(std::string_view name) {
     return contains(kVariablesAndConstants, name) || contains(kUnits, name) || functionNamed(name).has_value();
 }
 
-// Converts the index of a byte to a position as shown to users, in characters from 1.
+// Converts the index of a byte of `text` to the position that is shown to users, counted in characters from 1.
 std::size_t positionOf(std::string_view text, std::size_t byte) {
     const auto startsCharacter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
     return 1 + static_cast<std::size_t>(
@@ -101,8 +101,8 @@ class Parser {
     }
 
   private:
-    // An operand whose sign is not yet part of the tree. Signs are moved out of products, and turn sums into
-    // differences or the reverse, so that toText() never needs to write "--".
+    // An operand whose sign is not yet part of the tree. The parser moves signs out of products, and turns a + −b into
+    // a − b and a − −b into a + b, so that toText() never needs to write "--".
     struct SignedOperand {
         Index node;
         bool isNegative;
@@ -226,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name in the formula. The formula is parsed before the definitions. Until all definitions are parsed,
-    // SyntaxNode::index of each node of this name is the index in uses_ of its NameUse.
+    // A name in the formula. The formula is parsed before the definitions. Until resolveNames() is called after the
+    // last definition, the SyntaxNode::index of each node of this name is the index of the NameUse in uses_.
     struct NameUse {
         std::string_view name;
         std::size_t byte;

@@ -74,7 +74,7 @@ std::string_view symbolOf(Relation relation) {
     return "";
 }
 
-// How tightly the outermost operation of a text binds, from the loosest to the tightest.
+// How tightly an expression binds: the precedence of its outermost operation, from the loosest to the tightest.
 enum class Precedence { sum, product, negation, power, unit, atom };
 
 struct TextWithPrecedence {

@@ -1,6 +1,6 @@
 #pragma once
-// The syntax tree of a formula. The parser returns it; toText() writes it as text, and buildGraph() converts it to a
-// graph.
+// The syntax tree of a formula. The parser returns the tree; toText() writes a tree as text, and buildGraph() converts
+// a tree to a graph.
 
 #include <cstddef>
 #include <cstdint>

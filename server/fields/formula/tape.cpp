@@ -37,8 +37,8 @@ class Compiler {
     Tape take() { return std::move(tape_); }
 
   private:
-    // Sets lastUse_ of each node to the last node of which it is an operand. If the result does not depend on a node,
-    // the node's lastUse_ remains kNever. The last use of the result is the result itself.
+    // Sets lastUse_ of each node to the last of the nodes that have this node as an operand. If the result does not
+    // depend on a node, the node's lastUse_ remains kNever. The last use of the result is the result itself.
     void findLastUses() {
         lastUse_[result_] = result_;
         for (Ref user = result_ + 1; user-- > 0;) {

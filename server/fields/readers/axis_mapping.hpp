@@ -15,8 +15,8 @@
 
 namespace oval4d::fields {
 
-/// The maximum number of numbers in a slab, which is a part of an array that is read and converted at once. After each
-/// slab, pages of mapped files are released.
+/// The maximum count of numbers in a slab, a part of an array that is read and converted at once. After each slab, the
+/// readers release the pages of mapped files.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
 /// The size in bytes of the cache in which the libraries for HDF5 and NetCDF keep decompressed chunks, because several
@@ -58,7 +58,7 @@ class AxisMapping {
     /// Returns the sizes of the array's dimensions, and their strides among the samples. An array with fewer than 4
     /// dimensions gets leading dimensions of size 1.
     const StridedLayout& layout() const { return layout_; }
-    /// Returns the index of the array's first number among the samples; 0 unless a dimension is reversed.
+    /// Returns the index of the array's first number among the samples. It is 0 unless a dimension is reversed.
     std::size_t firstSampleIndex() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see

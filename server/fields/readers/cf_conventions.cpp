@@ -75,9 +75,9 @@ std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimens
 
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings) {
-    constexpr double kUnevenness = 1e-3;  // the accepted distance from an even spacing, in cells
+    constexpr double kUnevenness = 1e-3;  // the accepted deviation from even spacing, in steps
     const double step = at.size() > 1 ? (at.back() - at.front()) / static_cast<double>(at.size() - 1) : 1;
-    double largest = 0;  // the largest distance from an even spacing, in cells
+    double largest = 0;  // the largest deviation of a coordinate from even spacing, in steps
     bool monotone = std::isfinite(step) && step != 0 && std::isfinite(at.front());
     for (std::size_t i = 1; i < at.size() && monotone; ++i) {
         monotone = (at[i] - at[i - 1]) * step > 0;

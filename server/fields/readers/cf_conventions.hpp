@@ -15,7 +15,7 @@ struct CfDimension {
     std::string name, axis, standardName, units, positive;
 };
 
-/// Returns the axis of a dimension, 0 … 3 for x, y, z, t; an empty optional if the file does not state it.
+/// Returns the axis of a dimension, 0 … 3 for x, y, z, t; an empty optional if `dimension` does not determine it.
 std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 
 /// Returns the axes of a variable's dimensions, which must be at most 4 and ordered from the slowest to the fastest.
@@ -28,9 +28,9 @@ struct CoordinateEnds {
     double first, last;
 };
 
-/// Returns the first and the last of the coordinates `at` along the dimension `name`. `at` must not be empty. Returns
-/// an empty optional if the coordinates are not strictly monotonic. Adds a warning if they are not strictly monotonic
-/// or not evenly spaced.
+/// Returns the first and the last of the coordinates `at` along the dimension `name`. `at` must not be empty. If the
+/// coordinates are not strictly monotonic, adds a warning and returns an empty optional. If they are not evenly spaced,
+/// adds a warning.
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings);
 

@@ -28,7 +28,8 @@ Result<bool> inflated(GzipReader::StreamFormat format, std::span<const std::byte
 
 Result<bool> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
     std::size_t size = 0;
-    // The library trusts the sizes in the header unless they are validated.
+    // blosc_decompress_ctx() trusts the sizes in the header of the chunk, so blosc_cbuffer_validate() checks them
+    // first.
     if (chunk.size() < BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(chunk.data(), chunk.size(), &size) < 0 ||
         size != to.size() ||
         blosc_decompress_ctx(chunk.data(), to.data(), to.size(), 1) != static_cast<int>(to.size())) {

@@ -60,13 +60,13 @@ bool comesBefore(const std::string& a, const std::string& b) {
     return restA.empty() != restB.empty() ? restA.empty() : a < b;
 }
 
-// Sets the box of a series (see readSeries()). `times` has the value of w of each file.
+// Sets the box of a series (see readSeries()). `times` has, for each file of the series, the w at which its box begins.
 void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
     if (known) static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
-    // Files that state no time have equal ones.
+    // The times are equal if the files state none.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
     if (series.boxIsKnown && !known && differ && !options.box) {
         series.warnings.emplace_back(
@@ -108,8 +108,8 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOpt
     FieldArray series;
     std::optional<SampleBuffer> all;
     std::vector<double> times;
-    // All files after the first one are decompressed into the same new file: the samples of each of them are copied to
-    // `all` before the next one is read.
+    // Each file of the series but the first is decompressed into the same new file, because its samples are copied to
+    // `all` before the next file of the series is read.
     std::shared_ptr<MappedFile> decompressed;
     const MappedFileMaker reuseFile = [&](std::size_t bytes) -> Result<std::shared_ptr<MappedFile>> {
         if (decompressed && decompressed->bytes().size() >= bytes) return decompressed;

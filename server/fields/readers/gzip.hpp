@@ -33,8 +33,8 @@ class GzipReader {
     /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
     Result<bool> fill(std::span<std::byte> to);
 
-    /// Returns whether all decompressed bytes have been read and their checksum is correct. If decompressed bytes are
-    /// left, skips one of them, so do not read from this object afterward.
+    /// Returns whether the caller has read all decompressed bytes and their checksum is correct. Do not read from this
+    /// object afterward: if bytes were left, this function has skipped one of them.
     bool verifyEnd();
 
   private:

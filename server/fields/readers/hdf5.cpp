@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kMaxDatasets = 10'000;  // a file with this many datasets, or more, is refused
 
-// An identifier of an object of the library; the destructor closes it.
+// The identifier of an object of the HDF5 library; the destructor closes the object.
 class Handle {
   public:
     Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -42,8 +42,9 @@ class Handle {
     herr_t (*close_)(hid_t);
 };
 
-// The library calls these functions to get memory for a copy of the file, and to fill it. There is no copy: they return
-// the bytes of the file themselves. The library does not write to these bytes, because it opens the file for reading.
+// The HDF5 library calls these functions to get memory for a copy of the file, and to fill this memory. To avoid the
+// copy, they return the bytes of the file themselves. The library does not write to these bytes, because it opens the
+// file only for reading.
 void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;
@@ -75,8 +76,8 @@ struct DatasetListing {
     bool hasScales = false;  // whether a dataset has dimension scales, as all variables of NetCDF-4 files have
 };
 
-// The library calls visitLink() for each link and visitObject() for each object, until a call returns a number other
-// than 0. These functions must not throw, because the library is written in C.
+// The HDF5 library calls visitLink() for each link and visitObject() for each object in the file, until a call returns
+// a number other than 0. The two functions must not throw, because the library is written in C.
 herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<DatasetListing*>(to);
     contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
@@ -110,8 +111,8 @@ std::optional<std::vector<std::size_t>> sizeOfDataset(hid_t dataset) {
     return std::vector<std::size_t>(size.begin(), size.begin() + dimensions);
 }
 
-// Returns whether a type is that of IEEE 754 floats of two bytes, as h5py writes them. The library has no name for it
-// before version 1.14.4.
+// Returns whether a type is that of IEEE 754 floats of two bytes, as h5py writes them. The HDF5 library has no name for
+// this type before version 1.14.4.
 bool isHalf(hid_t type) {
     std::size_t sign = 0, exponent = 0, exponentBits = 0, fraction = 0, fractionBits = 0;
     const H5T_order_t order = H5Tget_order(type);
@@ -285,8 +286,8 @@ Result<FieldArray> readHdf5(const FileContents& file, const ReadOptions& options
     }
     if (contents.datasets.size() == kMaxDatasets) return badField("the file has too many datasets");
     if (H5Aexists(*id, "_NCProperties") > 0) return readNetcdf(file, options);
-    // The file may be of NetCDF before version 4.4.1, or of a program that uses dimension scales in the same way. The
-    // library for NetCDF may not know the types of such a program.
+    // Without _NCProperties, a file with dimension scales is from NetCDF before version 4.4.1 or from another program.
+    // The NetCDF library may not know the types that another program uses; if it fails, readDataset() reads the file.
     if (contents.hasScales) {
         if (auto field = readNetcdf(file, options)) return field;
     }

@@ -15,9 +15,9 @@ bool isHdf5Start(std::span<const std::byte> start);
 
 /// Reads a dataset of integers, real numbers, or Booleans as h5py writes them, with 1 to 4 dimensions.
 /// `options.variable` is the path of the dataset, which may contain soft links. If this option is empty, the dataset
-/// with the most dimensions is read; of several such datasets, the first by path. The bytes of a dataset that is stored
-/// in one piece are used as in readNpy(), without the library; other datasets are read by slabs. The box is that of the
-/// options, or defaultBox(). NetCDF-4 files are passed to readNetcdf().
+/// with the most dimensions is read; of several such datasets, the first by path. A dataset that is stored in one piece
+/// is used in place or converted as in readNpy(), without the HDF5 library; other datasets are read by slabs. The box
+/// is that of the options, or defaultBox(). NetCDF-4 files are passed to readNetcdf().
 ///
 /// Refuses files that refer to other files: by external links, external storage or virtual datasets. Loads no plug-ins.
 /// Errors: `bad_field`, `too_large`, `not_found` for the path, `out_of_range` for the other options.

@@ -25,7 +25,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes that are kept of a text
+constexpr std::size_t kMaxNetcdfText = 64;  // longer texts are cut to this number of bytes
 
 // A file that the library has opened; the destructor closes it.
 class OpenFile {
@@ -36,8 +36,8 @@ class OpenFile {
         const std::size_t size = file.bytes.size();
         status_ = nc_open_mem("field", NC_NOWRITE, size, bytes, &id_);
         // libnetcdf 4.9 reads the header of a file of the classic format in parts of growing size. If the header takes
-        // more than about half of the file, a part would end behind the file, which the library refuses with EPERM. A
-        // small file is then opened again, with as many zeros after it as it has bytes.
+        // more than about half of the file, a part would extend beyond the end of the file, and the library fails with
+        // EPERM. In this case, a small file is opened again, followed by as many zeros as it has bytes.
         constexpr std::size_t kMostPadded = std::size_t{1} << 20U;
         if (status_ == EPERM && size <= kMostPadded) {
             padded_.assign(file.bytes.begin(), file.bytes.end());
@@ -164,10 +164,10 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns the coordinate variable of one of the variable's dimensions: the variable that has the dimension's name, and
-// has no other dimension. It may be in the variable's group or an outer one. The name does not suffice: a variable may
-// be named like a dimension that it does not have, and a dimension of a group may be named like a dimension of an outer
-// group.
+// Returns the coordinate variable of a dimension of `variable`: a variable that has the name of the dimension, and no
+// dimension but this one. It may be in the group of `variable` or in an outer group. The name alone does not suffice: a
+// variable may be named like a dimension that it does not have, and a dimension of a group may be named like a
+// dimension of an outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;
@@ -263,7 +263,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
     return endsOfCoordinates(at, name, field.warnings);
 }
 
-// Assigns dimensions to axes, and finds the box and the units.
+// Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
 Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
     std::vector<std::optional<Variable>> coordinates;

@@ -51,7 +51,7 @@ struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;
     std::array<std::int64_t, kDimensions> size{};
-    std::array<double, 5> spacing{};  // pixdim: the sign of an axis, then the distances along four dimensions
+    std::array<double, 5> spacing{};  // pixdim: the sign of the third axis, then the distances along four dimensions
     int type = 0, units = 0, qform = 0, sform = 0;
     double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
     std::array<double, 3> quaternion{}, offset{};
@@ -169,9 +169,10 @@ double spacingAlong(const NiftiHeader& header, std::size_t dimension) {
     return spacing > 0 && std::isfinite(spacing) ? spacing : 1;
 }
 
-using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // from indices to coordinates in space
+using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // maps the indices of a voxel to coordinates in space
 
-// Returns the orientation by method 3 of nifti1.h, or else by method 2; an empty optional if the file states neither.
+// Returns the orientation of the image: by method 3 of nifti1.h if the file states it so, else by method 2; an empty
+// optional if the file states neither.
 std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};

@@ -18,8 +18,8 @@ bool isNiftiStart(std::span<const std::byte> start);
 /// option, the file's orientation gives the box along the first three dimensions, provided that `options.axes` is empty
 /// and the voxels' axes are parallel to the axes of space. Otherwise, the box is centered at the origin along the first
 /// three dimensions, and uses the file's distances between samples; if `options.axes` is empty and the voxels' axes are
-/// oblique, there is a warning. The fourth dimension begins at the file's first time. Errors: `bad_field`, `too_large`;
-/// `out_of_range` for the options.
+/// oblique, there is a warning. Along the fourth dimension, the box begins at the time offset that the file states.
+/// Errors: `bad_field`, `too_large`; `out_of_range` for the options.
 Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -27,12 +27,12 @@ struct NumberFormat {
     double min = -std::numeric_limits<double>::infinity();  ///< stored numbers outside min … max stand for no value
     double max = std::numeric_limits<double>::infinity();
 
-    /// Returns whether all stored numbers stand for themselves.
+    /// Returns whether all stored numbers stand for themselves: no scale, no offset, no missing numbers, no limits.
     bool isPlain() const;
 
-    /// Returns the number of the type that is closest to `number`; currently rounds only to 32-bit floats. A file of
-    /// 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1, which equals
-    /// no 32-bit float.
+    /// Returns the number of the type `type` that is closest to `number`; returns `number` unchanged for types other
+    /// than f4. A file of 32-bit floats may state a missing value or a limit as a double or in decimal notation, such
+    /// as 0.1, which equals no 32-bit float.
     double roundedToType(double number) const;
     /// Applies roundedToType() to `missing`, `min` and `max`.
     void roundLimitsToType();

@@ -40,7 +40,7 @@ struct ReadOptions {
                                    ///< remain valid as long as the samples are used
 };
 
-/// A field read from a file. If the samples lie in the bytes of the file, they keep these bytes valid.
+/// A field read from a file. If `samples` refers to the bytes of the file, it keeps these bytes valid.
 struct FieldArray {
     Shape shape{1, 1, 1, 1};
     Box box;

@@ -18,7 +18,7 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
-constexpr std::size_t kMaxZarrText = 60;                      // maximum number of bytes that are kept of a text
+constexpr std::size_t kMaxZarrText = 60;                      // longer texts are cut to this number of bytes
 
 FolderTextReader textsOf(const FolderFileReader& folder) {
     return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
@@ -89,12 +89,13 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // Returns how many indices along a dimension the chunk `index` has within the array.
+    // Returns how many indices along a dimension are both in the chunk `index` and in the array, because the last chunk
+    // may extend beyond the array.
     std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
         return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
     }
 
-    // Converts a chunk row by row, without the numbers that lie beyond the end of the array.
+    // Converts the numbers of the chunk `index` that are in the array, row by row. `from` is the decompressed chunk.
     void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
@@ -146,8 +147,8 @@ class ChunkReader {
 };
 
 // Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
-// dimension's name. Sets `units` and `stated` from its attributes. Returns an empty optional if there is no such array,
-// if it cannot be read, or if the dimension is empty.
+// dimension's name. Sets `units` and `stated` from the attributes of the array at `path`. Returns an empty optional if
+// there is no such array, if it cannot be read, or if the dimension is empty.
 std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, const ZarrFolder& zarr,
                                                const std::string& path, std::size_t size, std::string& units,
                                                CfDimension& stated) {
@@ -175,8 +176,8 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     return at;
 }
 
-// Sets `kept` to the dimensions that are read. If there are more than four dimensions, leaves out dimensions of size 1
-// until four remain.
+// Sets `kept` to the dimensions of the array, in ascending order. If there are more than four, leaves out dimensions of
+// size 1 until four remain.
 void squeeze(ZarrArrayMetadata& array, std::vector<std::size_t>& kept) {
     kept.resize(array.shape.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
@@ -189,7 +190,7 @@ void squeeze(ZarrArrayMetadata& array, std::vector<std::size_t>& kept) {
     }
 }
 
-// Assigns dimensions to axes, and finds the box and the units.
+// Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
 Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
                                              const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
                                              const ReadOptions& options, FieldArray& field) {

@@ -14,7 +14,8 @@ namespace oval4d::fields {
 /// Returns the error `bad_field` for metadata that are not valid.
 Error badMetadata(std::string reason);
 
-/// Returns a value as error messages quote it: in quotes, at most 60 characters of it unless it is a string.
+/// Returns a value in quotes, for error messages: a string in full, and of any other value the first 60 characters of
+/// its JSON text.
 std::string quoted(const nlohmann::json& value);
 
 /// Returns the text of a file with NaN and Infinity, which Python writes into JSON files, replaced by null.

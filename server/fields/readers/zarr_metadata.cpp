@@ -47,8 +47,8 @@ Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view na
     return sizes;
 }
 
-// Returns the value of missing chunks; NaN if there is none. Version 3 may give the bits of a float, as a hexadecimal
-// number.
+// Returns the fill value, which all numbers of a missing chunk have; NaN if the metadata state none. Version 3 may
+// state the bits of a float as a hexadecimal number.
 Result<double> fillIn(const json& metadata, const NumberFormat& format) {
     const json* const value = member(metadata, "fill_value");
     if (value == nullptr) return kNone;
@@ -256,8 +256,8 @@ void transform(const json& transformation, ZarrCoordinates& coordinates) {
     }
 }
 
-// Returns whether a path cannot lead out of its folder: whether none of its names is empty, "." or "..", or contains a
-// null character.
+// Returns whether a path stays inside its folder. Returns false if one of the names in the path is empty, "." or "..",
+// or contains a null character.
 bool isInside(std::string_view path) {
     for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());

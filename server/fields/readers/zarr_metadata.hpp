@@ -60,7 +60,7 @@ class ZarrFolder {
     /// `unsupported_format`, `too_large`; `out_of_range` if the path leads out of the folder.
     Result<std::optional<ZarrArrayMetadata>> array(const std::string& path) const;
 
-    /// The array of a group to read if none is requested.
+    /// The array that is read from a group if the user does not name one.
     struct ChosenArray {
         std::string path;
         std::vector<std::string> all;  ///< the paths of all arrays among which `path` was chosen
