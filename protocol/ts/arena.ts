@@ -1,5 +1,5 @@
-// Memory for the typed arrays of one message, which the arrays of the next message overwrite. The size of the memory is
-// a power of two, so that messages of about the same size need no new memory.
+// Memory for the typed arrays of one message. The arrays of the next message overwrite this memory. The size of the
+// memory is a power of two, so that messages of about the same size need no new memory.
 
 /** The class of a typed array, such as Float32Array. */
 export type TypedArrayConstructor<T> = {
@@ -17,7 +17,10 @@ export class Arena {
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
     }
 
-    /** Returns a copy of little-endian bytes as an array of numbers; undefined if there is not enough memory. */
+    /**
+     * Copies little-endian bytes into the memory, and returns the copy as an array of numbers; undefined if there is
+     * not enough memory.
+     */
     copy<T>(bytes: Uint8Array, arrayType: TypedArrayConstructor<T>): T | undefined {
         const copied = this.allocate(bytes.length / arrayType.BYTES_PER_ELEMENT, arrayType);
         if (copied) new Uint8Array(this.memory, this.used - bytes.length, bytes.length).set(bytes);

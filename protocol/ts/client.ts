@@ -1,5 +1,5 @@
-// A client of one session. If its connection breaks, the client reconnects automatically, and identifies itself with
-// the token of the session to return to it. The client reports the status of the connection.
+// A client of one session. If the connection breaks, the client reconnects automatically, and returns to the session
+// with the session's token. The client reports the status of the connection.
 
 import { Arena } from "./arena.js";
 import { decodeBinary, decodeText } from "./decode.js";
@@ -15,7 +15,7 @@ export interface Credentials {
 }
 
 export type Status =
-    | { kind: "connecting"; isBlocked?: true } // isBlocked: the server answers over HTTP, but no WebSocket opens
+    | { kind: "connecting"; isBlocked?: true } // `isBlocked`: the server answers over HTTP, but no WebSocket opens
     | { kind: "open" }
     | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true } // `seconds`: until the next attempt
     | { kind: "closed"; reason: string };
@@ -50,9 +50,9 @@ export interface Options {
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
     /**
-     * Called if the server refuses the first message `hello` of a connection. The result is the size of pictures with
-     * which the client says hello once more, or "default" for the server's default size. If the result is undefined,
-     * the client reports the refusal as the reason in the status, and connects again later.
+     * Called if the server refuses the first message `hello` of a connection. The client then sends another `hello`
+     * with the returned size of pictures, where "default" is the server's default size. If undefined is returned, the
+     * client reports the refusal as the `reason` of its status, and connects again later.
      */
     onRefused?(error: RequestError): Viewport | "default" | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
@@ -70,7 +70,10 @@ export class RequestError extends Error {
     }
 }
 
-/** The answer to a request of type "get": the message of the type `What`, or what arrives in a binary message. */
+/**
+ * The answer to a request of type "get": the message of the type `What` or, for a frame or a file, the contents of a
+ * binary message.
+ */
 type GetAnswer<What> = What extends "frame"
     ? Uint8Array
     : What extends "file"
@@ -79,8 +82,8 @@ type GetAnswer<What> = What extends "frame"
 
 interface PendingRequest {
     /**
-     * What answers the request. A frame or a file is a binary message without an id; the message `done` with the id of
-     * the request follows it.
+     * What answers the request. A frame or a file arrives as a binary message without an id; after it, the message
+     * `done` has the id of the request.
      */
     wants: "frame" | "file" | "slices" | "message";
     /** Whether the answer may take long. The server answers later requests only after this one. */
@@ -91,7 +94,7 @@ interface PendingRequest {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kReconnectDelay = 0.1; // seconds after an open connection ended; short, because another server may answer
+const kReconnectDelay = 0.1; // seconds after an open connection ended: short, as another server may have taken over
 const kFirstRetryDelay = 0.5; // seconds from the first failed attempt to the next, doubled after each further failure
 const kMaxRetryDelay = 15; // seconds: the longest delay between two attempts
 const kOpeningTimeout = 5; // seconds within which a WebSocket must open
@@ -153,8 +156,8 @@ export class Client {
     }
 
     /**
-     * Says hello on a new connection. If the server refuses, says hello again with the size that onRefused() returns,
-     * if any.
+     * Says hello on a new connection. If the server refuses and onRefused() returns a size, says hello again with this
+     * size.
      */
     private async sayHello(): Promise<void> {
         let refusal = await this.tryHello({});
@@ -168,8 +171,8 @@ export class Client {
     }
 
     /**
-     * Says hello; resolves to the error if the server refuses. If the server does not answer, the connection counts as
-     * lost.
+     * Says hello. Resolves to the error if the server refuses, otherwise to undefined. If the server does not answer in
+     * time, treats the connection as lost.
      */
     private tryHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
         clearTimeout(this.timer);
@@ -311,24 +314,27 @@ export class Client {
         this.options.onWelcome?.(welcome);
     }
 
-    /** Schedules a test of the connection after a time without messages, because no event reports a broken network. */
+    /**
+     * Schedules a test of the connection after kIdleBeforeTest without messages, because no event reports a broken
+     * network.
+     */
     private scheduleTest(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
         (this.timer as { unref?(): void }).unref?.(); // in Node, so that the timer does not keep a script running
     }
 
-    /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
+    /** Tests the connection with a request. If the server does not answer in time, treats the connection as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsentBytes } = this; // counted before the test is added, whose bytes may be sent but never arrive
+        const { unsentBytes } = this; // without the bytes of the test itself, which may be sent but never arrive
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitTestAnswer(unsentBytes);
     }
 
     /**
-     * Waits for the answer to a test. If fewer than `unsentBytes` bytes are still unsent when the time limit expires,
-     * the connection is slow but works; then waits for the same time again.
+     * Waits for the answer to a test. If the time limit expires and fewer than `unsentBytes` bytes are unsent, the
+     * connection is slow but works, and the client waits once more. Otherwise, it treats the connection as lost.
      */
     private awaitTestAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
@@ -363,8 +369,8 @@ export class Client {
 
     /**
      * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests. If the server has another token than before, stops connecting: each
-     * attempt would count as a wrong token, and soon the server would refuse everybody at this address.
+     * pass on the headers of WebSocket requests. If the server requires another access token than before, stops
+     * connecting: the server would count each attempt, and soon refuse all clients at this IP address.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
@@ -408,7 +414,7 @@ export class Client {
     }
 }
 
-/** Whether the server may have to read, build, search or draw before it answers this request and later ones. */
+/** Whether the server may have to read, build, search or draw something before it answers this request. */
 function mayTakeLong(message: Request): boolean {
     switch (message.type) {
         case "load":

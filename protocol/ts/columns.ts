@@ -1,6 +1,6 @@
-// Converts the slices of a binary message to objects. Such a message has one array (a column) per property, with the
-// values of all slices in turn. The vertices, edges and faces of the projection's parts (see ObjectProjection) are in
-// columns, too.
+// Converts the slices of a binary message to objects. Such a message has one array (a column) per property: the values
+// of the first slice, then those of the second, and so on. The vertices, edges and faces of the projection's parts (see
+// ObjectProjection) are in columns, too.
 
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
@@ -8,7 +8,7 @@ import type { Vector } from "./types.js";
 /** A value for each kind of element of a slice. */
 type PerElementKind<T> = Record<"vertices" | "edges" | "faces", T>;
 
-/** The elements of all slices in turn, or of all parts of the projection. */
+/** The elements of all slices, one slice after the other, or of all parts of the projection. */
 interface ElementColumns {
     /** The number of elements in each slice or part. */
     counts: PerElementKind<Integers>;
@@ -18,7 +18,10 @@ interface ElementColumns {
     edges: Integers;
     /** The number of corners of each face. */
     sides: Integers;
-    /** The indices of the vertices of each face in turn, counted from the first vertex of the slice or part. */
+    /**
+     * The indices of the vertices of the first face, then of the second, and so on, counted from the first vertex of
+     * the slice or part.
+     */
     corners: Integers;
     // For the meaning of the following members, see Elements.
 

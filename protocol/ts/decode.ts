@@ -27,7 +27,9 @@ const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
     [86, Float64Array],
 ]);
 
-/** Returns little-endian bytes as an array of numbers. Copies only unaligned arrays. */
+/**
+ * Returns an array of the numbers in little-endian bytes: a view of the bytes if they are aligned, otherwise a copy.
+ */
 function typedArrayOf<T>(bytes: Uint8Array<ArrayBuffer>, arrayType: TypedArrayConstructor<T>): T {
     const size = arrayType.BYTES_PER_ELEMENT;
     return bytes.byteOffset % size === 0
@@ -124,14 +126,15 @@ class MsgpackReader extends BinaryReader {
         return size === 4 ? this.view.getInt32(at) : Number(this.view.getBigInt64(at));
     }
 
-    /** Returns a typed array, or the bytes of an extension of another type. */
+    /** Reads an extension of `size` bytes: returns a typed array if the type is in kArrayTypes, otherwise the bytes. */
     private extension(size: number): unknown {
         const arrayType = kArrayTypes.get(this.signed(1));
         const bytes = this.take(size);
         return arrayType ? typedArrayOf(bytes, arrayType) : bytes;
     }
 
-    // Items are added one by one, because a damaged message may announce more than it has.
+    // Items are added one by one, without allocating `count` of them first, because a damaged message may announce more
+    // items than it has.
 
     private array(count: number): unknown[] {
         const items: unknown[] = [];
@@ -274,7 +277,8 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
 }
 
 function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
-    within?.startMessage(6 * bytes.length); // enough for arrays that are copied, or converted from 1-byte to 4-byte integers
+    // Enough for copies of arrays, and for 1-byte integers that are converted to 4-byte integers.
+    within?.startMessage(6 * bytes.length);
     arena = within;
     try {
         return flattened(read(bytes) as Message);

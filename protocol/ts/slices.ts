@@ -1,12 +1,12 @@
-// Types of the slices message after decoding. Long arrays of numbers are typed arrays, in every encoding.
-// Angles are in radians. Lengths are in the polytope's units, except where world units are stated. In world units, the
-// polytope's circumradius is 1; in the oval, this holds for 21 slices, and the circumradius is less for more slices and
-// greater for fewer.
+// Types of the slices message after decoding. Long arrays of numbers are typed arrays, in every encoding. Angles are in
+// radians. Lengths are in the polytope's units, except where world units are stated. In world units, the polytope's
+// circumradius is 1, except in an oval that does not have 21 slices: with more slices, the circumradius is less than 1,
+// and with fewer, greater.
 
 import type { Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
 
-/** An array of integers. In binary encodings, it has the narrowest type that its largest value fits into. */
+/** An array of integers. In binary encodings, it has the narrowest of these types that can hold its largest value. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
 /**
@@ -32,18 +32,20 @@ export interface SceneDescription {
     };
     /** World units per unit of the polytope. */
     scale: number;
-    /** In the polytope's units. */
+    /** The circumradius of the polytope, in the polytope's units. */
     circumradius: number;
     /** The radii of the balls at vertices and of the bars along edges, in world units. */
     ball: number;
     bar: number;
-    /** The opacity of a face, from 0 to 1; 1 if faces may cross each other. */
+    /** The opacity of a face, from 0 to 1. It is 1 if faces may cross each other, or if the object is a surface. */
     opacity: number;
     /** The factor by which the opacity of a faded ball, bar or face is multiplied. */
     faded: number;
     /** `direction` points toward the light, in camera coordinates: x to the right, y up, z toward the viewer. */
     light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
-    /** As 0xRRGGBB. `zero`: the zero lines of the parallel coordinates; `cells`: one color for each cell. */
+    /**
+     * Colors as 0xRRGGBB: `zero` is for the zero lines of the parallel coordinates, and `cells` has one for each cell.
+     */
     colors: {
         background: number;
         text: number;
@@ -57,7 +59,9 @@ export interface SceneDescription {
     };
     /** How to draw the surfaces of a field, from the innermost level to the outermost; absent if none are drawn. */
     surfaces?: SurfaceLevel[];
-    /** The color of the fog for each value in Fog.values, 0xAARRGGBB; with JSON, a plain array. Absent without fog. */
+    /**
+     * The color of the fog for each value in Fog.values, 0xAARRGGBB; a plain array in JSON. Absent if there is no fog.
+     */
     fog?: { table: Integers };
     // The lengths of the next three members are fractions of the viewport's height.
 
@@ -95,8 +99,8 @@ export interface SceneDescription {
 
 /**
  * The faces of a slice, which may cross each other, as triangles. `points` has x, y, z of each point, `triangles` three
- * indices of points for each triangle. For each triangle, `tints` has the index of the cell that determines its color,
- * and `seen` its visibility, as in Elements.
+ * indices of points for each triangle. For each triangle, `tints` has the index of the cell that determines the
+ * triangle's color, and `seen` has the triangle's visibility, a number as in Elements.
  */
 export interface Fill {
     points: Float32Array;
@@ -115,7 +119,7 @@ export interface Surface {
     normals: Float32Array;
     /** Three indices of points for each triangle, counterclockwise as seen from outside. */
     triangles: Integers;
-    /** The index of the level of each triangle, in the `levels` of the state. */
+    /** For each triangle, the index of its level in the `levels` of the state. */
     level: Uint8Array;
     /** For each triangle: 1 if it belongs to a cap, which closes a surface at the boundary of the box; else 0. */
     cap: Uint8Array;
@@ -156,10 +160,11 @@ export interface Elements {
     /** Face f has the vertices corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
     /**
-     * What each vertex, edge and face of a slice was cut from: the index of an edge, a 2-face or a cell of the 4-D
-     * polytope. If a vertex, edge or 2-face of the polytope lies in the hyperplane itself, its number here is its index
-     * plus the polytope's number of edges, 2-faces or cells. In the part of the projection that shows the whole object,
-     * all numbers are of this second kind.
+     * What each element of a slice was cut from: for a vertex, the index of an edge of the 4-D polytope; for an edge,
+     * that of a 2-face; for a face, that of a cell. Elements of the polytope that lie in the hyperplane are not cut:
+     * vertex i of the polytope has the number i + the polytope's number of edges; edge i has i + the number of 2-faces;
+     * 2-face i has i + the number of cells. In the part of the projection that shows the whole object, all numbers are
+     * such sums.
      */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The index of the cell that determines the color of each face; if absent, `of.faces` has these indices. */
@@ -167,14 +172,17 @@ export interface Elements {
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /**
-     * The radius of each vertex's ball, relative to scene.ball or, in the projection, to the part's `ball`; and the
-     * ball's opacity. Absent if all are 1.
+     * For each vertex, the radius of its ball, as a multiple of scene.ball or, in the projection, of the part's `ball`;
+     * and the opacity of the ball. Absent if all these numbers are 1.
      */
     balls?: { scale: Float32Array; opacity: Float32Array };
 }
 
 export interface Slice extends Elements {
-    /** The slice lies in the hyperplane w = offset + index · spacing, where w is measured from the object's center. */
+    /**
+     * The slice lies in the hyperplane w = offset + index · spacing, with `offset` and `spacing` from the `slices` of
+     * the state. w is measured from the object's center.
+     */
     index: number;
     w: number;
     /** The triangles to draw, with a depth buffer, instead of `faces`; present only if faces may cross each other. */
@@ -197,9 +205,9 @@ export interface Slice extends Elements {
 }
 
 /**
- * Where the picture shows the highlighted element: at the vertices and edges of the slices and the projection whose
- * numbers in `of.vertices` and `of.edges` are in `vertices` and `edges`. `own_vertices` has the indices of the vertices
- * of the element itself, counted as in `coordinates`.
+ * Where the picture shows the highlighted element. `vertices` and `edges` have numbers: a vertex or an edge of a slice
+ * or of the projection is highlighted if its number in `of.vertices` or `of.edges` (see Elements) is among them.
+ * `own_vertices` has the indices, as in `coordinates`, of the element's own vertices.
  */
 export interface Highlight {
     vertices: ArrayLike<number> & Iterable<number>;
@@ -238,19 +246,22 @@ export interface PlanarSection {
     points: [number, number][];
     /** Two indices of points for each edge. */
     edges: [number, number][];
-    /** The points in the order in which they bound the section; empty if the edges are not one closed polygon. */
+    /**
+     * The indices of the points in their order along the boundary; empty if the edges do not form a single closed
+     * polygon.
+     */
     boundary: number[];
     /**
      * The element of the polytope that each point and edge was cut from. For a point: f for 2-face f, faces + e for
-     * edge e, and faces + edges + v for vertex v. For an edge: c for cell c, and cells + f for 2-face f. Here, faces,
-     * edges and cells are the polytope's numbers of elements.
+     * edge e, and faces + edges + v for vertex v. For an edge: c for cell c, and cells + f for 2-face f. Here, `faces`,
+     * `edges` and `cells` stand for the polytope's numbers of 2-faces, edges and cells.
      */
     of: { points: number[]; edges: number[] };
     /** The index of the cell that determines the color of each edge. */
     tints: number[];
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { points: number[]; edges: number[] };
-    /** The radius of each point, relative to SectionMatrix.ball, and its opacity; absent if all are 1. */
+    /** The radius of each point, as a multiple of SectionMatrix.ball, and its opacity; absent if all are 1. */
     balls?: { scale: number[]; opacity: number[] };
 }
 
@@ -291,21 +302,21 @@ export interface Slices {
     type: "slices";
     id?: number;
     revision: number;
-    /** Present if the surfaces of a field are coarser than usual. A finer picture of this revision follows later. */
+    /** Present if the surfaces of a field are coarser than usual. A finer picture of the same revision follows. */
     draft?: true;
     scene: SceneDescription;
     /** x, y, z, w of each vertex of the rotated polytope; empty for fields, or if the coordinates are not shown. */
     coordinates: Float32Array;
     /**
-     * If the parallel coordinates are drawn as a density, or as the histogram of a field: the values 0 … 255 of this
-     * image, row by row from the top (protocol/README.md, "slices"). Otherwise empty.
+     * The pixels of the density strip that replaces the parallel coordinates of many vertices, or of a field's
+     * histogram: values 0 … 255, row by row from the top (protocol/README.md, "slices"). Empty if neither is drawn.
      */
     density: Uint8Array;
     /** The scales of the histogram of a field; absent if none is drawn. */
     histogram?: HistogramScales;
     /**
-     * The names of the focus slice, and of the convex hull of the polytope's vertices that lie in it; see `section` in
-     * State.
+     * `name` is the name of the focus slice; `vertices` is the name of the convex hull of those vertices of the
+     * polytope that lie in the focus slice. See `section` in State.
      */
     section: { name: string; vertices: string };
     /** Where the picture shows the highlighted element; absent if no element is highlighted. */

@@ -14,15 +14,15 @@ export interface Viewport {
     height: number;
 }
 
-/** The settings that a `set` changes. Absent settings keep their values. */
+/** The settings that a message `set` changes. Settings that it lacks keep their values. */
 export type Settings = Omit<SetRequest, "type" | "id" | "continues" | "revision" | "draft" | "moving" | "section">;
 /** Which parts of the picture are drawn. */
 export type Parts = State["shown"];
-/** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
+/** How the viewer has moved the camera: the angles by which it was turned about its target, and the magnification. */
 export type Orbit = State["camera"];
 /** The number of slices, the distance between them, and their position along w. */
 export type HyperplaneSettings = State["slices"];
-/** An element of a polytope, numbered from 0 among those of its kind. */
+/** An element of a polytope: its kind, and its number among the elements of this kind, from 0. */
 export type PolytopeElement = NonNullable<State["highlight"]>;
 
 /** The options of an exported file, as in the message `get`. */

@@ -6,8 +6,9 @@ const kMaxDenominator = 60; // the largest denominator of a fraction of pi that 
 const kTolerance = 1e-9;
 
 /**
- * An angle as a text for editing: in degrees if two decimals express it exactly, else as a fraction of pi if one is
- * equal to it, else in degrees with ten decimals.
+ * Converts an angle to a text for editing: in degrees, if two decimals express the angle exactly; otherwise as a
+ * fraction of pi with a denominator up to kMaxDenominator, if one equals the angle; otherwise in degrees with up to ten
+ * decimals.
  */
 export function editableAngle(radians: number): string {
     const degrees = (radians * 180) / Math.PI;

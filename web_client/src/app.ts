@@ -51,7 +51,8 @@ import { RotationControl } from "./rotation";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
 
-const kResizeDelay = 120; // milliseconds after the last change of the size, before pictures of this size are requested
+// Milliseconds without a change of the size, after which pictures of the new size are requested.
+const kResizeDelay = 120;
 
 export class App {
     private readonly drawing = byId("drawing");
@@ -95,8 +96,8 @@ export class App {
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        // If the size of the page's picture is not allowed, the page says hello with the default size. The answer, the
-        // welcome, states the limits; the page then says hello again, with a size within them.
+        // If the size of the page's picture is not allowed, the page says hello with the default size. The server's
+        // answer `welcome` states the limits on sizes; the page then says hello again, with a size within these limits.
         onRefused: ({ code }) => (code === "out_of_range" ? "default" : undefined),
         onLost: (reason) => this.session.sessionLost(reason, this.state),
     });
@@ -244,7 +245,8 @@ export class App {
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.updateStreamAndConnection());
         window.addEventListener("online", () => this.updateStreamAndConnection());
-        window.addEventListener("offline", () => this.client.test()); // not closed: the server may be on this computer
+        // Does not close the connection: the server may be on this computer.
+        window.addEventListener("offline", () => this.client.test());
         window.addEventListener("hashchange", () => this.session.joinShared());
         window.addEventListener("popstate", () => this.session.joinSessionOfHistoryEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
@@ -381,8 +383,8 @@ export class App {
     }
 
     /**
-     * Full screen hides the tools until the button Tools is pressed. When full screen ends, the tools are open if they
-     * were open before.
+     * When full screen begins, hides the tools; the button Tools shows them again. When full screen ends, shows the
+     * tools if they were open before it.
      */
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
@@ -409,8 +411,8 @@ export class App {
     }
 
     /**
-     * Executes a line of the command line. The command line closes before a dialog opens, so that the dialog returns
-     * the focus to the drawing.
+     * Executes a line of the command line. The command line closes before a dialog opens, so that the drawing gets the
+     * focus back when the dialog closes.
      */
     private async execute(line: string): Promise<unknown> {
         if (this.latency.execute(line)) return undefined;
@@ -435,9 +437,9 @@ export class App {
     }
 
     /**
-     * Loads a formula, then changes settings; resolves to the revision after the two commands. Rejects if the formula
-     * is refused. If only the settings are refused, shows why, and resolves to the revision of the formula without
-     * them. `continues` tells whether the formula belongs to the undo step of the previous command.
+     * Loads a formula, then changes settings; resolves to the revision after both commands. Rejects if the server
+     * refuses the formula. If it refuses only the settings, shows why, and resolves to the revision after the formula.
+     * `continues` tells whether the formula belongs to the undo step of the previous command.
      */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both requests are sent at once, so that no picture shows the formula without the settings.
@@ -464,7 +466,10 @@ export class App {
         void this.refreshPickerEntries();
     }
 
-    /** Lists the catalogue in the picker. Requests it each time, because polytopes may have been loaded meanwhile. */
+    /**
+     * Lists the catalogue in the picker. Requests the catalogue at each call, because polytopes may have been loaded
+     * since the last one.
+     */
     private async refreshPickerEntries(): Promise<void> {
         try {
             this.picker.setEntries((await this.client.request({ type: "get", what: "catalogue" })).polytopes);
@@ -490,16 +495,16 @@ export class App {
         else this.exportDialog.open(this.state);
     }
 
-    /** Saves the file that a format and options describe. */
+    /** Saves the file that a text such as "stl fit=5" describes: a format and options. */
     private async exportAndSaveFile(description: string): Promise<void> {
         this.slider.stop();
-        // A move of the focus may be on its way to the server. The file shows the slice after this move, so its name is
-        // made from the state after it.
+        // A move of the focus may be on its way to the server. The file will show the slice after this move, so the
+        // file's name is made from the state after the move.
         const state = await this.client.request({ type: "get", what: "state" });
         await this.exportDialog.save(description, state);
     }
 
-    /** Requests a change, and tracks it until its picture is presented. */
+    /** Sends a command, and tracks it until its picture is presented. Resolves to the server's answer. */
     private async request(command: Command): Promise<Done> {
         const answer = this.client.request(command);
         try {
@@ -522,7 +527,10 @@ export class App {
         return true;
     }
 
-    /** The hit tester of the picture. If the server does not send it, shows why, and resolves to undefined. */
+    /**
+     * The hit tester of the picture that is shown. If the page must ask the server for it and gets an error, shows the
+     * error, and resolves to undefined.
+     */
     private async requestHitTester(): Promise<HitTester | undefined> {
         try {
             return this.stage.hitTester ?? (await this.frameHitTesterCache.request());

@@ -5,8 +5,8 @@ import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 import { FileError, sizeText, utf16Of } from "./files";
 
 const kTooLarge = 413; // the HTTP status if a proxy or the server refuses a file because of its size
-const kMaxReason = 200; // characters of a text that is shown as the reason
-const kHeader = 512; // bytes at the start of a file; in an array, they contain a character that texts do not contain
+const kMaxReason = 200; // the most characters of an answer that are quoted as the reason
+const kHeader = 512; // bytes at the start of a file; those of an array include a control character, which no text does
 
 /** Whether a file is binary, not a text. Only the server finds out whether it is an array, and in which format. */
 export async function isBinaryFile(file: File): Promise<boolean> {
@@ -17,8 +17,8 @@ export async function isBinaryFile(file: File): Promise<boolean> {
 
 /**
  * Loads an array into the session under a name. `sent` is called with the fraction that has been sent, from 0 to 1.
- * Rejects with a FileError if the connection is lost, or, with the reason, if the server or a proxy refuses the array.
- * `limit` is the size of files, in bytes, that the server accepts.
+ * Rejects with a FileError if the connection is lost, or if the server or a proxy refuses the array; the error then
+ * states the reason. `limit` is the greatest size of a file, in bytes, that the server accepts.
  */
 export function uploadArray(
     file: File,
@@ -56,7 +56,10 @@ function messageIn(text: string): Done | ErrorMessage | undefined {
     return undefined;
 }
 
-/** Says why a file was not loaded, if the answer is no message of the server: only a plain text is shown as it is. */
+/**
+ * The reason why a file was not loaded, for an answer that is not a message of the server. Quotes the answer only if
+ * its type is text/plain.
+ */
 function refusalOf(request: XMLHttpRequest, limit: number): string {
     const isPlain = /^text\/plain\b/i.test(request.getResponseHeader("Content-Type") ?? "");
     const reason = isPlain ? request.responseText.trim().slice(0, kMaxReason) : "";

@@ -10,15 +10,17 @@ export interface Family {
 /** How well a name matches what is searched for; smaller numbers are better matches. */
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
-const kMostCompared = 64; // letters: of longer names, the search for similar names compares only the beginning
-const kLettersPerMistake = 3; // letters of the typed name per allowed mistake, as in the server's suggestions
+const kMostCompared = 64; // the search for similar names compares only this many letters at the start of a name
+const kLettersPerMistake = 3; // one mistake is allowed for every three letters typed, as in the server's suggestions
 
 interface SearchableEntry {
     entry: CatalogueEntry;
     family: string;
     /** Name, aliases and symbols, normalized. */
     names: string[];
-    /** The normalized names and family, and the names without blanks, so that "120cell" finds "120 cell". */
+    /**
+     * The normalized names and family; then the names without blanks, so that a search for "120cell" finds "120 cell".
+     */
     searchText: string;
 }
 
@@ -44,8 +46,8 @@ export class Catalogue {
     }
 
     /**
-     * The entries whose names differ from `query` by the fewest spelling mistakes, grouped by family; none if all names
-     * have more than one mistake in three letters. The numbers in a name must be those in `query`.
+     * The entries whose names differ from `query` by the fewest spelling mistakes, grouped by family. Finds only names
+     * that contain the same numbers as `query`, and have at most one mistake for every three letters of `query`.
      */
     findSimilar(query: string): Family[] {
         return this.byFamily(this.similar(normalize(query)), normalize(query));

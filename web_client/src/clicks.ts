@@ -14,13 +14,16 @@ const kLeastDisc = 12; // pixels: a click this near to the center of a slice hit
 interface ClickActions {
     state: () => State | undefined;
     /**
-     * Resolves to the hit tester of the picture; undefined if the server does not send it, after the user has been told
-     * why.
+     * Resolves to the hit tester of the picture that is shown. If the server does not send it, tells the user why, and
+     * resolves to undefined.
      */
     hitTester: () => Promise<HitTester | undefined>;
     /** Called at each click, before its effect. */
     began: () => void;
-    /** Moves the focus point to this point of the drawing; returns false if no panel of the matrix is there. */
+    /**
+     * Moves the focus point to the point that a panel of the matrix shows at the point `at` of the drawing; returns
+     * false if no panel is there.
+     */
     moveFocusPoint: (at: Point) => boolean;
     send: (command: Command) => void;
     exportElement: (element: PolytopeElement) => void;
@@ -42,7 +45,8 @@ export class Clicks {
      * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
      * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click near a slice makes that
      * slice the focus slice and keeps the highlight, and a click on the background removes the highlight. The point is
-     * in pixels of the drawing. If `isTap` is true, a finger has made the click; then the element's name is shown, too.
+     * in pixels of the drawing. `isTap` tells that the click was made by a finger; the element's name is then shown,
+     * too.
      */
     async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;

@@ -14,7 +14,8 @@ interface LabelAndTooltip {
 }
 
 /**
- * The colorings. A coloring without an entry for polytopes, or for fields, has the effect of `plain` on such objects.
+ * The labels of the colorings, for polytopes and for fields. A coloring that lacks the label for a kind of object looks
+ * like `plain` on such objects.
  */
 const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
@@ -38,11 +39,11 @@ interface ScaleLegend {
     least: string;
     most: string;
     text: string;
-    /** CSS colors from one end to the other; by default those of the diverging scale. */
+    /** CSS colors from the least value to the greatest; by default, from blue through gray to amber. */
     colors?: string[];
 }
 
-/** What the ends of the color scale mean. */
+/** The legends of the colorings whose color scale is the same for all objects. */
 const kScales: Partial<Record<Coloring, ScaleLegend>> = {
     w: { least: "\u2212w", most: "+w", text: "From blue at the lowest w through gray to amber at the highest" },
     growth: {
@@ -61,8 +62,8 @@ const kBackgrounds: Record<Background, { label: string; title: string }> = {
 const kVisibilities = ["shown", "faded", "hidden"] as const;
 type Visibility = (typeof kVisibilities)[number];
 
-const kScaleDigits = 3; // significant digits of the difference between the ends of a color scale of values
-const kMaxListedKinds = 24; // an imported polytope may have as many kinds of cells as cells
+const kScaleDigits = 3; // the ends of a scale of values are rounded to this many significant digits of their difference
+const kMaxListedKinds = 24; // the list is limited: an imported polytope may have as many kinds of cells as cells
 
 export class ColorControls {
     private readonly colorings = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
@@ -74,7 +75,7 @@ export class ColorControls {
     private listedKinds: string | undefined; // a text that identifies the kinds of cells that are listed
     private state: State | undefined;
 
-    /** `applyChange` is called to change the state. */
+    /** `applyChange` is called with the settings that the user has changed. */
     constructor(private readonly applyChange: (change: Settings) => void) {
         for (const value of Object.keys(kColorings) as Coloring[]) {
             const radio = element("input", { type: "radio", name: "color", value });
@@ -119,7 +120,10 @@ export class ColorControls {
         });
     }
 
-    /** Offers the colorings that the object has, checks the one that the picture shows, and shows its color scale. */
+    /**
+     * Offers the colorings that have an effect on the object, checks the one that the picture shows, and shows the
+     * color scale of this coloring.
+     */
     private showColoring(state: State): void {
         const object = isField(state) ? "field" : "polytope";
         for (const [value, option] of this.options) {
@@ -147,7 +151,10 @@ export class ColorControls {
         this.list.replaceChildren(...this.rows, ...(more > 0 ? [rest] : []));
     }
 
-    /** Applies the chosen visibilities; kinds of cells that are not listed keep their visibility. */
+    /**
+     * Applies the visibilities that the user has chosen in the list. Kinds of cells beyond the end of the list keep
+     * theirs.
+     */
     private applyChosenVisibilities(): void {
         const { hidden, faded } = this.state!;
         const chosen = (visibility: Visibility, before: number[]): number[] => [
@@ -160,14 +167,14 @@ export class ColorControls {
     }
 }
 
-/** The coloring that the picture shows: `plain` if the object does not have the chosen one. */
+/** The coloring that the picture shows: the chosen one, or `plain` if this has no effect on the object. */
 function coloringSeen(state: State): Coloring {
     return kColorings[state.color][isField(state) ? "field" : "polytope"] ? state.color : "plain";
 }
 
 /**
- * The color scale of the coloring `seen`. If that coloring has none, but the caps show values, the scale of the values;
- * undefined if neither applies.
+ * The legend of the color scale of the coloring `seen`. If this coloring has no scale, but the caps are colored by
+ * value, the legend of the scale of values; otherwise undefined.
  */
 function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
     const values = field?.values;
@@ -186,7 +193,7 @@ export function spokenColoring(state: State): string {
     return seen === "plain" ? "plain colors" : `colored by ${name}`;
 }
 
-/** The kinds of cells that can be shown, faded or hidden. The box of a field has none. */
+/** The kinds of cells that can be shown, faded or hidden; none for a field, because its only cell is its box. */
 function kindsOf(state: State): CellKind[] {
     return isField(state) ? [] : (state.polytope.kinds ?? []);
 }

@@ -37,7 +37,7 @@ export class CommandLine {
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
     private draft = ""; // the line being typed, while an earlier one is shown
     private cycle: CompletionCycle | undefined;
-    private openings = 0; // how often the line has been opened
+    private openings = 0; // how often the command line has been opened
     private loading: Promise<unknown> | undefined; // the request for the names of polytopes, while it runs
 
     constructor(private readonly events: CommandLineEvents) {
@@ -67,7 +67,10 @@ export class CommandLine {
         });
     }
 
-    /** Opens the command line. Tab waits for `loading`, the request for the names of polytopes, to complete a name. */
+    /**
+     * Opens the command line. `loading` is the request for the names of polytopes; Tab waits for its answer before it
+     * completes such a name.
+     */
     open(loading: Promise<unknown>): void {
         this.loading = loading;
         void loading.finally(() => (this.loading = undefined));
@@ -96,7 +99,7 @@ export class CommandLine {
         else this.complete(-step);
     }
 
-    /** Scrolls the panel by pages of kPage: the panel may be too low to show a whole error. */
+    /** Scrolls the panel by `pages` times kPage of its height: the panel may be too low to show a whole error. */
     private scroll(event: KeyboardEvent, pages: number): void {
         event.preventDefault();
         this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });
@@ -125,9 +128,9 @@ export class CommandLine {
     }
 
     /**
-     * Inserts the only completion. If there are several, the first call inserts what they have in common and lists
-     * them. Further calls insert one option after the other, backwards if `step` is -1. Returns false if there is no
-     * completion.
+     * If there is only one completion, inserts it. If there are several, the first call inserts the beginning that they
+     * share, and lists them; each further call replaces this text by the next option of the list, or by the previous
+     * one if `step` is -1. Returns false if there is no completion.
      */
     private complete(step: number): boolean {
         const { cycle } = this;
@@ -161,7 +164,7 @@ export class CommandLine {
         return true;
     }
 
-    /** Puts an option into the line, and marks it in the list of options. */
+    /** Replaces the completed text by the option with the index `at`, and marks the option in the list. */
     private putOptionIntoLine(at: number): void {
         const cycle = this.cycle!;
         this.list.children[cycle.at]?.setAttribute("aria-selected", "false");
@@ -173,7 +176,7 @@ export class CommandLine {
         this.input.setAttribute("aria-activedescendant", option.id);
     }
 
-    /** Inserts an option of the list, and closes the list. */
+    /** Inserts the option with the index `at`, and closes the list. */
     private choose(at: number): void {
         const { start, options, suffix } = this.cycle!;
         this.replaceUpToCaret(start, options[at]! + suffix);
@@ -181,7 +184,7 @@ export class CommandLine {
         this.input.focus();
     }
 
-    /** Replaces the text from `start` to the caret. */
+    /** Replaces the text of the input from the index `start` to the caret. */
     private replaceUpToCaret(start: number, text: string): void {
         const { value, selectionEnd } = this.input;
         this.input.value = value.slice(0, start) + text + value.slice(selectionEnd ?? value.length);
@@ -216,7 +219,7 @@ export class CommandLine {
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
         const { openings } = this;
-        // Returns false if the command line has been opened again meanwhile.
+        // Returns false if the command line has been opened again since the line was submitted.
         const isSame = (): boolean => openings === this.openings;
         try {
             await this.events.run(line);

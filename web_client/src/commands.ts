@@ -25,14 +25,16 @@ interface SettingSchema {
     properties?: Record<string, SettingSchema>;
 }
 
-const kNotOnTheLine = ["orientation", "field", "last"]; // settings that only messages can change
+// Settings that messages can change, but the command line cannot.
+const kNotOnTheLine = ["orientation", "field", "last"];
 
 /** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */
 export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, SettingSchema>));
 
 /**
  * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the schema, the
- * first plane is perpendicular to the last one, the second to the last but one, and so on.
+ * first plane is perpendicular to the last one, the second to the last but one, and so on; a double rotation turns in
+ * two such planes.
  */
 export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${plane},${all[all.length - 1 - i]}`]);
 

@@ -18,12 +18,13 @@ export interface Completions {
     /** The index in the line at which the text begins that the options replace. */
     start: number;
     options: string[];
-    /** What follows an option if it is the only one. */
+    /** The text to insert after an option if there is no other option: a blank, or "". */
     suffix: string;
 }
 
 const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that the page changes itself
-const kOfRestOfLine = ["polytope", "kind"]; // the kinds of names that may contain blanks
+// The kinds of names that may contain blanks, and therefore extend to the end of the line.
+const kOfRestOfLine = ["polytope", "kind"];
 
 /** The completions at the end of the text `line`, which ends at the caret. */
 export function completionsOf(line: string, names: Names): Completions {
@@ -44,14 +45,17 @@ export function completionsOf(line: string, names: Names): Completions {
 
 /** The completions of the last word of `set NAME=VALUE …`. */
 function settingCompletions(line: string, start: number, rest: string, names: Names): Completions {
-    // A polytope's name may contain blanks if it is the only setting.
+    // The value of `polytope` may contain blanks if `polytope` is the only setting in the line.
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
     if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
     const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
     return completionsUnlessComplete(line, start, filterByPrefix(all, line.slice(start)));
 }
 
-/** What completes `typed`: names of this kind, such as "planes", or else values of the setting called `kind`. */
+/**
+ * The texts that begin with `typed`: names of the kind `kind`, such as "planes"; if there is no such kind of names,
+ * values of the setting `kind`.
+ */
 function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names): string[] {
     if (kind === "polytope") return polytopeNames(polytopes, typed);
     const lists: Record<string, string[]> = {
@@ -65,7 +69,7 @@ function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names
     return filterByPrefix(lists[kind] ?? kSettings.get(kind) ?? kPageSettings.get(kind) ?? [], typed);
 }
 
-/** The names that begin with the text; if there are none, those that the search of polytopes finds. */
+/** The names of polytopes that begin with `typed`; if there are none, those that the search in the catalogue finds. */
 function polytopeNames(catalogue: Catalogue, typed: string): string[] {
     const found = filterByPrefix(catalogue.entries.map(({ name }) => name), typed);
     if (found.length > 0) return found;
@@ -82,7 +86,7 @@ function completionsUnlessComplete(line: string, start: number, options: string[
     return { start, options: isComplete ? [] : options, suffix };
 }
 
-/** The names of keys for the command `key`, which sends one keystroke, but none that only the page handles. */
+/** The names of keys that the command `key` accepts: those of a single keystroke that the server handles. */
 export function namesOfServerKeys(table: readonly KeyBinding[]): string[] {
     return table
         .filter(({ key, client }) => key.length === 1 && !client)

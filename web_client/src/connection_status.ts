@@ -33,7 +33,10 @@ export class ConnectionStatus {
         if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
     }
 
-    /** Counts a request until it is answered. While any answer is late, shows that the page waits for the server. */
+    /**
+     * Counts a request as unanswered until `answer` settles. While any answer is late, shows that the page waits for
+     * the server.
+     */
     trackRequest(answer: Promise<unknown>): void {
         this.countUnanswered(1);
         const count = (change: number): void => {
@@ -54,7 +57,7 @@ export class ConnectionStatus {
         answer.then(settled, settled);
     }
 
-    /** Records which state of the session the page shows in its texts and controls. */
+    /** Records, in the attribute data-revision, the revision of the state that the page's texts and controls show. */
     stateShown(revision: number): void {
         this.root.dataset["revision"] = String(revision);
     }

@@ -1,7 +1,7 @@
 // The critical values of w, at which the section w = const changes its type. For a polytope, they are the values of w
 // at which vertices lie (Coxeter, Regular Polytopes, §13.1); for a field, those at which the body changes its topology.
-// The parallel coordinates of a picture give the values of a polytope at once, but rounded. The page requests the exact
-// values when the object has come to rest.
+// The parallel coordinates of a picture contain the values of a polytope, but rounded: the page uses them at once, and
+// requests the exact values when the object has come to rest.
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
@@ -14,21 +14,22 @@ export interface CriticalValue {
 // Milliseconds without a change after which the exact values are requested. For a field, the search takes seconds.
 const kRestTime = 200;
 const kFieldRestTime = 1500;
-const kRounding = 1e-6; // circumradii: rounded values that differ by less count as equal
+const kRounding = 1e-6; // circumradii: rounded values of w that differ by less than this count as equal
 
 export class CriticalValues {
     /** The critical values from the lowest w to the highest; empty before the first are known. */
     all: CriticalValue[] = [];
-    /** Whether `all` and `range` are those of the newest state; otherwise they are those of an earlier one. */
+    /** Whether `all` and `range` are those of the newest state, not of an earlier one. */
     isCurrent = false;
     /** Whether `all` and `range` are exact and those of the newest state. */
     isExact = false;
-    /** The lowest and the highest w of the object or, until those of a field are known, of its slices; initially 0. */
+    /** The lowest and the highest w of the object. For a field, those of the slices until the server has answered. */
     range: [number, number] = [0, 0];
-    private originW = 0; // the w, in the object's file, of the center of the object, where w is 0 in pictures
+    // The w of the object's center in the coordinates of its file; in pictures, the center has w = 0.
+    private originW = 0;
     // Identifies the object, orientation and spacing of the known or requested values; "" if a request has failed.
     private knownFor = "";
-    private kept = ""; // what the last state says, as JSON, without what loading an object sets back
+    private kept = ""; // the settings of the last state that loading an object does not reset, as JSON
     private revision = -1; // of the last state
     private loadedAt = -1; // the last revision at which the object may have been loaded again
     private restTime = kRestTime;
@@ -45,7 +46,7 @@ export class CriticalValues {
         const isLikelySame = this.mayBeLoadedAgain(state);
         if (isLikelySame) this.loadedAt = state.revision;
         const object = [polytope, pace, follow, boost, field, levels, inside, this.loadedAt];
-        // The spacing is included because it differs if a new object has the same name.
+        // The spacing is included because a new object of the same name usually has another one.
         const key = JSON.stringify([object, orientation, slices.spacing]);
         if (key === this.knownFor) return;
         this.knownFor = key;
@@ -65,8 +66,8 @@ export class CriticalValues {
     }
 
     /**
-     * Whether the change since the last state may be that another object of the same name, and with as many elements,
-     * has been loaded: then the state differs only in what loading sets back.
+     * Whether another object of the same name and with as many elements may have been loaded since the last state: only
+     * settings that loading resets have changed, and the focus, the offset and the highlight have been reset.
      */
     private mayBeLoadedAgain(state: State): boolean {
         const { id, revision, draft, moving, section, turning, slices, point, hidden, faded, fog, ...others } = state;

@@ -1,5 +1,5 @@
 // A modal dialog. Escape, the Close button or a click outside closes it. The browser then returns the focus to the
-// element that had it before; if the dialog was opened with the mouse, this is the drawing.
+// element that had it before the dialog opened; if it was opened with the mouse, to the drawing.
 
 import { byId } from "./element";
 
@@ -9,7 +9,7 @@ export class Dialog {
     constructor(id: string) {
         this.root = byId<HTMLDialogElement>(id);
         this.root.addEventListener("pointerdown", (event) => {
-            if (event.target === this.root) this.root.close(); // a click outside the content
+            if (event.target === this.root) this.root.close(); // a click beside the dialog
         });
         for (const button of this.root.querySelectorAll("[data-close]")) {
             button.addEventListener("click", () => this.root.close());

@@ -32,8 +32,9 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private bodyToRestore: string | undefined; // the user's choice, while an element without volume forces "skeleton"
-    private isForElement = false; // whether the dialog was opened to export an element, which changes choices
+    // The user's choice, kept while "skeleton" is forced for an element without volume.
+    private bodyToRestore: string | undefined;
+    private isForElement = false; // whether the dialog was opened to export an element, for which it changes choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page; `warn` shows the warnings about a saved file. */
@@ -92,7 +93,7 @@ export class ExportDialog {
         this.saveFile(await file, format, options);
     }
 
-    /** Calls `use`, which may change the choices in the form, and then restores the choices. */
+    /** Calls `use`, which may change the choices in the form; then restores the earlier choices. */
     private restoringForm<T>(use: () => T): T {
         const { bodyToRestore } = this;
         const inputs = [...this.form.querySelectorAll("input")].map((input) => {
@@ -144,8 +145,8 @@ export class ExportDialog {
     }
 
     /**
-     * Hides the formats that cannot describe the object. If the selected format is one of these, selects the first
-     * format of the list.
+     * Hides the formats that cannot describe the object. If a hidden format is selected, selects the first format of
+     * the list instead.
      */
     private offerFormats(): void {
         const kind = this.state?.field ? "fields" : "polytopes";
@@ -182,7 +183,7 @@ export class ExportDialog {
         this.storeChoices();
     }
 
-    /** Selects the preset that equals the current size, if any. */
+    /** Selects the preset with the width and height in the form, if there is one. */
     private selectPreset(): void {
         const { width, height } = this.size();
         const size = `${this.formField("width").value}x${this.formField("height").value}`;
@@ -191,7 +192,9 @@ export class ExportDialog {
         }
     }
 
-    /** Stores the choices for reloads of the page in this tab, but not those that only an element needs. */
+    /**
+     * Stores the choices for reloads of the page in this tab, except those that were made for the export of an element.
+     */
     private storeChoices(): void {
         const choices = this.formValues();
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
@@ -233,8 +236,8 @@ export class ExportDialog {
     }
 
     /**
-     * Offers what files of the format can contain. If they cannot contain what is chosen, chooses the default of the
-     * format.
+     * Offers the contents that files of the format can have. If the chosen contents are not among them, chooses the
+     * default of the format.
      */
     private offerContents(format: Format): void {
         const all = this.state?.field ? format.forFields.of : format.of;
@@ -245,7 +248,10 @@ export class ExportDialog {
         }
     }
 
-    /** Offers a choice of slices if the whole oval is exported, and shows the field that belongs to this choice. */
+    /**
+     * Offers a choice of slices only if the whole oval is exported. Shows the text field, `fit` or `at`, that belongs
+     * to the choice.
+     */
     private offerSliceChoices({ choices }: Format): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
         set.hidden = set.disabled = !choices.includes("of") || this.chosenValue("of") !== "oval";
@@ -255,7 +261,7 @@ export class ExportDialog {
         }
     }
 
-    /** Offers no solid of a face, an edge or a vertex, which has no volume. */
+    /** Does not offer a solid of a face, an edge or a vertex, which have no volume: selects the skeleton instead. */
     private offerBodies(): void {
         const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
         const body = this.formField("body");
@@ -296,7 +302,10 @@ export class ExportDialog {
         return Object.fromEntries(chosen.map(([name, value]) => [name, kOptions[name]!(value)]));
     }
 
-    /** Requests a file, and the state that it shows: the server executes the two requests one after the other. */
+    /**
+     * Requests the state and a file. The state is the one that the file shows, because the server executes the two
+     * requests one after the other.
+     */
     private async requestFile({ name: format }: Format, options: Options): Promise<RequestedFile> {
         const state = this.client.request({ type: "get", what: "state" });
         if (format !== "png") {
@@ -323,7 +332,7 @@ export class ExportDialog {
         return Object.fromEntries(new FormData(this.form)) as Record<string, string>;
     }
 
-    /** Abandons a request in progress, and clears the error. */
+    /** Makes the page ignore the answer to a request in progress, and clears the error. */
     private abandonRequest(): void {
         ++this.requestNumber;
         this.error.textContent = "";
@@ -349,7 +358,7 @@ function nameOf(element: State["highlight"]): string {
     return element ? `${element.element} ${element.number}` : "";
 }
 
-/** The options that words such as "fit=5" give; throws an Error if a word is not an option. */
+/** Parses options from words such as "fit=5"; throws an Error if a word is not an option. */
 function optionsOf(words: string[]): Options {
     const options: Options = {};
     for (const word of words) {
@@ -365,7 +374,10 @@ function optionsOf(words: string[]): Options {
     return options;
 }
 
-/** The chosen options with changes. A change of `of`, `at` or `fit` discards the chosen values of all three. */
+/**
+ * The chosen options, with `changes` applied. If `changes` contains `of`, `at` or `fit`, the chosen values of all three
+ * are discarded.
+ */
 function withChanges({ of, at, fit, ...others }: Options, changes: Options): Options {
     const changesSlices = ["of", "at", "fit"].some((name) => name in changes);
     const kept = { ...(of !== undefined && { of }), ...(at !== undefined && { at }), ...(fit !== undefined && { fit }) };

@@ -1,4 +1,4 @@
-// The formats in which a session can be exported: those of the protocol, and the picture itself.
+// The formats in which a session can be exported: those of the protocol, and PNG, the picture itself.
 
 import table from "../../protocol/export_formats.json";
 

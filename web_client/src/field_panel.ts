@@ -18,7 +18,7 @@ import { readStored, writeStored } from "./storage";
 export interface FieldPanelEvents {
     /**
      * Loads a formula, then changes settings; resolves to the revision after the two commands. `continues` tells
-     * whether they belong to the undo step of the previous command. Rejects with an Error if the formula is refused.
+     * whether both belong to the undo step of the previous command. Rejects with an Error if the formula is refused.
      */
     load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
@@ -30,7 +30,7 @@ export interface FieldPanelEvents {
 }
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
-const kSeries = 1500; // milliseconds: changes that follow each other within this time are undone together
+const kSeries = 1500; // milliseconds: a change that follows the last one within this time is undone together with it
 const kMaxTyped = 100; // the most formulas whose typed text is kept, for undo
 const kStorageKey = "oval4d.formula";
 const kAxes = ["x", "y", "z", "w"] as const;
@@ -56,7 +56,8 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    // The settings that load() has sent last, and the revision of the answer; undefined once this revision has arrived.
+    // The settings that load() sent last, and the revision in the answer; undefined once a state of this revision has
+    // arrived.
     private sent: { settings: Settings; revision: number } | undefined;
     private state: State | undefined;
     // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
@@ -64,7 +65,8 @@ export class FieldPanel {
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // formulaKeyOf() of the newest state
     private ownText = ""; // formulaKeyOf() of the state whose formula this page loaded, or took from the server, last
-    private readonly typedFields = new Map<string, FormulaWithBox>(); // what the user typed, by formulaKeyOf() of its state
+    // What the user typed, by the formulaKeyOf() of the state that it led to.
+    private readonly typedFields = new Map<string, FormulaWithBox>();
 
     constructor(private readonly events: FieldPanelEvents) {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => rangeEndInput(axis, end)));
@@ -112,7 +114,10 @@ export class FieldPanel {
         this.events.closed();
     }
 
-    /** Shows a formula that another part of the page has loaded at this revision, and stores it as if typed here. */
+    /**
+     * Shows a formula that another part of the page has loaded, and stores it as if the user had typed it in the panel.
+     * `revision` is the revision in the server's answer.
+     */
     adoptLoaded(field: FormulaWithBox, revision: number): void {
         this.write(field);
         writeStored(kStorageKey, field);
@@ -152,8 +157,8 @@ export class FieldPanel {
     }
 
     /**
-     * Records how the server writes the formula that this page loaded last, from the first state that has it. The
-     * server omits superfluous blanks and parentheses, and writes the values of constants as numbers.
+     * Records how the server writes the formula that this page loaded last. Takes the text from the first state with
+     * this formula. The server omits superfluous blanks and parentheses, and writes the values of constants as numbers.
      */
     private recordServerText(): void {
         const { lastLoad, state, loaded } = this;
@@ -164,7 +169,10 @@ export class FieldPanel {
         this.typedFields.set(this.ownText, loaded);
     }
 
-    /** Shows the formula of a state if this page has not loaded this formula: for example, if undo has restored it. */
+    /**
+     * Shows the formula of a state if it is not the one that this page loaded last: for example, if undo has restored
+     * it.
+     */
     private showForeignFormula(state: State): void {
         this.recordServerText();
         const text = formulaKeyOf(state);
@@ -195,12 +203,15 @@ export class FieldPanel {
 
     private startFromExample(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // so that the levels and slices of the old field are not applied to the new one
+        this.loaded = undefined; // so that the new field does not get the levels and slices of the old one
         this.example.selectedIndex = 0;
         this.scheduleLoad(0);
     }
 
-    /** Loads the formula that is typed, after `delay` milliseconds, if the box that is typed is valid. */
+    /**
+     * Loads the typed formula after `delay` milliseconds without another change; does nothing if the typed box is not
+     * valid.
+     */
     private scheduleLoad(delay: number): void {
         this.sliders.update(this.formula.value);
         const box = this.readBox();
@@ -245,19 +256,19 @@ export class FieldPanel {
     }
 
     /**
-     * Whether the change to this field continues a series of changes, such as the steps of a drag, that are undone
-     * together.
+     * Whether the change to this field belongs to a series of changes that are undone together, such as the steps of a
+     * drag of a slider.
      */
     private continuesSeries({ formula }: FormulaWithBox): boolean {
         const { loaded, lastLoad, state } = this;
-        // If the state is newer than the last load, there was another command in between.
+        // A state that is newer than the last load shows that there was another command after the load.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
         return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
     }
 
     /**
-     * The settings that stay the same when a formula is edited, although a new object usually gets settings of its own.
-     * Empty if the shown object is not a formula that this panel has loaded or shown.
+     * The settings to send with an edited formula, so that they stay the same: without them, a new object gets settings
+     * of its own. Empty if the object is not a formula that this panel has loaded or shown.
      */
     private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;
@@ -270,7 +281,10 @@ export class FieldPanel {
         };
     }
 
-    /** Shows an error of the server at the formula that the error concerns; undefined clears the errors. */
+    /**
+     * Shows an error of the server at the formula that it concerns: that of the field, or the one whose values color
+     * the surfaces. Clears the error of the other formula or, if `message` is undefined, the errors of both.
+     */
     private showError(message: string | undefined): void {
         const isOfValues = message !== undefined && kOfValues.test(message);
         this.formula.showError(isOfValues ? undefined : message);
@@ -316,14 +330,14 @@ export class FieldPanel {
     }
 }
 
-/** A text by which the formulas of states are compared. */
+/** The formula, box and coloring formula of a state as one text, to compare states by; "" if it has no formula. */
 function formulaKeyOf({ field }: State): string {
     return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
 }
 
 /**
- * The position of the slices along w, which stays when a formula is edited. The distance between them is left out,
- * because each object gets a distance of its own.
+ * The position of the slices along w, which stays when a formula is edited. The distance between the slices is left
+ * out, because each object gets a distance of its own.
  */
 function focusAndOffsetOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };

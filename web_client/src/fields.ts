@@ -6,7 +6,7 @@ import { textOfFog } from "./fog";
 import { formatFieldValue } from "./format";
 import { referenceFrameQuery } from "./reference_frame";
 
-/** A formula, its domain, and what colors its surfaces: all from which the server makes a field. */
+/** What the server makes a field of: a formula, its domain, and the formula whose values color the surfaces. */
 export interface FormulaWithBox {
     formula: string;
     box: Box;
@@ -35,7 +35,7 @@ export function isField({ levels }: State): boolean {
     return levels !== undefined;
 }
 
-/** The `load` message of a formula, without its type. */
+/** The `load` message of a formula, without the member `type`. */
 export interface FormulaLoad {
     name: string;
     format: "formula";
@@ -72,7 +72,10 @@ export function parseNumbers(text: string): number[] {
     return words.filter((word) => word !== "").map(Number);
 }
 
-/** The box with these ranges of x, y, z and w; undefined if they are not eight finite numbers. */
+/**
+ * The box whose ranges of x, y, z and w are given by `numbers`: two for each axis; undefined unless they are eight
+ * finite numbers.
+ */
 export function boxOf(numbers: number[]): Box | undefined {
     if (numbers.length !== 8 || !numbers.every(Number.isFinite)) return undefined;
     return [0, 2, 4, 6].map((i) => [numbers[i]!, numbers[i + 1]!]) as Box;
@@ -91,7 +94,7 @@ export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLoo
         ...(fog && fog.length > 0 && { fog: textOfFog(fog) }),
         ...referenceFrameQuery(look),
     };
-    // Characters that formulas use stay readable, if an address may contain them.
+    // Characters of formulas that an address may contain are not encoded, so that the formula stays readable.
     const encoded = (text: string): string =>
         encodeURIComponent(text).replace(/%(5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
     return Object.entries(parameters)

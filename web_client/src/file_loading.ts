@@ -1,6 +1,6 @@
-// Loads files that the user chooses or drops on the page. A text is sent in a `load` message; an array is uploaded; of
-// a picture that oval4d has saved, or a JSON file with a state, the state is restored. Shows the progress, and the
-// server's warnings or error.
+// Loads files that the user chooses or drops on the page. A text is sent in a `load` message; an array is uploaded; a
+// picture that oval4d has saved, or a JSON file with a state, restores this state. Shows the progress, and the server's
+// warnings or error.
 
 import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
@@ -10,9 +10,9 @@ import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, 
 import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
-const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
+const kDefaultLimit = 8 * 2 ** 20; // bytes: the limit on messages, if the server states none
 const kMaxKept = 8; // the most objects that are kept, as many as a session holds
-const kMaxExcerptWidth = 120; // characters that are shown of a line of the file
+const kMaxExcerptWidth = 120; // the most characters that are shown of a line of the file
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
 type ReloadableObject = LoadContent | File | { name: string; path: string };
@@ -53,7 +53,9 @@ export class FileLoading {
         if (this.kept.size > kMaxKept) this.kept.delete([...this.kept.keys()][0]!);
     }
 
-    /** Loads the object of this name again, into a new session; does nothing if this page has not loaded it before. */
+    /**
+     * Loads the object of this name into a new session; does nothing if this page has not loaded such an object before.
+     */
     async reloadIntoNewSession(name: string): Promise<void> {
         const object = this.kept.get(name);
         if (object instanceof File) await this.upload(object);
@@ -102,15 +104,15 @@ export class FileLoading {
     }
 
     /**
-     * A list of one button, which loads an object again so that it turns about the origin of its file. Empty if the
-     * object already turns about this origin, or if another object is shown.
+     * A list with a button that loads the object again, such that it turns about the origin of its file. The list is
+     * empty if the object already turns about this origin, or if another object is shown.
      */
     private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });
         if (polytope.name !== object.name || !polytope.center) return [];
         const button = element("button", { type: "button" }, "Turn about the origin of the file");
         button.addEventListener("click", () => {
-            byId("drawing").focus(); // the button goes away
+            byId("drawing").focus(); // the button, which had the focus, disappears
             this.queue = this.queue.then(() => this.loadAgain({ ...object, center: "origin" }));
         });
         return [button];
@@ -133,7 +135,7 @@ export class FileLoading {
         return uploadArray(file, nameOf(file), credentials, limit, (part) => this.showSent(part));
     }
 
-    /** Shows which part of a file has been sent, from 0 to 1. */
+    /** Shows the progress. `part` is the fraction of the file that has been sent, from 0 to 1. */
     private showSent(part: number): void {
         this.showReport(part < 1 ? `Sending the file: ${Math.floor(100 * part)}%` : "Checking the file");
         if (part < 1) this.progress.value = part;
@@ -209,7 +211,7 @@ export class FileLoading {
     }
 }
 
-/** The faulty line of the file, with its neighboring lines. */
+/** The line `faulty` of a file, counted from 1, and the lines before and after it. */
 function excerpt(data: string, faulty: number): HTMLElement {
     const lines = linesAround(data, faulty).map(({ number, text }) => {
         const shown = text.length > kMaxExcerptWidth ? `${text.slice(0, kMaxExcerptWidth)}…` : text;

@@ -24,14 +24,15 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await textOf(file);
     const message = { name: nameOf(file), format: formatOf(file.name, data), data };
-    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // 64 bytes for the other members
+    // The 64 bytes are for the members that are not in `message`.
+    const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64;
     if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
     return message;
 }
 
 /**
- * The encoding of a file in UTF-16, given its bytes: the first two are a byte order mark, or exactly one of them is 0.
- * Undefined for other files. The server recognizes UTF-16 in the same way.
+ * The encoding of a text in UTF-16, which is recognized by its first two bytes: they are a byte order mark, or exactly
+ * one of them is 0. Undefined for other files. The server recognizes UTF-16 in the same way.
  */
 export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
     if (first === undefined || second === undefined) return undefined;
@@ -46,8 +47,9 @@ async function textOf(file: Blob): Promise<string> {
 }
 
 /**
- * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file begins
- * like neither of them. Throws FileError if the file contains no state, or if a JSON file has more than `limit` bytes.
+ * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined for a file that
+ * begins neither like a PNG file nor with "{". Throws FileError if the file contains no state, or if a JSON file has
+ * more than `limit` bytes.
  */
 export async function readState(file: File, limit: number): Promise<State | undefined> {
     const start = file.slice(0, 64);
@@ -66,8 +68,8 @@ export async function readState(file: File, limit: number): Promise<State | unde
 }
 
 /**
- * The format, from the keyword at the start (after any comments), or else from the file name extension. The server
- * recognizes the keywords in the same way (isOff() in off4.hpp).
+ * The format, as the keyword at the start of the text says, after any comments; without a keyword, as the file name
+ * extension says. The server recognizes the keywords in the same way (isOff() in off4.hpp).
  */
 function formatOf(name: string, data: string): LoadContent["format"] {
     const [, first = ""] = /^(?:\s|#[^\r\n]*(?:[\r\n]|$))*([^\s#]*)/.exec(data) ?? [];
@@ -81,7 +83,7 @@ export function nameOf({ name }: { name: string }): string {
     return text === "" ? "file" : text;
 }
 
-/** The message that a file of this size exceeds the limit; both are in bytes. */
+/** The error message for a file that is larger than the limit. The size and the limit are in bytes. */
 export function tooLarge(bytes: number, limit: number): string {
     return `The file is too large: ${sizeText(bytes)} when sent; this server accepts up to ${sizeText(limit)}.`;
 }

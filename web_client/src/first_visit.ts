@@ -7,8 +7,8 @@ import { byId } from "./element";
 const kVisitedKey = "oval4d.visited"; // in localStorage
 
 /**
- * Commands for the view of a first visit. The last rotation is small, because the keys that repeat it should turn the
- * polytope only a little.
+ * Commands for the view of a first visit. The last rotation is small, so that the keys that repeat it (Space and .)
+ * turn the polytope only a little.
  */
 export const kFirstVisitView = ["polytope 24-cell", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "rotate xy,zw"];
 
@@ -21,7 +21,9 @@ export function isFirstVisit(): boolean {
     }
 }
 
-/** The line of welcome. It closes when its advice has been followed: the object was turned, and the focus moved. */
+/**
+ * The line of welcome. It disappears when the user has followed its advice, to turn the object and to move the focus.
+ */
 export class WelcomeLine {
     private readonly root = byId("welcome");
     private since = 0; // the first revision in which the view of the first visit is complete
@@ -34,7 +36,7 @@ export class WelcomeLine {
         startTour: () => void,
         private readonly closed: () => void,
     ) {
-        // Whoever drags, taps or zooms uses the picture, which needs the room that the line takes.
+        // A user who drags, taps or zooms needs the line no longer, and the picture gets its room.
         for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {

@@ -1,9 +1,9 @@
-// Moves the focus slice to any w. Sends the newest w, at most once per animation frame, and only when the previous one
-// has been answered.
+// Moves the focus slice to any w. Sends the newest w, at most once per animation frame, and only when the server has
+// answered the previous one.
 
 import type { Client, State } from "@oval4d/protocol";
 
-const kSame = 1e-6; // in spacings of the slices: values of w that differ by less count as equal
+const kSame = 1e-6; // values of w count as equal if they differ by at most this fraction of the distance between slices
 
 interface FocusAtRevision {
     w: number;
@@ -25,7 +25,7 @@ export class FocusMover {
         private readonly settled: (error?: Error) => void,
     ) {}
 
-    /** The w where the focus is, or will be when the server has answered. */
+    /** The w of the focus or, while a move is unsent or unanswered, the w to which it moves. */
     get w(): number {
         if (this.isUnsent || this.inFlight !== undefined) return this.wanted;
         return this.seen.revision >= this.answered.revision ? this.seen.w : this.answered.w;
@@ -48,8 +48,8 @@ export class FocusMover {
     }
 
     /**
-     * Records the focus in the newest state. Returns whether the focus was moved there by something other than this
-     * class; false for a state that is older than the last answered move.
+     * Records the focus in the newest state. Returns whether something other than this class has moved the focus to
+     * where it is; false for a state that is older than the last answered move.
      */
     recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {
         this.seen = { w, revision };

@@ -1,5 +1,5 @@
 // Moves the focus point of the matrix view. Sends the newest point, at most once per animation frame, and only when the
-// previous one has been answered.
+// server has answered the previous one.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -25,7 +25,7 @@ export class FocusPointControl {
     private continues = false; // whether the next move belongs to the undo step of the last one
     private current = kOrigin; // the focus point of the session
     private readonly lastChange = new OldStateDetector();
-    private origin = kOrigin; // to add to coordinates in the picture to get those of the object's file
+    private origin = kOrigin; // add it to coordinates in the picture to get coordinates in the object's file
 
     constructor(
         private readonly client: Client,
@@ -48,7 +48,10 @@ export class FocusPointControl {
         this.events.began();
     }
 
-    /** Changes some coordinates of the point. Each pair is an axis, 0 to 3, and a coordinate in the picture. */
+    /**
+     * Changes some coordinates of the focus point. Each pair has an axis, 0 to 3, and the new coordinate, as in the
+     * picture.
+     */
     move(coordinates: readonly (readonly [axis: number, value: number])[]): void {
         const point: Point4 = [...this.point];
         for (const [axis, value] of coordinates) point[axis] = this.origin[axis]! + value;
@@ -57,7 +60,7 @@ export class FocusPointControl {
         this.schedule();
     }
 
-    /** Where the focus point is, or will be when the server has answered. */
+    /** The focus point or, while a move is unsent or unanswered, the point to which it moves. */
     private get point(): Point4 {
         return this.isUnsent || this.isSending ? this.wanted : this.current;
     }

@@ -11,7 +11,10 @@ export class FocusPointDrag {
     private panel: MatrixPanel | undefined; // the panel in which the drag began
     private hovering: Point | undefined; // where the mouse hovers
 
-    /** `matrix` returns the matrix in the picture; undefined if there is none, or while its place is not known. */
+    /**
+     * `matrix` returns the matrix of planar sections in the picture; undefined if the picture has none, or while the
+     * place of the matrix is not known.
+     */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
@@ -24,7 +27,7 @@ export class FocusPointDrag {
         });
     }
 
-    /** Shows the mouse cursor for what is under it. To be called when the picture changes. */
+    /** Shows the mouse cursor that fits what is under the mouse. To be called when the picture changes. */
     updateCursor(): void {
         if (this.hovering) this.showCursor(this.hovering);
     }
@@ -48,7 +51,10 @@ export class FocusPointDrag {
         if (this.panel) this.moveIn(this.panel, at);
     }
 
-    /** Moves the focus point to a point of the drawing; returns false if no panel is there. */
+    /**
+     * Moves the focus point to the point that a panel shows at the point `at` of the drawing; returns false if no panel
+     * is there.
+     */
     moveTo(at: Point): boolean {
         const panel = this.panelAt(at);
         if (!panel) return false;

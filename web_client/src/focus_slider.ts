@@ -19,7 +19,8 @@ const kKeySteps = 200; // steps of the arrow keys from one end to the other
 const kMaxMarks = 60; // if there are more critical values, their density is shown instead of marks
 const kDensityBins = 80;
 const kSweepTime = 8; // seconds from one end to the other at the speed 1
-const kMaxInterval = 0.1; // seconds: if the page is busy, a longer time between two animation frames counts as this
+// Seconds: a longer time between two animation frames, when the page is busy, counts as this time.
+const kMaxInterval = 0.1;
 
 export class FocusSlider {
     private readonly input = byId<HTMLInputElement>("focus-w");
@@ -94,7 +95,7 @@ export class FocusSlider {
         input.addEventListener("input", () => this.slid());
         input.addEventListener("keydown", (event) => this.keydown(event));
         this.playButton.addEventListener("click", () => (this.playedAt === undefined ? this.play() : this.stop()));
-        // The drawing keeps the focus, so that the space bar does not press the button again.
+        // The drawing keeps the focus: if the button got it, the space bar would press the button again.
         this.playButton.addEventListener("mousedown", (event) => event.preventDefault());
         document.addEventListener("visibilitychange", () => document.hidden && this.stop());
     }
@@ -120,7 +121,10 @@ export class FocusSlider {
         this.moveTo(this.snapped(this.input.valueAsNumber));
     }
 
-    /** The w of a mark within a few pixels, if there is one; otherwise the same w. */
+    /**
+     * In a drag without Alt and Shift, the w of a mark that is at most kSnapDistance away, if there is one; otherwise
+     * `w`.
+     */
     private snapped(w: number): number {
         const { all, isExact } = this.criticalValues;
         if (!this.isDragged || this.mayNotSnap || !isExact || all.length === 0 || all.length > kMaxMarks) return w;
@@ -208,12 +212,15 @@ export class FocusSlider {
     }
 }
 
-/** A vertical line for each critical value, in a square of side 1. */
+/** A vertical line for each critical value, in a square of side 1. `at` converts w to a position from 0 to 1. */
 function marksOutline(values: CriticalValue[], at: (w: number) => number): string {
     return values.map(({ w }) => `M${at(w)} 0V1`).join("");
 }
 
-/** How many vertices or changes lie at each value of w, as an area in a square of side 1. */
+/**
+ * The outline of a bar chart, in a square of side 1, of how many vertices, or changes of a field's topology, lie near
+ * each w.
+ */
 function densityOutline(values: CriticalValue[], at: (w: number) => number): string {
     const bins = new Array<number>(kDensityBins).fill(0);
     const binOf = (w: number): number => Math.min(kDensityBins - 1, Math.floor(at(w) * kDensityBins));

@@ -1,4 +1,4 @@
-// The transfer function of fog: the opacity and the color of each value of a field.
+// The transfer function of fog: it maps each value of a field to the opacity and the color of the fog.
 
 import type { FogControlPoint, Inside, Scheme, Slices } from "@oval4d/protocol";
 
@@ -7,7 +7,8 @@ import { roundedToDigitsOfSize } from "./format";
 
 export const kMinFogControlPoints = 2;
 export const kMaxFogControlPoints = 8;
-const kDigits = 4; // significant digits of differences between values, and of opacities
+// Values are rounded to this many significant digits of their differences, and opacities to this many of their own.
+const kDigits = 4;
 
 /** The distribution of a field's values. */
 export interface ValueDistribution {
@@ -34,7 +35,8 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-const kVisible = 0.02; // the least difference of tones that counts; turning changes the rounded tones by less
+// A smaller difference of two tones does not count: turning the object changes tones by less, due to rounding.
+const kVisible = 0.02;
 
 /** Whether two distributions look the same. */
 export function looksLike(one: ValueDistribution, other: ValueDistribution): boolean {
@@ -51,7 +53,8 @@ export function usualFog([least, greatest]: [number, number], level: number, ins
         { value: edge, opacity: 0.5 },
         { value: edge + (far - edge) / 4, opacity: 0 },
     ];
-    const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4); // the smaller difference between points
+    // The smaller one of the two differences between neighboring values.
+    const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4);
     const rounded = points.map(({ value, opacity }) => ({ value: roundedToDigitsOfSize(size, value, kDigits), opacity }));
     return inside === "below" ? rounded : rounded.reverse();
 }
@@ -69,8 +72,8 @@ export function hexDigitsOf(color: number): string {
 }
 
 /**
- * The color of point i in a picture of this scheme: its own or, if it has none, the color of its value on the scale,
- * which extends from the first point to the last.
+ * The color of point i in a picture of this scheme: the point's own color or, if it has none, that of its value on a
+ * color scale from the first point to the last.
  */
 export function colorOf(points: FogControlPoint[], i: number, scheme: Scheme): number {
     const { value, color } = points[i]!;
@@ -98,8 +101,8 @@ export function isTransferFunction(points: FogControlPoint[]): boolean {
 }
 
 /**
- * The points, with point i moved to `value` and `opacity`, or as near to them as its neighbors and `ends` allow. `ends`
- * are the least and the greatest value that a point may have.
+ * The points, after point i was moved to `value` and `opacity`, or as near to these as the neighbors of point i and
+ * `ends` allow. `ends` are the least and the greatest value that a point may have.
  */
 export function withMovedPoint(points: FogControlPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogControlPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;

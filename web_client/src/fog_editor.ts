@@ -43,8 +43,9 @@ export class FogEditor {
     private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
     private dragged: number | undefined; // the index of the point that is dragged
-    private drag = 0; // number of the newest drag on the curve or in a dialog for colors: its changes are one undo step
-    private sentDrag: number | undefined; // the drag to which the last change that was sent belongs
+    // Number of the newest drag on the curve or in a color dialog: all changes of a drag are one undo step.
+    private drag = 0;
+    private sentDrag: number | undefined; // the number of the drag to which the last sent change belongs
 
     /** `set` changes settings; it rejects with an Error whose message is shown. */
     constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
@@ -73,14 +74,12 @@ export class FogEditor {
             this.draw();
         }
         const isOld = this.lastChange.recordAndCheckIfOld(state);
-        if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // what the editor shows is newer
+        if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // the editor shows newer points
         this.points = state.fog ?? [];
         this.draw();
     }
 
-    /**
-     * Takes over the distribution of the values from the histogram of a picture, if the picture shows the newest state.
-     */
+    /** Shows the distribution of values from the histogram of a picture, if the picture is that of the newest state. */
     updateFromPicture(picture: Slices): void {
         if (picture.revision !== this.state?.revision) return;
         const distribution = distributionOf(picture);
@@ -95,7 +94,10 @@ export class FogEditor {
         return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
     }
 
-    /** Shows and sends points; `drag` is the number of the drag that makes this change, if any. */
+    /**
+     * Shows points, and sends them after `delay` milliseconds. `drag` is the number of the drag that makes this change,
+     * if there is one.
+     */
     private change(points: FogControlPoint[], delay = 0, drag?: number): void {
         this.points = points;
         this.mistake = "";
@@ -104,7 +106,8 @@ export class FogEditor {
     }
 
     private async apply({ fog, drag }: { fog: FogControlPoint[]; drag?: number }): Promise<void> {
-        // Decided here, because a newer change may have replaced the first change of the drag before that one was sent.
+        // Decided when a change is sent, not when it is made: a later change of a drag may replace the first one before
+        // the first one is sent.
         const continues = drag !== undefined && drag === this.sentDrag;
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });
@@ -265,14 +268,17 @@ export class FogEditor {
         remove.addEventListener("click", () => {
             this.change(this.points.filter((_, k) => k !== i));
             const next = this.rows[Math.min(i, this.rows.length - 1)]!.remove;
-            (next.disabled ? this.addButton : next).focus(); // the list is a new one, in which nothing has the focus
+            // The rows have been replaced, so that none of them has the focus.
+            (next.disabled ? this.addButton : next).focus();
         });
         const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);
         return { root, value, opacity, color, remove };
     }
 }
 
-/** A text that differs for different fields. Arrays of the same name, shape and range are not told apart. */
+/**
+ * A text that identifies the field of a state. It is the same for arrays that have the same name, shape, range and box.
+ */
 function fieldKeyOf({ polytope, field }: State): string {
     return field ? JSON.stringify([polytope.name, field.formula, field.shape, field.range, field.box]) : "";
 }

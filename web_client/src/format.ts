@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 const kMinus = "\u2212";
 const kMaxPlanes = 3; // the most planes that the text of a rotation lists
 const kMaxPlainDecimals = 9; // with more decimals, small numbers are written with an exponent
-const kMostDigits = 17; // the significant digits of a number
+const kMostDigits = 17; // the most significant digits of a number in double precision
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
@@ -25,14 +25,14 @@ export function formatDegrees(radians: number): string {
     return `${formatDecimal((radians * 180) / Math.PI, 2)}°`;
 }
 
-/** A length with three significant digits, more if its integer part has more. */
+/** A length with three significant digits, or with all digits of its integer part if these are more. */
 export function formatLength(value: number): string {
     return formatRounded(value, value === 0 ? 0 : Math.max(0, 2 - exponentOf(value)));
 }
 
 /**
- * A coordinate, such as one of a vertex, with three decimals at most, or with as many more as it takes to distinguish
- * the w of neighboring slices, which differ by `spacing`.
+ * A coordinate with at most three decimals, or with as many more as are needed to distinguish the w of neighboring
+ * slices, which differ by `spacing`.
  */
 export function formatCoordinate(value: number, spacing: number): string {
     return formatRounded(value, Math.max(3, 1 - exponentOf(spacing)));
@@ -44,7 +44,10 @@ export function formatFieldValue(value: number): string {
     return formatRounded(value, size === 0 || size >= 0.01 ? 3 : 2 - exponentOf(size));
 }
 
-/** A number with at most `decimals` decimals, without trailing zeros; with an exponent instead of too many zeros. */
+/**
+ * A number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals, small
+ * numbers have an exponent.
+ */
 function formatRounded(value: number, decimals: number): string {
     if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
     const size = Math.abs(value);
@@ -56,20 +59,24 @@ function formatRounded(value: number, decimals: number): string {
 }
 
 /**
- * The value, rounded to `digits` significant digits. If it is larger than `size`, it is rounded less: to the place of
- * the last of `digits` significant digits of `size`, which is, for example, the difference from another value.
+ * Rounds a value to `digits` significant digits. A value that is larger than `size` keeps more digits: down to the
+ * place of the last significant digit of `size`. For example, `size` is the difference between two values that must
+ * stay distinguishable.
  */
 export function roundedToDigitsOfSize(size: number, value: number, digits: number): number {
-    const more = exponentOf(value) - exponentOf(size) || 0; // 0 if the size is not finite
+    const more = exponentOf(value) - exponentOf(size) || 0; // 0 if `size` is not finite
     return Number(value.toPrecision(Math.min(kMostDigits, digits + Math.max(0, more))));
 }
 
-/** The integer n for which 10 ** n is the largest power of ten that is not above the size of the number. */
+/** The decimal exponent of a number: the largest integer n with 10 ** n ≤ |value|; 0 if the value is 0. */
 function exponentOf(value: number): number {
     return Number(value.toExponential(kMostDigits - 1).split("e")[1]);
 }
 
-/** A positive number with more than kMaxPlainDecimals decimals, as in server/scene/slice_label.cpp. */
+/**
+ * A positive number with `decimals` decimals, more than kMaxPlainDecimals; with an exponent if it is below 1e-4, as in
+ * server/scene/slice_label.cpp.
+ */
 function withExponentIfSmall(size: number, decimals: number): string {
     const exponent = exponentOf(size);
     const atMost = (most: number, wanted: number): number => Math.max(0, Math.min(most, wanted));
@@ -101,8 +108,8 @@ export function formatW(w: number, spacing: number): string {
 }
 
 /**
- * A rotation such as "xw 22.5°, yz 81.42°". The rotation of a gesture may turn in all six planes: only the planes with
- * the three largest angles are listed.
+ * A rotation such as "xw 22.5°, yz 81.42°". Lists only the planes with the three largest angles: a gesture may turn in
+ * all six planes.
  */
 export function formatRotation(last: NonNullable<State["last"]>): string {
     const turns = last.planes.map((plane, i) => ({ plane, angle: last.angles[i] ?? 0 }));

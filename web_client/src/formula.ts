@@ -20,7 +20,7 @@ export interface FormulaMistake {
 const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
 const kConstant = /([;,]\s*([A-Za-z]\w*)\s*=\s*)([-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?=\s*(?:[;,]|$))/g;
 
-/** The constants whose values are numbers, in the order of the text. */
+/** The constants of a formula whose values are numbers, in the order of the text. */
 export function constantsOf(formula: string): FormulaConstant[] {
     return [...formula.matchAll(kConstant)].map((match) => {
         const [, before = "", name = "", text = ""] = match;
@@ -30,18 +30,22 @@ export function constantsOf(formula: string): FormulaConstant[] {
     });
 }
 
-/** The formula with another value of a constant; unchanged if it has no such constant. */
+/** The formula with `value` as the value of the constant `name`; the unchanged formula if it has no such constant. */
 export function withConstant(formula: string, name: string, value: string): string {
     const constant = constantsOf(formula).find((one) => one.name === name);
     return constant ? formula.slice(0, constant.from) + value + formula.slice(constant.to) : formula;
 }
 
-/** The comparison in the formula, which determines what its levels mean; "" if there is none. */
+/**
+ * The comparison operator in the formula, such as "<", on which the meaning of the levels depends; "" if there is none.
+ */
 export function comparisonOf(formula: string): string {
     return /[<>]=?|=/.exec(formula.replace(kDefinitions, ""))?.[0] ?? "";
 }
 
-/** The mistake in a formula that an error message of the server describes; undefined if it names no position. */
+/**
+ * The mistake in a formula that an error message of the server describes; undefined if the message names no position.
+ */
 export function mistakeOf(message: string): FormulaMistake | undefined {
     const [, position, what = ""] = /^.*, position (\d+): (.*)$/s.exec(message) ?? [];
     return position === undefined ? undefined : { what, at: Number(position) - 1 };
@@ -73,7 +77,7 @@ export function rangeFor(value: number): { min: number; max: number; step: numbe
     return value < 0 ? { min: -most, max: 0, step } : value > 0 ? { min: 0, max: most, step } : { min: -1, max: 1, step };
 }
 
-/** The text of a slider's value, with as many decimals as the slider's step has. */
+/** The value of a slider as a text, with as many decimals as the slider's step has. */
 export function textOfSliderValue(value: number, step: number): string {
     return String(Number(value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))));
 }

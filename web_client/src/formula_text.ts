@@ -33,7 +33,10 @@ export class FormulaText {
         this.input.value = text;
     }
 
-    /** Shows an error of the server, and marks the character that it names, if any; undefined clears error and mark. */
+    /**
+     * Shows an error of the server, and marks the character that the error names, if any. If `message` is undefined,
+     * clears both.
+     */
     showError(message: string | undefined): void {
         const mistake = message === undefined ? undefined : mistakeOf(message);
         const where = mistake ? `Character ${mistake.at + 1}: ${mistake.what}` : (message ?? "");

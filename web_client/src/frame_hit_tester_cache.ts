@@ -11,7 +11,7 @@ import type { Stage } from "./picture/stage";
 export class FrameHitTesterCache {
     private state: State | undefined;
     private known: HitTester | undefined;
-    private knownFor = ""; // the layoutKey() of the known or requested hit tester
+    private knownFor = ""; // the layoutKey() for which the hit tester is known or requested
 
     /** `onKnown` is called when a hit tester that currentOrRequest() requested has arrived. */
     constructor(
@@ -24,7 +24,7 @@ export class FrameHitTesterCache {
         this.state = state;
     }
 
-    /** The hit tester. If it is not known, requests it, and returns undefined. */
+    /** Returns the hit tester of the picture. If it is not known, requests it, and returns undefined. */
     currentOrRequest(): HitTester | undefined {
         if (!this.state) return undefined;
         const key = layoutKey(this.state, this.stage.size);
@@ -38,7 +38,7 @@ export class FrameHitTesterCache {
                     this.onKnown();
                 },
                 () => {
-                    if (this.knownFor === key) this.knownFor = ""; // the next call requests it again
+                    if (this.knownFor === key) this.knownFor = ""; // the next call requests the hit tester again
                 },
             );
         }

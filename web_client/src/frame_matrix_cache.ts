@@ -8,8 +8,8 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    // The layoutKey() of the known or requested matrix, made without the slices and the surfaces, which do not move the
-    // matrix; "" if there is none.
+    // The layoutKey() for which the matrix is known or requested; "" if there is none. It is made without the settings
+    // of slices and surfaces, which do not move the matrix.
     private knownFor = "";
 
     constructor(
@@ -17,7 +17,10 @@ export class FrameMatrixCache {
         private readonly stage: Stage,
     ) {}
 
-    /** The matrix, whose sections may be old; undefined if its place is not known, or if no matrix is shown. */
+    /**
+     * The matrix as the server sent it last, possibly with the sections of an earlier picture; undefined if its place
+     * is not known, or if no matrix is shown.
+     */
     get current(): SectionMatrix | undefined {
         return this.known;
     }
@@ -28,7 +31,7 @@ export class FrameMatrixCache {
         const key = isShown ? layoutKey(state, this.stage.size) : "";
         if (key === this.knownFor) return;
         this.knownFor = key;
-        if (!isShown) this.known = undefined; // a matrix that is still shown stays until the answer comes
+        if (!isShown) this.known = undefined; // while a matrix is shown, the last one is kept until the answer arrives
         if (isShown) void this.request(key);
     }
 
@@ -37,7 +40,7 @@ export class FrameMatrixCache {
             const { matrix } = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
             if (this.knownFor === key) this.known = matrix;
         } catch {
-            if (this.knownFor === key) this.knownFor = ""; // the next state asks again
+            if (this.knownFor === key) this.knownFor = ""; // the next call of update() requests the matrix again
         }
     }
 }

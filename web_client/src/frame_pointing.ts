@@ -13,18 +13,19 @@ import type { Stage } from "./picture/stage";
 // Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
 const kRest = 200;
 const kInterval = 70; // milliseconds between two requests, at least
-const kNear = 8; // pixels: the answer is not shown if the pointer has moved farther before it arrived
-const kFollow = 24; // pixels within which the label goes along with the pointer until the next answer
+const kNear = 8; // pixels: an answer is not shown if the pointer has moved farther than this before it arrives
+// Pixels: until the next answer, the label follows the pointer this far from the point that it names.
+const kFollow = 24;
 
 export class FramePointing {
     private pointer: Point | undefined;
     private named: Point | undefined; // the point whose element the label names
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
-    private asked = ""; // the pixel of the last request about this picture
+    private asked = ""; // the pixel of the last request about the present picture, as "x y"; "" if there was none
     private isAsking = false;
     private resting: ReturnType<typeof setTimeout> | undefined;
 
-    /** `isIdle` returns whether this revision is the newest, and no command is unanswered. */
+    /** `isIdle` returns whether a revision is the newest one, and no command is unanswered. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
@@ -52,7 +53,10 @@ export class FramePointing {
         this.hide();
     }
 
-    /** Asks what is under the pointer, unless it is known. To be called when the page may have become idle. */
+    /**
+     * Asks the server what is under the pointer, unless the answer is known. To be called when the page may have become
+     * idle.
+     */
     update(): void {
         if (!this.isAsking) void this.ask();
     }
@@ -68,7 +72,9 @@ export class FramePointing {
         this.update();
     }
 
-    /** Asks what is at the pointer, again and again, until an answer is about its newest position. */
+    /**
+     * Asks what is at the pointer, again and again, until the server has answered for the pointer's newest position.
+     */
     private async ask(): Promise<void> {
         this.isAsking = true;
         for (let pixel = this.nextPixelToAskAbout(); pixel; pixel = this.nextPixelToAskAbout()) {
@@ -82,7 +88,10 @@ export class FramePointing {
         this.isAsking = false;
     }
 
-    /** The pixel of the picture to ask about; undefined if there is nothing to ask. */
+    /**
+     * The pixel of the picture to ask about next; undefined if the page has asked about it already, or must not ask
+     * now.
+     */
     private nextPixelToAskAbout(): Point | undefined {
         const { pointer, revision } = this;
         if (!pointer || revision === undefined || !this.isIdle(revision)) return undefined;

@@ -24,7 +24,10 @@ export class FullScreen {
         else await document.documentElement.requestFullscreen({ navigationUI: "hide" });
     }
 
-    /** Calls `changed` if full screen has begun or ended since the last call. The page may begin in full screen. */
+    /**
+     * Calls `changed` if full screen has begun or ended since the last call. Must also be called at the start, because
+     * the page may begin in full screen.
+     */
     update(): void {
         const { isOn } = this;
         if (isOn === this.wasOn) return;

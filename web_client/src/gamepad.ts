@@ -7,12 +7,12 @@ import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
 
 const kPause = 300; // milliseconds at rest after which a gesture has ended
-const kMaxInterval = 100; // milliseconds: if the page is busy, a longer time between two polls counts as this
+const kMaxInterval = 100; // milliseconds: a longer time between two polls, when the page is busy, counts as this time
 
 export function listenForGamepads(rotation: RotationControl): void {
     let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled
     let turnedAt = -Infinity;
-    const rested = new Set<number>(); // the gamepads that have been at rest
+    const rested = new Set<number>(); // the indices of the gamepads that have been at rest once
     const poll = (now: number): void => {
         const gamepads = navigator
             .getGamepads()

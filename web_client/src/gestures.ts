@@ -14,9 +14,9 @@ import { TwoFingers } from "./two_fingers";
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
 const kLineHeight = 16; // pixels per line, for wheels that report lines
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
-const kLongPress = 600; // milliseconds of touch after which the menu opens
+const kLongPress = 600; // milliseconds of a touch after which the menu of an element opens
 const kButtons = { left: 0, middle: 1, right: 2 }; // the values of MouseEvent.button
-const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
+const kSlop = { mouse: 4, touch: 10 }; // the most pixels by which the pointer may move during a click
 
 export interface GestureTargets {
     orbit: OrbitControl;
@@ -34,7 +34,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     let longPress: ReturnType<typeof setTimeout> | undefined;
     let isLongPress = false; // whether the last touch was long enough to open the menu
     let isMenuOpen = false; // whether the last long press has opened the menu
-    let isClick = false; // whether the pointer has not moved since it went down
+    let isClick = false; // whether the pointer has stayed in its place since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
     let pair: TwoFingers | undefined;

@@ -20,7 +20,7 @@ export class HeaderValue {
     private readonly input: HTMLInputElement;
     private readonly error: HTMLElement;
     private readonly note: HTMLElement;
-    private before = ""; // the text when editing began; a text that equals it is not applied
+    private before = ""; // the text when editing began; if the text is still the same, it is not applied
     private refused: string | undefined; // the text that could not be applied
     private pending: string | undefined; // the text that is being applied
     private focusAfter: HTMLElement | undefined; // receives the focus after editing
@@ -60,7 +60,7 @@ export class HeaderValue {
         window.addEventListener("resize", () => this.placeNote());
     }
 
-    /** Shows a value; a field that is open keeps its text. */
+    /** Shows a value on the button; does not change the text of a field that is open. */
     show(value: string): void {
         if (this.output.textContent !== value) this.output.textContent = value;
     }
@@ -68,7 +68,7 @@ export class HeaderValue {
     private open(): void {
         this.before = this.events.editable();
         this.refused = this.pending = undefined;
-        // After a click with the mouse, the drawing still has the focus and gets it back.
+        // After a click with the mouse, the drawing still has the focus, and gets it back after editing.
         this.focusAfter = document.activeElement === this.button ? this.button : byId("drawing");
         this.input.value = this.before;
         this.input.size = Math.max(5, this.before.length + 1);
@@ -94,7 +94,7 @@ export class HeaderValue {
     /** Closes the field. If it has the focus, moves the focus to where it was before editing. */
     private close(): void {
         const hadFocus = document.activeElement === this.input;
-        this.before = this.input.value; // so that blurred() applies nothing
+        this.before = this.input.value; // so that a call of blurred(), when the field disappears, applies nothing
         this.setOpen(false);
         if (hadFocus) this.focusAfter?.focus();
     }

@@ -97,12 +97,13 @@ export class HeaderValues {
         for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
-        if (state.turning && this.timer !== undefined) return; // so that turning does not delay the announcement
+        // While the polytope turns, new states do not delay the announcement.
+        if (state.turning && this.timer !== undefined) return;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.announce(), kSpeechDelay);
     }
 
-    /** Announces the polytope's name at first, and the changes since the last announcement. */
+    /** Announces what has changed since the last announcement; the first time, also the polytope's name. */
     private announce(): void {
         this.timer = undefined;
         const before = this.announced!;
@@ -112,7 +113,9 @@ export class HeaderValues {
     }
 }
 
-/** What a screen reader can say of a state: the polytope's name, then one text for each part. */
+/**
+ * What a screen reader can say of a state: the polytope's name, then one text for each value or setting; "" if nothing.
+ */
 function announcementsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
     return [

@@ -77,9 +77,7 @@ export class Help {
         );
     }
 
-    /**
-     * Opens the dialog with the lines that mention the topic, as filter() shows them; throws an Error if filter() does.
-     */
+    /** Opens the dialog with only the lines that mention the topic; throws an Error if no line does. See filter(). */
     open(topic = ""): void {
         this.filter(topic);
         if (!this.dialog.open) this.dialog.showModal();

@@ -1,4 +1,4 @@
-// The place of a mouse or pen that hovers over a part of the page.
+// Tells where a mouse or pen hovers over a part of the page.
 
 /** A point of a part of the page: x to the right and y down from the part's upper left corner, in CSS pixels. */
 export interface Point {

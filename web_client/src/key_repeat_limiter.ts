@@ -1,4 +1,4 @@
-// Limits the repetition of a held key: the key repeats only after the picture of its previous press has been presented.
+// Limits the repetition of a held key: the key repeats only after the picture of the previous press has been presented.
 // Repetitions that come too early are dropped, not queued.
 
 export class KeyRepeatLimiter {

@@ -65,7 +65,10 @@ export class Keyboard {
         this.first = undefined;
     }
 
-    /** Executes the action of a key or a button: one of the page, of the camera, or of the server. */
+    /**
+     * Executes the action of a key or a button. The page executes its own actions and those of the camera; the others
+     * are sent to the server.
+     */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void {
         this.cancelSequence();
         const act = this.actions.page[binding.action];
@@ -82,11 +85,14 @@ export class Keyboard {
         this.actions.send({ type: "key", ...stroke });
     }
 
-    /** Sends a key that has been typed; the first key of a sequence is sent together with the second one. */
+    /**
+     * Sends a key that has been typed. The first key of a sequence of two is kept, and sent together with the second
+     * one.
+     */
     private type(stroke: KeyStroke, held: boolean): void {
         const { first } = this;
         const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
-        if (begins && held) return; // it is not pressed a second time
+        if (begins && held) return; // a held key does not count as pressed a second time
         const ends = first && !stroke.ctrl && this.keys.some(({ key }) => key === first.key + stroke.key);
         this.first = begins && !ends ? stroke : undefined;
         if (first && ends) this.send(first, false);

@@ -18,9 +18,8 @@ export interface KeyStroke {
 }
 
 /**
- * Whether the key is for the control that has the focus: every key in a text field; Enter and the space bar on a
- * button; Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a
- * checkbox.
+ * Whether the control that has the focus uses the key: every key in a text field; Enter and the space bar on a button;
+ * Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a checkbox.
  */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
@@ -38,9 +37,9 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 
 /**
  * The keystroke of an event; undefined while a text is composed, if a modifier other than Shift and Ctrl is held, and
- * for keys that are not in the table. A character that is in the table counts, whichever key types it: "(" and "-" on
- * the digit keys of a French keyboard. Otherwise a digit key counts as its digit, and a key that types a letter of
- * another script counts as the American key in its place.
+ * for keys that are not in the table. A key that types a character of the table counts as this character, such as "("
+ * and "-" on the digit keys of a French keyboard. Any other digit key counts as its digit, and a key that types a
+ * letter of another script as the American key in its place.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
@@ -62,24 +61,27 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const binding = table.find((row) => row.code !== undefined && row.key === digit);
     if (!binding || ctrl) return undefined;
     if (binding.shift === "inverse") return { key: binding.key, shift, ctrl };
-    // Some keyboards type digits with Shift.
+    // Some keyboards type digits with Shift; it then does not count as held.
     return !shift || typed === digit ? { key: binding.key, shift: false, ctrl } : undefined;
 }
 
-/** The keystrokes that a button for this binding sends. */
+/** The keystrokes that a button for this binding sends; `inverse` adds Shift, which inverts a rotation. */
 export function strokesOfBinding(binding: KeyBinding, inverse: boolean): KeyStroke[] {
     const { key, ctrl = false } = binding;
     if (key.length > 1) return [...key].map((character) => ({ key: character, shift: false, ctrl }));
     return [{ key: inverse ? key.toUpperCase() : key, shift: inverse || key !== key.toLowerCase(), ctrl }];
 }
 
-/** The digit of the physical key, which Shift does not change on any layout; undefined for keys without a digit. */
+/** The digit on the physical key, whatever the layout and Shift make it type; undefined for keys without a digit. */
 function digitOfKey(event: KeyboardEvent): string | undefined {
     const [, row, digit] = /^(Digit|Numpad)([0-9])$/.exec(event.code) ?? [];
     return row === "Numpad" && event.key !== digit ? undefined : digit;
 }
 
-/** Whether a binding gives its key by name, as KeyboardEvent.key does ("ArrowLeft"), not as one or two characters. */
+/**
+ * Whether a binding identifies its key by a name of KeyboardEvent.key, such as "ArrowLeft", not by one or two
+ * characters.
+ */
 function isKeyGivenByName({ key }: KeyBinding): boolean {
     return key.length > 2;
 }
@@ -93,7 +95,10 @@ function typedCharacter(event: KeyboardEvent): string {
     return event.shiftKey ? character.toUpperCase() : character.toLowerCase();
 }
 
-/** Punctuation on an American keyboard, without and with Shift, at places that have letters in other scripts. */
+/**
+ * By KeyboardEvent.code: the punctuation that an American keyboard types, without and with Shift, with keys that type
+ * letters in other scripts.
+ */
 const kPunctuation: Record<string, string> = {
     BracketLeft: "[{",
     BracketRight: "]}",

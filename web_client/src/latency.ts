@@ -2,9 +2,9 @@
 // shows statistics, `:export latency` saves the samples as a CSV file, and scripts on the page read them with
 // performance.getEntriesByName(kMeasure).
 //
-// A browser does not report when a canvas is on the screen. A measurement ends in the first task after the animation
-// frame that drew the picture (see Stage), when the browser has rendered the page. The compositor, the graphics card
-// and the screen take additional time, which the page cannot measure.
+// A browser does not report when a canvas is on the screen. A measurement therefore ends in the first task after the
+// animation frame that drew the picture (see Stage): by then, the browser has rendered the page. The compositor, the
+// graphics card and the screen take additional time, which the page cannot measure.
 
 import { download } from "./download";
 import { byId } from "./element";
@@ -14,7 +14,7 @@ import type { Mode } from "./picture/stage";
 export const kMeasure = "oval4d key to picture"; // name of the performance measures
 
 const kMaxSamples = 10_000;
-const kRecentSamples = 500; // number of samples in the displayed statistics
+const kRecentSamples = 500; // the displayed statistics are those of this many newest samples
 const kShownKey = "oval4d.latency"; // storage key of whether the statistics are shown
 
 interface LatencySample {
@@ -44,7 +44,10 @@ export class Latency {
         return this.samples.at(-1)?.milliseconds;
     }
 
-    /** Measures the time until the picture of a request is presented. A request that changes nothing has no picture. */
+    /**
+     * Measures the time until the picture of a request is presented. A request that changes nothing has no picture, and
+     * is not measured.
+     */
     async track(request: string, answer: Promise<{ revision: number }>): Promise<void> {
         const start = performance.now();
         const { presentedRevision } = this;

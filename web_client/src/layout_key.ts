@@ -1,11 +1,12 @@
-// What the layout of a picture depends on. When one of these settings changes, the page asks the server again where the
-// parts of the server's picture are.
+// What the layout of a picture depends on. When any of it changes, the page asks the server again where the parts of
+// the picture are that the server has drawn.
 
 import type { State, Viewport } from "@oval4d/protocol";
 
 /**
- * What the layout of a picture of this size may depend on, as JSON: all members of the state, so that no setting is
- * forgotten, except those that never move a part of the picture, such as what motions and gestures change.
+ * A text that changes whenever the layout of a picture of this size may change: the state as JSON, without the members
+ * that never move a part of the picture, such as the orientation. The function lists the members to leave out, not
+ * those to keep, so that it misses no new setting.
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;

@@ -12,9 +12,12 @@ export interface InitialView {
     credentials?: Credentials;
     /** The field of the query, which is loaded in a new session before the commands. */
     field?: FormulaWithBox;
-    /** What is wrong with the link to a session, or with the box in the query. The server finds all other faults. */
+    /**
+     * What is wrong with the link to a session, or with the box in the query. The server reports all other faults in
+     * the query.
+     */
     faults: string[];
-    /** Commands that produce the view of the query, except its field. */
+    /** Commands of the command line that produce the view that the query describes, except its field. */
     lines: string[];
 }
 
@@ -29,7 +32,8 @@ interface HistoryEntry {
     credentials?: Credentials;
 }
 
-const kIgnoredParameters = ["width", "height", "token"]; // parameters of the API that are not part of the view
+// Parameters of the server's API that do not belong to the view.
+const kIgnoredParameters = ["width", "height", "token"];
 const kFieldParameters = ["formula", "values", "box"]; // parameters that are not converted to commands
 const kSessionKey = `oval4d.session ${location.pathname}`; // storage key of the tab's newest session
 
@@ -45,7 +49,7 @@ export function readInitialView(): InitialView {
 
 /**
  * The session of a shared link in the address bar, if there is one; remembers the session, and removes its token from
- * the address bar. `fault` says what is wrong with a link that was cut or changed on its way.
+ * the address bar. `fault` says what is wrong with a link that has lost the name or the token of its session.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
@@ -68,7 +72,7 @@ export function sessionOfHistoryEntry(): Credentials | undefined {
 
 /**
  * The last session of this tab; undefined if there is none, or if the current address has a query or had one when the
- * session was stored. A link with a query thus opens a new session.
+ * session was stored. A link with a query therefore opens a new session.
  */
 function sessionOfTab(): Credentials | undefined {
     const stored = readStored<StoredSession>(kSessionKey);
@@ -111,22 +115,22 @@ function decodePercents(text: string): string {
 }
 
 /**
- * A query or fragment as it was before a mailer or a forum wrote its "&" as "&amp;", or encoded its percent signs again
- * (%252C).
+ * Restores a query or fragment in which a mailer or a forum has replaced "&" by "&amp;", or encoded the percent signs a
+ * second time (%252C).
  */
 function repaired(text: string): string {
     return text.replaceAll("&amp;", "&").replace(/%25(?=[0-9a-f]{2})/gi, "%");
 }
 
-/** Whether a parameter is one that other sites append to addresses. */
+/** Whether this is the name of a parameter that other sites append to addresses, such as those for tracking. */
 function isIgnored(name: string): boolean {
     return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
 }
 
 /**
- * The parameters of a query, without those that protocol/address.json ignores. As in a form, "+" is a blank; but in
- * arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, but not before a unit.
- * The server reads the queries of the API in the same way.
+ * The parameters of a query, without those that protocol/address.json ignores. As in a form, "+" stands for a blank.
+ * But between two operands, as in 0.1+pi/8, it is a plus sign, because a person may have typed it; before a unit, as in
+ * 10+deg, it is a blank. The server reads the queries of the API in the same way.
  */
 function parametersOf(query: string): [name: string, value: string][] {
     const parts = repaired(query)

@@ -1,4 +1,4 @@
-// Sends values one at a time: while a value is on its way, only the newest of the later values is kept.
+// Sends values one at a time. While the last value is unanswered, keeps only the newest of the values that follow.
 
 export class NewestOnly<T> {
     private waiting: T | undefined;
@@ -13,7 +13,10 @@ export class NewestOnly<T> {
         return this.isSending || this.waiting !== undefined;
     }
 
-    /** Sends a value when no other follows within `delay` milliseconds, and the previous one has been answered. */
+    /**
+     * Sends a value after `delay` milliseconds, and after the answer to the previous one; drops it if a newer value
+     * follows before.
+     */
     submit(value: T, delay: number): void {
         this.waiting = value;
         clearTimeout(this.timer);

@@ -10,8 +10,8 @@ export class Notice {
     private timer: ReturnType<typeof setTimeout> | undefined;
 
     /**
-     * Shows a message. If `text` is given, also shows this text for the user to copy; message and text then stay until
-     * the next action.
+     * Shows a message. If `text` is given, also shows this text in a field from which the user can copy it; both then
+     * stay until the next action.
      */
     show(message: string, text?: string): void {
         this.write([message]);

@@ -56,8 +56,8 @@ export class ObserverControls {
     }
 
     /**
-     * Shows the frame of reference of a state, but does not change a field in which the user types, nor a pace that has
-     * not been answered.
+     * Shows the frame of reference of a state. Does not change a field in which the user types, nor a pace to which the
+     * server has not answered yet.
      */
     update(state: State): void {
         this.statePace = state.pace;
@@ -72,14 +72,14 @@ export class ObserverControls {
         }
     }
 
-    /** The pace at the thumb of the slider, rounded. */
+    /** The pace that the position of the slider's thumb means, rounded to kPaceDigits. */
     private get chosenPace(): number {
         return Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
     }
 
     private showPace(pace: number): void {
-        // The thumb stays where it is if its position already rounds to this pace. If it moved back to the rounded pace
-        // after each press of an arrow key, the key might never reach the next pace.
+        // The thumb stays where it is if its position already rounds to this pace. Otherwise the thumb could move back
+        // to the rounded pace after each press of an arrow key, and never reach the next pace.
         if (this.chosenPace !== pace) this.pace.value = String(Math.log10(pace));
         const text = formatDecimal(pace, 3);
         this.paceValue.textContent = text;

@@ -5,7 +5,7 @@
 import type { State } from "@oval4d/protocol";
 
 export class OldStateDetector {
-    private revision = 0; // the revision of the newest change that this page has made
+    private revision = 0; // the revision after the newest change that this page has made
     private seen = 0; // the revision of the newest state
 
     /** Takes note of the revision in the answer to a change. */
@@ -18,7 +18,9 @@ export class OldStateDetector {
         this.revision = this.seen = 0;
     }
 
-    /** Records this state, which must be the newest one. Returns whether the last change was made after it. */
+    /**
+     * Records a state, which must be the newest one. Returns whether it is from before the last change by this page.
+     */
     recordAndCheckIfOld({ revision }: State): boolean {
         if (revision < this.seen) this.revision = 0; // the state is of another session
         this.seen = revision;

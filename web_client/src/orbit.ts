@@ -20,7 +20,8 @@ export class OrbitControl {
     private sending = false;
     private unsent = false;
     private readonly lastChange = new OldStateDetector();
-    private lastLimited: Orbit | undefined; // the orbit before the moves that no hit tester has limited yet
+    // The orbit before those moves that limited() could not limit yet, for lack of a hit tester.
+    private lastLimited: Orbit | undefined;
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
@@ -43,7 +44,10 @@ export class OrbitControl {
         private readonly stopped: (reason: string) => void,
     ) {}
 
-    /** Orbits by a drag in CSS pixels: half the height of the picture is a quarter turn. */
+    /**
+     * Orbits by a drag of (dx, dy) CSS pixels, right and down: a drag over half the height of the picture is a quarter
+     * turn.
+     */
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.shownHeight);
         this.orbitBy(-dx * part, dy * part);
@@ -66,7 +70,7 @@ export class OrbitControl {
         this.setAndSendOrbit(kInitial);
     }
 
-    /** Limits the moves that were made before the hit tester was known. */
+    /** Limits the moves that were made before the hit tester was known. To be called when it becomes known. */
     onHitTesterAvailable(): void {
         const from = this.lastLimited;
         this.lastLimited = undefined;
@@ -77,7 +81,7 @@ export class OrbitControl {
         this.lastChange.prepareForNewConnection();
     }
 
-    /** Performs an action of the key table; returns false if it is not one of the camera. */
+    /** Performs an action of the key table; returns false if it is not an action of the camera. */
     perform(action: string): boolean {
         const move = this.actions[action];
         move?.();
@@ -85,8 +89,8 @@ export class OrbitControl {
     }
 
     /**
-     * Orbits by these angles. Each is limited on its own, so that the camera can still move in one direction when the
-     * other is at its limit.
+     * Orbits by these angles. Each angle is limited on its own, so that the camera can still move in one direction if
+     * it cannot move in the other.
      */
     private orbitBy(azimuth: number, elevation: number): void {
         const from = this.stage.orbit;
@@ -96,9 +100,9 @@ export class OrbitControl {
     }
 
     /**
-     * The orbit after a change. If less than kLeastVisible of the slices would then be visible, and fewer than before,
-     * makes only the largest part of the change that avoids this. Without a hit tester, makes the whole change, which
-     * onHitTesterAvailable() limits later.
+     * The orbit after a change, or after the largest part of it that keeps enough slices visible: the fraction
+     * kLeastVisible or, if fewer are visible before the change, as many as before. Without a hit tester, makes the
+     * whole change, which onHitTesterAvailable() limits later.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };

@@ -20,7 +20,8 @@ interface PageSessionActions {
 
 export class PageSession {
     private lostState: State | undefined; // the last state of a lost session, which the new session restores
-    private isViewBegun = false; // whether a part of the initial view has been requested
+    // Whether a command of the initial view has been sent, in this or an earlier connection.
+    private isViewBegun = false;
 
     /** `view` is what the page shows at the start. */
     constructor(
@@ -31,7 +32,7 @@ export class PageSession {
 
     /**
      * On the first visit, makes kFirstVisitView the initial view, unless the address names another view or a session.
-     * Returns whether it has done so.
+     * Returns whether kFirstVisitView is now the initial view.
      */
     useFirstVisitView(): boolean {
         const { credentials, lines, field } = this.view;
@@ -57,7 +58,10 @@ export class PageSession {
         if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
     }
 
-    /** Notes that the session is lost. The new session gets the view of `state`, its last state, if that is known. */
+    /**
+     * Notes that the session is lost. The new session gets the view of `state`, the last state of the lost one, if it
+     * is known.
+     */
     sessionLost(reason: string, state: State | undefined): void {
         this.lostState ??= state; // if a view has not been restored yet, `state` may be that of the new session
         this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
@@ -69,8 +73,8 @@ export class PageSession {
     }
 
     /**
-     * In a new session, restores the view of a lost session, or applies the initial view. Else does nothing. Rejects if
-     * the connection breaks; the next connection then needs another call.
+     * In a new session, restores the view of a lost session, or applies the initial view. In any other session, does
+     * nothing. Rejects if the connection breaks; must then be called again for the next connection.
      */
     async restoreOrInitializeView(): Promise<void> {
         try {
@@ -85,7 +89,9 @@ export class PageSession {
         this.actions.tell(faults);
     }
 
-    /** Applies the initial view, if it has not been applied yet; resolves to what is wrong with it. */
+    /**
+     * Applies the initial view, if it has not been applied yet. Resolves to messages about what is wrong with the view.
+     */
     private async applyInitialView(): Promise<string[]> {
         const { lines, field, faults: known } = this.view;
         const faults = [...known];

@@ -122,7 +122,10 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
     return made;
 }
 
-/** A button that switches the keys without Ctrl off and on: speech input may press them by mistake (WCAG 2.1.4). */
+/**
+ * A button that switches off and on that keys act without Ctrl: speech input may press single keys by mistake (WCAG
+ * 2.1.4).
+ */
 function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
     const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
         const on = made.getAttribute("aria-pressed") !== "true";

@@ -30,8 +30,8 @@ export class PolytopePicker {
 
     /**
      * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true, else an
-     * object of the catalogue or one that the name describes. `choose` rejects with an Error whose message is shown.
-     * `failedLater` is called with this error if the dialog has been closed meanwhile.
+     * object of the catalogue or one that the name describes. `choose` rejects with an Error whose message is shown. If
+     * the dialog is no longer open by then, `failedLater` is called with this error.
      */
     constructor(
         private readonly choose: (name: string, isData: boolean) => Promise<unknown>,
@@ -80,7 +80,10 @@ export class PolytopePicker {
         this.showError(reason);
     }
 
-    /** Searches for another text: an earlier choice no longer closes the dialog. */
+    /**
+     * Searches for the text that the user has changed. After this, the result of an earlier choice no longer closes the
+     * dialog.
+     */
     private searchAnew(): void {
         ++this.choiceNumber;
         this.search();
@@ -186,7 +189,7 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
     );
 }
 
-/** Four texts in columns: counts, or their headings. */
+/** Four texts in columns: the counts of elements of an entry, or the headings of these columns. */
 function countsElement(texts: string[]): HTMLElement {
     return element("small", { class: "counts columns" }, ...texts.map((text) => element("span", {}, text)));
 }

@@ -15,7 +15,7 @@ export interface ElementDescription extends PolytopeElement {
     coordinates?: readonly number[] | undefined;
     /** Of an edge: its length, if it is known without asking the server. */
     length?: number | undefined;
-    /** The least and the greatest w of its vertices. */
+    /** The least and the greatest w of the element's vertices. */
     range?: readonly [number, number] | undefined;
     /** The w of the slice in which the pointer is on the element; undefined if the pointer is on no slice. */
     sliceW?: number | undefined;

@@ -20,7 +20,7 @@ export class Pointing {
     private scheduled = false;
     private shown: PointedElement | undefined;
     private sources: ElementSources | undefined;
-    private hitTester: HitTester | undefined; // of the picture that `sources` belongs to
+    private hitTester: HitTester | undefined; // the hit tester of the picture to which `sources` belongs
     private isTapped = false; // whether the label names what a finger has tapped
 
     constructor(
@@ -36,7 +36,8 @@ export class Pointing {
     elementAt(x: number, y: number, hitTester: HitTester): PointedElement | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
-        // The state may be newer than the picture, and of another object.
+        // The state may be newer than the picture, and of another object. Their numbers of elements then usually
+        // differ.
         const { coordinates, scene } = hitTester.picture;
         if (polytope?.cells !== scene.colors.cells.length) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
@@ -48,8 +49,8 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of what a finger has tapped, until the next touch, even if the picture changes: a tap also moves
-     * the focus slice.
+     * Shows the name of the element that a finger has tapped. The name stays until the next touch, even if the picture
+     * changes, because the tap itself moves the focus slice.
      */
     showName(tapped: PointedElement, hitTester: HitTester, at: Point): void {
         const state = this.state()!;
@@ -87,7 +88,7 @@ export class Pointing {
         return !isSame;
     }
 
-    /** Updates at most once in each animation frame. */
+    /** Records where the pointer is, and calls update() at most once per animation frame. */
     private moveTo(at: Point | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;

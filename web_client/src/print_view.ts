@@ -9,7 +9,8 @@ export class PrintView {
     private readonly root = byId("print");
     private frame: ImageBitmap | undefined; // the picture on white, if the server draws the pictures
     private isPrepared = false;
-    private focused: HTMLElement | undefined; // the element that had the focus last; printing takes the focus from it
+    // The element that had the focus before printing, which takes the focus from it.
+    private focused: HTMLElement | undefined;
 
     /** `title` returns the heading to print. `failed` is called if the server does not send the picture to print. */
     constructor(

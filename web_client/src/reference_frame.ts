@@ -7,7 +7,7 @@ import { formatDecimal } from "./format";
 /** The settings of a frame of reference that are velocities. */
 export type Velocity = "follow" | "boost";
 
-/** A frame of reference in words such as "pace 2, follow 0.3, 0, 0"; "" for the one in which the object was made. */
+/** A frame of reference in words such as "pace 2, follow 0.3, 0, 0"; "" for the frame in which the object was made. */
 export function spokenReferenceFrame({ pace, follow, boost }: State): string {
     const spoken = (name: Velocity, velocity: Vector): string =>
         velocity.some((v) => v !== 0) ? `${name} ${velocity.map((v) => formatDecimal(v, 3)).join(", ")}` : "";

@@ -1,6 +1,6 @@
 // The rotations of gestures: A. J. Hanson's rolling ball. In three dimensions, a drag turns the ball's near side (+z)
-// in the direction of the drag; in four, it turns the side that faces the 4-D eye (+w). Both are sums of simple
-// rotations. A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
+// in the direction of the drag; in four dimensions, the side that faces the 4-D eye (+w). Both motions are sums of
+// rotations in single planes. A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
 
 import type { Plane } from "@oval4d/protocol";
 
@@ -14,25 +14,31 @@ const kWheelTurn = 0.0015; // radians per pixel of the wheel
 const kStickRate = Math.PI / 2; // radians per second, with a stick or trigger at its end
 const kStickDeadZone = 0.15; // deflections below this fraction of the greatest one count as 0
 
-/** Turns by a drag of (dx, dy) pixels, right and down, on a picture of this height: half a turn per height. */
+/**
+ * The angles for a drag of (dx, dy) pixels, right and down: a drag over `height`, the height of the picture, is half a
+ * turn.
+ */
 export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: number): AnglesByPlane {
     const perPixel = Math.PI / Math.max(1, height);
     return rolled(ball, dx * perPixel, dy * perPixel);
 }
 
-/** Turns by a wheel, in a plane in which drags do not roll the ball: zw for the 4-D ball, xy for the 3-D ball. */
+/**
+ * The angle for a movement of the wheel, in a plane in which drags do not turn the ball: zw for the 4-D ball, xy for
+ * the 3-D ball.
+ */
 export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
-/** Turns by two fingers that are twisted clockwise by this angle. */
+/** The angle in zw for two fingers that twist clockwise by `angle` radians. */
 export function turnsOfTwist(angle: number): AnglesByPlane {
     return { zw: angle };
 }
 
 /**
- * Turns by a gamepad of the standard layout, as it is held for this many seconds: the left stick rolls the 4-D ball,
- * the right stick the 3-D ball, the triggers turn in zw, and the buttons above them in xy.
+ * The angles for a gamepad of the standard layout, whose sticks and buttons are held as now for `seconds` seconds. The
+ * left stick rolls the 4-D ball and the right stick the 3-D ball; the triggers turn in zw, and the bumpers in xy.
  */
 export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): AnglesByPlane {
     const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);
@@ -46,7 +52,7 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
     };
 }
 
-/** Rolls a ball by these angles to the right and down. */
+/** The angles for rolling a ball by `right` radians to the right and by `down` radians down. */
 function rolled(ball: BallKind, right: number, down: number): AnglesByPlane {
     return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };
 }

@@ -1,6 +1,6 @@
 // Turns the polytope by gestures. Adds up the turns of a gesture, and sends their sum, at most once per animation frame
-// and only when the previous sum has been answered. All turns of one gesture are one undo step and one rotation, which
-// keys can repeat.
+// and only when the server has answered the previous sum. All turns of one gesture are one undo step and one rotation,
+// which keys can repeat.
 
 import type { Plane, Request } from "@oval4d/protocol";
 
@@ -9,7 +9,10 @@ import type { AnglesByPlane } from "./rolling_ball";
 type Rotation = Extract<Request, { type: "rotate" }>;
 
 interface RotationGesture {
-    /** Whether a rotation of the gesture has been executed. Later rotations of the gesture belong to its undo step. */
+    /**
+     * Whether the server has executed a rotation of the gesture. If so, later rotations of the gesture belong to the
+     * same undo step.
+     */
     hasStep: boolean;
     /** The angles to send, in radians. */
     unsent: Map<Plane, number>;

@@ -55,8 +55,8 @@ export class Sharing {
     }
 
     /**
-     * A link for a script. It opens the present view in a new session; or, if the object is from a file, which only
-     * this session has, it joins this session. `joins` is true if it joins this session.
+     * A link for a script. The link opens the present view in a new session. If the object is from a file, which only
+     * this session has, the link joins this session instead, and `joins` is true.
      */
     private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {

@@ -1,5 +1,5 @@
-// Values that survive a reload of the page: in this tab only (sessionStorage) or, if they are lasting, in all tabs and
-// later visits of this browser (localStorage).
+// Values that survive a reload of the page: in this tab only (sessionStorage) or, if `isLasting` is true, in all tabs
+// and later visits of this browser (localStorage).
 
 const storageOf = (isLasting: boolean): Storage => (isLasting ? localStorage : sessionStorage);
 

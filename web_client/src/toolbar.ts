@@ -1,7 +1,8 @@
 // A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
 // Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces the button.
 
-const kRowWeight = 3; // Up and Down prefer a button in the next row to one in the same column
+// A vertical distance counts this many times, so that Up and Down prefer the next row to the same column.
+const kRowWeight = 3;
 
 /** Makes an element with buttons a toolbar. Buttons may be added, removed and disabled later. */
 export function makeToolbar(root: HTMLElement, label: string): void {
@@ -9,8 +10,7 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     root.setAttribute("aria-label", label);
     const setTabStop = (wanted?: Element): void => {
         const focused = document.activeElement;
-        // A button that a text field replaces stays the tab stop while the field has the focus, although the button is
-        // hidden.
+        // While a text field replaces a button and has the focus, the hidden button stays the tab stop.
         if (!wanted && focused instanceof HTMLInputElement && root.contains(focused)) return;
         const buttons = [...root.querySelectorAll("button")];
         const enabled = buttons.filter((button) => button === wanted || isUsable(button));
@@ -38,7 +38,8 @@ export function makeToolbar(root: HTMLElement, label: string): void {
 }
 
 /**
- * The button that this text field replaces. A click with the mouse opens the field without focusing the button first.
+ * The button that this text field replaces. It may never have had the focus: a click with the mouse opens the field
+ * directly.
  */
 function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
     if (field.type !== "text") return undefined;

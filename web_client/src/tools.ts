@@ -13,10 +13,16 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A section that a part of the page adds. If the key table has a group with its title, the group gets the content. */
+/**
+ * A section that a part of the page adds. If the key table has a group with the same title, the content is added to
+ * this group.
+ */
 export interface ToolSection {
     title: string;
-    /** If no group has this title: the group after which the section is placed; by default, the section comes last. */
+    /**
+     * If no group has this title: the name of the group after which the section is placed; if absent, the section is
+     * the last one.
+     */
     after?: string;
     content: Node[];
 }
@@ -33,8 +39,8 @@ const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * For each action that switches something on and off, a function that returns whether it is on. A part of the picture,
- * or a view, is switched by the action of the same name.
+ * For each action that switches something on and off, a function that returns whether it is on. The actions that switch
+ * parts of the picture and views have the names of these.
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
@@ -67,7 +73,8 @@ const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below them: the perpend
 export class Tools {
     private readonly root = byId("tools");
     private readonly toggleButtons = new Map<string, HTMLButtonElement>();
-    private projectionButtons: HTMLButtonElement[] = []; // disabled while the picture has no projection
+    // The buttons that are disabled while the picture has no projection.
+    private projectionButtons: HTMLButtonElement[] = [];
 
     constructor(private readonly events: ToolEvents) {
         // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.
@@ -144,7 +151,10 @@ export class Tools {
         return button;
     }
 
-    /** The controls for a group of keys: steppers for what two keys decrease and increase, buttons for the rest. */
+    /**
+     * The controls for a group of keys: a stepper for each setting that two keys decrease and increase, and buttons for
+     * the other keys.
+     */
     private controls(keys: KeyBinding[]): HTMLElement[] {
         const paired = new Set<KeyBinding>();
         const steppers = keys.flatMap((less) => {
@@ -190,7 +200,10 @@ export class Tools {
         };
     }
 
-    /** Presses the key at a click; if its action may repeat, also repeatedly while the button is held down. */
+    /**
+     * Makes a button press the key of `binding` at a click; if the action of the key may repeat, also repeatedly while
+     * the button is held down.
+     */
     private bindPresses(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
         let timer: ReturnType<typeof setTimeout> | undefined;
         let repeated = false;
@@ -211,8 +224,8 @@ export class Tools {
         }
         button.addEventListener("click", ({ detail }) => {
             stop();
-            // The click at the end of a repetition does not press once more. A click by the keyboard (detail 0) always
-            // presses: `repeated` may still be set if the pointer left the held button, because no click followed.
+            // The click that ends a repetition does not press once more. A click by the keyboard (detail 0) always
+            // presses: if the pointer left the held button, no click followed, and `repeated` may still be set.
             if (!repeated || detail === 0) this.events.press(binding, inverse, false);
             repeated = false;
         });
@@ -223,7 +236,7 @@ function uncapitalized(text: string): string {
     return text.charAt(0).toLowerCase() + text.slice(1);
 }
 
-/** The index in kRotationColumns of a plane, or of its perpendicular plane. */
+/** The index in kRotationColumns of a plane or, if it is not there, of the plane perpendicular to it. */
 function columnIndexOf(plane: Plane): number {
     const column = kRotationColumns.indexOf(plane);
     return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));

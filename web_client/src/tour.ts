@@ -1,6 +1,6 @@
 // A tour of the page: a panel beside what it explains. The page stays usable during the tour. The steps are in
-// index.html. Each step lists selectors of elements, and points at the first one that is visible, or at a part of its
-// height.
+// index.html. Each step lists selectors of elements, and points at the first visible one of them: at all of it, or at a
+// part of its height.
 
 import { byId } from "./element";
 
@@ -47,7 +47,7 @@ export class Tour {
         byId("tour-number").textContent = `${at + 1} of ${this.steps.length}`;
         this.back.disabled = at === 0;
         this.next.hidden = at === this.steps.length - 1;
-        // A button that can no longer be pressed passes its focus on.
+        // If the button with the focus can no longer be pressed, another button gets the focus.
         if (focused === this.next && this.next.hidden) this.end.focus();
         if (focused === this.back && this.back.disabled) this.next.focus();
         this.target?.scrollIntoView({ block: "nearest" });
@@ -61,7 +61,7 @@ export class Tour {
         return found.find((one) => one?.checkVisibility()) ?? undefined;
     }
 
-    /** Places the ring around what the step explains, and the panel beside it. */
+    /** Places the ring around what the current step explains, and the panel beside the ring. */
     private place(): void {
         if (this.root.hidden) return;
         const { from = "0", to = "1" } = this.steps[this.at]!.dataset;
@@ -102,7 +102,7 @@ interface Box {
     bottom: number;
 }
 
-/** Places an element around a box, within the window. */
+/** Places the element `one` around a box, at the distance kRingGap, within the window. */
 function surround(one: HTMLElement, box: Box): void {
     const left = Math.max(0, box.left - kRingGap);
     const top = Math.max(0, box.top - kRingGap);

@@ -1,5 +1,5 @@
-// Two fingers on the drawing: how far they have moved, spread and twisted. A movement or a twist counts only beyond a
-// dead zone, so that a pinch does not also turn the polytope.
+// Two fingers on the drawing: how far they have moved, spread and twisted. A movement or a twist counts only after it
+// has left a dead zone, so that a pinch does not also turn the polytope.
 
 const kMoveDeadZone = 16; // pixels
 const kTwistDeadZone = 0.15; // radians
@@ -10,7 +10,7 @@ export interface Finger {
 }
 
 interface FingerPair {
-    x: number; // of the point in the middle between the fingers, in pixels
+    x: number; // `x` and `y` are those of the point in the middle between the fingers, in pixels
     y: number;
     distance: number;
     angle: number; // of the line from one finger to the other, in radians clockwise from the direction to the right
@@ -29,8 +29,8 @@ export class TwoFingers {
 
     /**
      * Returns the changes since the last call: the movement of the midpoint in pixels, the new distance between the
-     * fingers divided by the old one (`spread`), and the clockwise rotation in radians (`twist`). Inside its dead zone,
-     * a movement or a twist counts as 0.
+     * fingers divided by the old one (`spread`), and the clockwise rotation in radians (`twist`). A movement or a twist
+     * that has not left its dead zone counts as 0.
      */
     update(a: Finger, b: Finger): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
@@ -55,7 +55,7 @@ function fingerPairOf(a: Finger, b: Finger): FingerPair {
     return { x, y, distance: Math.hypot(dx, dy), angle: Math.atan2(dy, dx) };
 }
 
-/** The same angle between −π and π. */
+/** The angle between −π and π that differs from `angle` by full turns. */
 function wrapped(angle: number): number {
     return Math.atan2(Math.sin(angle), Math.cos(angle));
 }

@@ -1,7 +1,7 @@
 // Draws the parallel coordinates at the bottom of the picture: for each vertex, four vertical lines that show its
 // coordinates. For many vertices, draws a density strip instead: each vertex is a line that joins its coordinates on
-// four axes, and the strip shows how many lines pass through each point. For a field, draws the histogram of its values
-// along each axis instead.
+// four axes, and the strip shows how many lines pass through each point. For a field, draws for each axis a histogram
+// of the values along it.
 
 import type { HistogramScales, Slices, Viewport } from "@oval4d/protocol";
 
@@ -29,8 +29,9 @@ export function drawCoordinates(
 }
 
 /**
- * The vertex whose lines are drawn at the pixel (x, y), in the band that drawLines() highlights; undefined if there is
- * none, or if no lines are drawn. Picker::pickCoordinates() in pick.cpp finds the same vertex.
+ * The vertex in whose band the pixel (x, y) lies; undefined if there is none, or if no lines are drawn. The band of a
+ * vertex is the rectangle around its four lines that drawLines() fills to highlight it. Picker::pickCoordinates() in
+ * pick.cpp finds the same vertex.
  */
 export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
@@ -38,7 +39,7 @@ export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: 
     if (!scene.shown.coordinates || columns > 0) return undefined;
     const fromFirst = x / height - (layout.left - layout.line_step / 2);
     const column = Math.floor(fromFirst / layout.column_step);
-    const belowTop = layout.zero - (1 - y / height); // from the zero line of the first row
+    const belowTop = layout.zero - (1 - y / height); // the distance below the zero line of the first row
     const row = Math.round(belowTop / layout.row_step);
     const vertex = row * perRow + column;
     const isInTable = column >= 0 && column < perRow && row >= 0 && row < rows;
@@ -89,7 +90,8 @@ function drawLines(
     if (!named) return;
     const wanted = 0.85 * scene.text * height;
     const digits = setFontAndMeasureDigits(pen, Math.max(wanted, leastText));
-    const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1; // enlarged names need more room
+    // If names are enlarged, they need more room, and only some of them are drawn.
+    const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1;
     pen.fillStyle = cssColor(scene.colors.text);
     const lastRow = Math.floor((count - 1) / perRow);
     for (let i = 0; i < count; i += every) {
@@ -101,7 +103,7 @@ function drawLines(
     }
 }
 
-/** Draws a name with this middle and baseline, unless the edge of the picture would cut it. */
+/** Draws a name with its middle at x and its baseline at y, unless an edge of the picture would cut the name. */
 function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
     const half = pen.measureText(name).width / 2;
     if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));

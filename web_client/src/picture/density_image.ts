@@ -38,7 +38,10 @@ export class DensityImage {
         this.pen.putImageData(this.pixels, 0, 0);
     }
 
-    /** Draws panel k of a histogram such that the centers of its outermost pixels lie on the edges of the rectangle. */
+    /**
+     * Draws the panel of axis k, 0 to 3, of a histogram such that the centers of its outermost pixels lie on the edges
+     * of the rectangle.
+     */
     drawHistogramPanel(
         pen: CanvasRenderingContext2D,
         k: number,
@@ -52,7 +55,7 @@ export class DensityImage {
         pen.drawImage(this.canvas, left, 0.5, columns - 1, this.canvas.height - 1, x, y, width, height);
     }
 
-    /** Draws the image such that the centers of its outermost pixels lie on the edges of the rectangle. */
+    /** Draws the density strip such that the centers of its outermost pixels lie on the edges of the rectangle. */
     draw(pen: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
         pen.drawImage(this.canvas, 0.5, 0.5, this.canvas.width - 1, this.canvas.height - 1, x, y, width, height);
     }

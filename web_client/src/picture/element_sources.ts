@@ -1,9 +1,10 @@
 // Finds the parts of a picture that show an element of the polytope: its pieces in the slices and in the projection,
-// and its vertices, if the picture determines them. A source is a number in `of` (see Elements), which tells from what
-// element of the polytope a part of the picture was cut.
+// and its vertices, if the picture determines them. A source is a number in `of` (see Elements): it identifies the
+// element of the polytope from which a part of the picture was cut.
 //
 // The vertices of an element of a convex polytope follow from the hyperplanes of the cells around it. The slice of a
-// cell lies in a plane. The hyperplane of the cell contains this plane and has the whole polytope on one side.
+// cell lies in a plane. Only one hyperplane contains this plane and has the whole polytope on one side: the hyperplane
+// of the cell.
 
 import type { Elements, PolytopeElement, Slice, Slices } from "@oval4d/protocol";
 
@@ -11,13 +12,13 @@ import type { Hit } from "./hit_test";
 import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 
-const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
-const kLevel = 1e-4; // circumradii along w: a vertex nearer to a slice is not used to find the slope of a hyperplane
+const kFlat = 1e-5; // circumradii: a vertex up to this distance from a hyperplane counts as lying in it
+const kLevel = 1e-4; // circumradii along w: vertices nearer to a slice are not used to find the slope m of a hyperplane
 
 /** The hyperplane a · x + b · y + c · z + m · w = offset, with a unit vector (a, b, c). */
 type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
 
-/** The element of the polytope that a hit shows. */
+/** The element of the polytope that was hit. */
 export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): PolytopeElement {
     if (kind === "points") {
         if (source < counts.faces) return { element: "face", number: source };
@@ -42,12 +43,12 @@ export class ElementSources {
         private readonly picture: Slices,
         private readonly counts: ElementCounts,
     ) {
-        // Includes slices that are not drawn, because they determine the elements in the same way.
+        // Includes slices that are not drawn, because these also contain the data that determine elements.
         this.slices = picture.slices.filter((slice) => slice.vertices.length > 0);
         this.slicesAndParts = [...this.slices, ...(picture.projection?.parts ?? [])];
     }
 
-    /** The parts of the picture that show the element. */
+    /** The sources of the parts of the picture that show the element, and the vertices of the element. */
     partsShowing(element: PolytopeElement): HighlightedElements {
         const ownVertices = this.verticesOf(element);
         const { number } = element;
@@ -96,8 +97,9 @@ export class ElementSources {
     }
 
     /**
-     * The cells around an edge or a 2-face: those whose slices meet where a slice cuts the element. If no slice cuts
-     * it, the planar sections give the cells of a 2-face. Empty if the picture does not determine the cells.
+     * The cells around an edge or a 2-face. If a slice cuts the element, they are the cells whose faces in the slice
+     * meet at the cut. If no slice cuts a 2-face, the planar sections give its cells. Empty if the picture does not
+     * determine the cells.
      */
     private cellsAround(element: "edge" | "face", number: number): number[] {
         for (const { vertices, edges, faces, of } of this.slices) {
@@ -128,7 +130,7 @@ export class ElementSources {
     }
 
     /**
-     * Adds those edges that slices cut and that end at a vertex. An edge ends at the vertex if all cells around the
+     * Adds those edges that end at a vertex and that slices cut. An edge ends at the vertex if all cells around the
      * edge contain the vertex.
      */
     private addCutEdgesAt(vertex: number, sources: Set<number>): void {
@@ -156,7 +158,10 @@ export class ElementSources {
         }
     }
 
-    /** Adds the edge from which a slice's vertex with this source was cut, unless it was cut from a vertex. */
+    /**
+     * Adds the edge from which a vertex of a slice was cut. `source` is the source of this vertex; does nothing if it
+     * identifies a vertex of the polytope.
+     */
     private addCutEdge(source: number, sources: Set<number>): void {
         if (source < this.counts.edges) sources.add(this.counts.faces + source);
     }
@@ -177,7 +182,10 @@ export class ElementSources {
         }
     }
 
-    /** Adds those 2-faces and edges of a cell that planar sections cut. */
+    /**
+     * Adds those 2-faces and edges of a cell that planar sections cut: where the edges of a section that show the cell
+     * end.
+     */
     private addElementsInSectionsOf(cell: number, sources: Set<number>): void {
         for (const { edges, of } of this.picture.matrix?.sections ?? []) {
             for (const end of edges.filter((_, e) => of.edges[e] === cell).flat()) {
@@ -187,7 +195,7 @@ export class ElementSources {
         }
     }
 
-    /** Adds the edges whose two vertices are in `own`. */
+    /** Adds those edges in slices and in the projection whose two vertices are in `own`. */
     private addEdgesBetween(own: ReadonlySet<number>, sources: Set<number>): void {
         const { edges: edgeCount, faces: faceCount } = this.counts;
         for (const { edges, of } of this.slicesAndParts) {
@@ -208,7 +216,7 @@ export class ElementSources {
         return this.picture.scene.circumradius;
     }
 
-    /** The hyperplane of a cell that a slice cuts; undefined if the picture does not determine it. */
+    /** The hyperplane of a cell that a slice cuts; undefined if the picture does not determine the hyperplane. */
     private hyperplaneOf(cell: number): Hyperplane | undefined {
         if (!this.hyperplanes.has(cell)) this.hyperplanes.set(cell, this.findHyperplane(cell));
         return this.hyperplanes.get(cell);
@@ -231,7 +239,8 @@ export class ElementSources {
         const [x, y, z] = slice.vertices.subarray(p, p + 3);
         const offset = a * x! + b * y! + c * z!;
         // All vertices satisfy a · x + b · y + c · z + m · (w − slice.w) ≤ offset. So each vertex with w > slice.w
-        // gives an upper bound of m. The least bound is m itself, which such a vertex of this cell attains.
+        // gives an upper bound of m. The least of these bounds is m itself, because equality holds for the vertices of
+        // this cell.
         let m = Infinity;
         for (let v = 0; v < coordinates.length; v += 4) {
             const level = coordinates[v + 3]! - slice.w;

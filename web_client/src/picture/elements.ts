@@ -1,4 +1,5 @@
-// The vertices, edges and faces of all drawn slices in world coordinates, in flat arrays that all pictures reuse.
+// The vertices, edges and faces of all drawn slices, in world coordinates. Each picture overwrites the flat arrays of
+// the last one.
 
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
@@ -12,7 +13,7 @@ export interface SliceRanges {
     vertices: IndexRange;
     edges: IndexRange;
     faces: IndexRange;
-    distance: number; // the distance from the eye, as of the last sort
+    distance: number; // the distance of `position` from the eye, at the last sort
 }
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
@@ -28,7 +29,8 @@ export class SliceElements {
     corners = new Uint32Array(0);
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
-    readonly edgesByVertex = new EdgeBuckets(); // the edges, grouped by their end with the smaller index
+    // The edges, grouped by that of their two vertices which has the smaller index.
+    readonly edgesByVertex = new EdgeBuckets();
     private readonly spare: SliceRanges[] = []; // unused objects, kept for pictures with more slices
 
     /** Replaces the elements by those of a new picture. */
@@ -124,7 +126,10 @@ function setRange(range: IndexRange, begin: number, end: number): void {
     range[1] = end;
 }
 
-/** A counting sort of a slice's edges by vertex: vertex v has the edges items[begin[v]] … items[begin[v + 1] − 1]. */
+/**
+ * A counting sort of a slice's edges by one of their vertices, which `vertexOf` returns: vertex v has the edges
+ * items[begin[v]] … items[begin[v + 1] − 1].
+ */
 export class EdgeBuckets {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
@@ -136,7 +141,8 @@ export class EdgeBuckets {
         begin.fill(0, vertices[0], vertices[1] + 1);
         for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
         for (let v = vertices[0] + 1; v <= vertices[1]; ++v) begin[v]! += begin[v - 1]!;
-        // begin[v] is now the end of the edges of v. Filling them in from the back turns it into their beginning.
+        // begin[v] is now the end of the range of the edges of v. Filling the range from the back moves begin[v] to its
+        // beginning.
         for (let e = edges[1]; e-- > edges[0]; ) items[--begin[vertexOf(e)]!] = e;
     }
 }

@@ -1,5 +1,5 @@
-// The mesh of slices whose faces may cross: triangles that fill the faces, to be drawn with a depth buffer. The opaque
-// triangles come first, then the faded ones; within each group, slices are ordered from far to near.
+// The mesh of slices whose faces may cross each other: triangles that fill the faces, to be drawn with a depth buffer.
+// The opaque triangles come first, then the faded ones; within each group, slices are ordered from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -52,7 +52,7 @@ export class FillMesh {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
-                // A triangle takes its color from its last point, which is the last point of no triangle with another
+                // A triangle takes its color from its last point. Triangles with the same last point have the same
                 // tint.
                 const item = first + fill.triangles[3 * t + 2]!;
                 this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, highlighted), alpha);
@@ -98,7 +98,7 @@ export class FillMesh {
             const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
-            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // last point: see writeColorsToBuffers()
+            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // the last point: see writeColorsToBuffers()
             for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }

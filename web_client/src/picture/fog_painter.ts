@@ -103,7 +103,8 @@ const kUniforms = [
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
 
 const kBlock = 4; // cells of a lattice along each side of a block
-const kClearest = 1e-4; // the least fraction of light that a layer as thick as the circumradius lets through
+// The least fraction of light that a layer of fog lets through if it is as thick as the circumradius.
+const kClearest = 1e-4;
 const kCorners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [i & 1, (i >> 1) & 1, i >> 2]);
 /** The triangles of a box as indices of its corners, counterclockwise from outside. */
 const kTriangles = [
@@ -121,13 +122,14 @@ interface Resources {
     lattices: Map<Slice, { values: WebGLTexture; blocks: WebGLTexture }>;
 }
 
-/** What hides fog: the balls and bars ("frame"), whose antialiased edges are translucent; or the surfaces. */
+/** What can hide fog: the balls and bars ("frame"), through whose antialiased edges fog is seen; or the surfaces. */
 type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
     private picture: Slices | undefined; // the newest picture; undefined if it has no fog
     private resources: Resources | undefined; // created when they are needed
-    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined; // the occluders' depths; created when needed
+    // The depths of the occluders; created when they are needed.
+    private targets: Record<FogOccluders, WebGLRenderTarget> | undefined;
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -197,8 +199,8 @@ export class FogPainter {
     }
 
     /**
-     * Stores the depths of the occluders of one kind, in a picture of this size, for the method draw(). For this, calls
-     * the parameter `draw`, a function that must draw all occluders of this kind, and nothing else.
+     * Stores the depths of the occluders of one kind, in a picture of this size, for the method draw(). Calls the
+     * function `draw`, which must draw all occluders of this kind, and nothing else.
      */
     drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
@@ -218,7 +220,8 @@ export class FogPainter {
         gl.useProgram(program);
         gl.uniformMatrix4fv(uniforms.view, false, viewCamera.view.elements);
         gl.uniformMatrix4fv(uniforms.projection, false, viewCamera.projection.elements);
-        // A point at the distance d along the view axis has the depth −P₂₂ + P₂₃ / d.
+        // A point at the distance d along the view axis has the depth −P₂₂ + P₂₃ / d, where P is the projection matrix,
+        // with indices from 0.
         gl.uniform2f(uniforms.toDepth, -viewCamera.projection.elements[10]!, viewCamera.projection.elements[14]!);
         kSamplers.forEach((name, unit) => gl.uniform1i(uniforms[name], unit));
     }
@@ -276,7 +279,10 @@ export class FogPainter {
     }
 }
 
-/** A framebuffer whose depths can be read. Balls and bars need samples, because they use alpha to coverage. */
+/**
+ * A framebuffer whose depths can be read. Balls and bars need more than 0 samples, because they are antialiased by
+ * alpha to coverage.
+ */
 function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
@@ -303,13 +309,14 @@ function valueTexelsOf({ values }: Fog): Uint8Array {
 }
 
 /**
- * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in it, because a value
- * between the least and the greatest value of its points is not transparent; else 0.
+ * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in the block, that is, if
+ * a value from the least to the greatest one of its points is not transparent; else 0.
  */
 function blockVisibilityOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;
     const [u, v, w] = size.map((points) => Math.max(Math.ceil((points - 1) / kBlock), 1)) as [number, number, number];
-    const visibleBelow = new Uint16Array(table.length + 1); // entry v: how many values below v are not transparent
+    // Entry v is the number of values below v that are not transparent.
+    const visibleBelow = new Uint16Array(table.length + 1);
     for (let i = 0; i < table.length; ++i) visibleBelow[i + 1] = visibleBelow[i]! + (table[i]! >>> 24 ? 1 : 0);
     const texels = new Uint8Array(u * v * w);
     for (let at = 0; at < texels.length; ++at) {

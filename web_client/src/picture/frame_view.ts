@@ -11,7 +11,10 @@ export class FrameView {
         this.context = canvas.getContext("bitmaprenderer")!; // has an alpha channel, for transparent pictures
     }
 
-    /** Decodes a frame in a worker; draw() then shows it. Transfers the buffer: the caller can no longer use it. */
+    /**
+     * Decodes a frame in a worker; draw() then shows it. Transfers the buffer of `png` to the worker, so the caller can
+     * no longer use it.
+     */
     async decode(png: Uint8Array): Promise<void> {
         this.decoder ??= new ImageDecoder();
         const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);

@@ -53,7 +53,10 @@ export class GeometryView {
     private counts: ElementCounts = { edges: 0, faces: 0, cells: 0 };
     private pointed: HighlightedElements | undefined;
     private highlighted: HighlightedElements | undefined;
-    /** The hit tester of the picture; undefined before the first picture. It is valid until the next picture. */
+    /**
+     * The hit tester of the picture; undefined before the first picture. The hit tester is valid until the next
+     * picture.
+     */
     hitTester: HitTester | undefined;
     private sortedOrbit: Orbit | undefined; // the orbit for which the meshes are ordered
     private readonly background = new Color();
@@ -90,9 +93,10 @@ export class GeometryView {
     }
 
     /**
-     * The material of a mesh. `painted`: everything is drawn in painter's order, without a depth test. `solid`: balls
-     * and bars have depth, and are antialiased by alpha to coverage. `blended`: shapes have depth, and are blended in
-     * painter's order; they hide nothing that is drawn later.
+     * The material of a mesh. `painted`: all shapes are drawn in painter's order, without a depth test. `solid`: shapes
+     * are drawn with the depth buffer, and antialiased by alpha to coverage. `blended`: shapes are tested against the
+     * depth buffer, but not written to it, so they hide nothing that is drawn later; they are blended in painter's
+     * order.
      */
     private makeMaterial(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
         const [painted, solid] = [kind === "painted", kind === "solid"];
@@ -105,8 +109,8 @@ export class GeometryView {
     }
 
     /**
-     * Replaces the slices to draw. `orbit` is the orbit for which the server placed the camera; `counts` are the
-     * polytope's numbers of elements.
+     * Replaces the slices to draw. `orbit` is the orbit for which the server placed the camera of the picture; `counts`
+     * has the polytope's numbers of elements.
      */
     update(picture: Slices, orbit: Orbit, counts: ElementCounts): void {
         this.counts = counts;
@@ -170,7 +174,10 @@ export class GeometryView {
         drawOverlay(this.pen, this.picture, this.viewCamera, size, leastText, this.highlighted!, this.counts);
     }
 
-    /** Draws the picture on white with `pen`, whose canvas has this size. The caller must then call draw() again. */
+    /**
+     * Draws the picture on white with `pen`, whose canvas has this size. Afterwards, the caller must call draw(), to
+     * show the picture on the page again.
+     */
     drawForPrint(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
         const { picture, pictureOrbit, counts, pointed } = this;
         if (!picture || !pictureOrbit) return;
@@ -183,8 +190,8 @@ export class GeometryView {
     }
 
     /**
-     * Renders the slices and the projection. Painted slices (see makeMaterial()) have no depth, so the projection is drawn
-     * after the slices behind it, and before those in front of it.
+     * Renders the slices and the projection. Painted slices (see makeMaterial()) do not use the depth buffer, so the
+     * projection is drawn after the slices behind it, and before those in front of it.
      */
     private render(): void {
         const { renderer, sliceMesh, drawing, projectionDrawings } = this;
@@ -213,8 +220,8 @@ export class GeometryView {
     }
 
     /**
-     * Draws a part of the fog of each slice, from far to near. The fog in front of the balls and bars is drawn after
-     * the translucent surfaces of its slice.
+     * Draws a part of the fog of each slice, from far to near; FogPainter.draw() describes the parts. In each slice,
+     * draws the translucent surfaces before the part "inFront".
      */
     private drawFogAndSurfaces(part: "behind" | "inFront"): void {
         this.fogPainter.begin(this.viewCamera);

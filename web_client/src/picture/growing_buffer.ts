@@ -1,5 +1,5 @@
-// A vertex buffer that is overwritten for each picture and grows by doubling. Once it is large enough, pictures
-// allocate nothing.
+// A vertex buffer that each picture overwrites, and that grows to powers of two. Once it is large enough, a new picture
+// allocates no memory.
 
 import { BufferAttribute, DynamicDrawUsage } from "three";
 

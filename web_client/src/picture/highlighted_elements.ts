@@ -1,5 +1,5 @@
-// What is drawn in the color of the highlight: the kept element, which is the `highlight` of the state, and the element
-// under the pointer.
+// What is drawn in the color of the highlight: the kept element, which the user has clicked and which is the
+// `highlight` of the state, and the element under the pointer.
 
 import type { SceneDescription, Slices, State } from "@oval4d/protocol";
 
@@ -8,7 +8,7 @@ export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">
 
 /** The parts of a picture that show the highlighted elements. */
 export interface HighlightedElements {
-    /** Values of `of.vertices` and `of.edges`, in slices and in the projection. */
+    /** Numbers in `of.vertices` and `of.edges` (see Elements) of slices and of the projection. */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;
     /** Vertices of the polytope, numbered as in `coordinates`. */
@@ -27,12 +27,14 @@ export function allHighlighted({ highlight }: Slices, pointed: HighlightedElemen
     };
 }
 
-/** The color that this cell gives to a face. */
+/** The color of the faces of this cell: that of the highlight, if the cell is under the pointer. */
 export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
     return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
 }
 
-/** Whether a point of a planar section, given by its value of `of.points`, shows a highlighted element. */
+/**
+ * Whether a point of a planar section shows a highlighted element. `source` is the number of the point in `of.points`.
+ */
 export function isPointHighlighted(source: number, { vertices, edges }: HighlightedElements, counts: ElementCounts): boolean {
     return source < counts.faces + counts.edges ? edges.has(source) : vertices.has(source - counts.faces);
 }

@@ -8,11 +8,12 @@ import type { ViewCamera } from "./view_camera";
 
 /**
  * What was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar section has the
- * kind `points`. An edge of one has the kind `faces`, because it is cut from a cell, as the face of a slice is.
+ * kind `points`. An edge of a planar section has the kind `faces`, because it is cut from a cell, as a face of a slice
+ * is.
  */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
-    /** The value of `of` (see Elements and PlanarSection), which tells the element of the polytope. */
+    /** The number in `of` (see Elements and PlanarSection), which identifies the element of the polytope. */
     source: number;
     /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
@@ -31,19 +32,22 @@ interface PickableMesh {
     distance: number; // the distance of `position` from the eye
 }
 
-export const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
-// The hit test takes balls and bars as nearer to the viewer by this many of their radii, so that a ball wins over the
-// faces around it and over the bars that end in it.
+export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if it is thinner
+// For the hit test, balls and bars are moved toward the viewer by this many times their radii, so that a ball is nearer
+// than the faces around it and the bars that end in it.
 const kBallRise = 3;
 const kBarRise = 2;
 
-/** Camera coordinates x, y, z and screen coordinates x, y (in pixels) of the vertices of a mesh. */
+/**
+ * For each vertex of the mesh that is tested, kStride numbers: x, y, z in camera coordinates, and x, y in pixels of the
+ * picture.
+ */
 let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at the point (x, y), in pixels of the view camera: the nearest element of the nearest mesh that has one
- * there; undefined if no mesh has one. `ratio` is the number of these pixels per pixel of the page.
+ * The element at the pixel (x, y) of the picture: the nearest element there of the nearest mesh that has one there;
+ * undefined if no mesh has one. `ratio` is the number of pixels of the picture per CSS pixel.
  */
 export function hitAt(picture: Slices, viewCamera: ViewCamera, x: number, y: number, ratio: number): Hit | undefined {
     const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
@@ -71,7 +75,8 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
     for (const part of projection?.parts ?? []) {
         const { position, scale: partScale, kind, eye: eyeW } = projection!;
         const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
-        // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
+        // The perspective projection from 4-D moves points of the circumscribed sphere away from the center by at most
+        // this factor.
         const magnification = kind === "perspective" ? eyeW / Math.sqrt(eyeW ** 2 - 1) : 1;
         const placed = { position, scale: partScale, magnification, distance: distance(position) };
         meshes.push({ elements: part, ...placed, ...look });
@@ -79,19 +84,22 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
     return meshes;
 }
 
-/** Whether the point can be within the mesh: a quick test with a sphere around it. */
+/** Whether the pixel (x, y) can lie on the mesh: a quick test with a sphere around the mesh. */
 function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamera, x: number, y: number): boolean {
     const { position, scale, magnification, ball, elements } = mesh;
     const center = viewCamera.project(position);
     const depth = viewCamera.depthOf(position);
-    const kRoom = 2; // a factor: elements are also hit beside their centers, and perspective enlarges the front
+    // A factor on the radius: the pointer also hits what is a few pixels away, and perspective enlarges the near side.
+    const kRoom = 2;
     const largest = elements.balls?.scale.reduce((most, one) => Math.max(most, one), 1) ?? 1;
     const radius = kRoom * magnification * scale * scene.circumradius + kBallRise * ball * largest;
     if (!center || depth <= radius) return true;
     return Math.hypot(center.x - x, center.y - y) <= (viewCamera.pixelsPerUnit * radius) / (depth - radius);
 }
 
-/** The test of one mesh against one point. */
+/**
+ * Finds the nearest element of a mesh at the pixel (x, y). `reach` is the least radius of balls and bars, in pixels.
+ */
 class MeshTest {
     private depth = Infinity;
     private hit: Hit | undefined;
@@ -131,7 +139,10 @@ class MeshTest {
         }
     }
 
-    /** Keeps an element if it is the nearest so far; `depth` is its distance along the camera's axis. */
+    /**
+     * Keeps an element if it is the nearest so far; `depth` is the distance of the element from the eye, along the axis
+     * of the camera.
+     */
     private keepIfNearest(kind: Hit["kind"], source: number, depth: number): void {
         if (depth >= this.depth) return;
         const { slice } = this.mesh;
@@ -170,7 +181,7 @@ class MeshTest {
         }
     }
 
-    /** Tests the faces. The loops with one source follow each other and are a single face, as in Picker in pick.cpp. */
+    /** Tests the faces. Consecutive loops with the same source form a single face, as in Picker in pick.cpp. */
     private testFaces(): void {
         const { of, seen: visibility } = this.mesh.elements;
         for (let f = 0, end = 0; f < of.faces.length; f = end) {
@@ -181,8 +192,8 @@ class MeshTest {
     }
 
     /**
-     * The depth at the point of the face with the loops firstLoop … endLoop − 1; Infinity if the face does not contain
-     * the point. The face is filled where the winding number of its loops is not 0.
+     * The depth, at the tested point, of the face with the loops firstLoop … endLoop − 1; Infinity if the face does not
+     * cover the point. It covers the points at which the winding number of its loops is not 0.
      */
     private depthOfFace(firstLoop: number, endLoop: number): number {
         const { begin, corners } = this.mesh.elements.faces;

@@ -30,9 +30,9 @@ export class HitTester {
     }
 
     /**
-     * The slice at a point of the picture, in pixels: of the slices whose discs contain the point, the one whose center
-     * is nearest; undefined if there is none. A disc reaches from the slice's center to its farthest vertex, but at
-     * least `minRadius` pixels.
+     * The slice at a point of the picture, in pixels; undefined if there is none. Each slice has a disc around its
+     * center, which reaches to its farthest vertex, and has a radius of at least `minRadius` pixels. Of the slices
+     * whose discs contain the point, the one with the nearest center is returned.
      */
     sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
         this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
@@ -50,7 +50,7 @@ export class HitTester {
 
     /**
      * The element at a point of the picture, in pixels; undefined if there is none. `ratio` is the number of these
-     * pixels per pixel of the page.
+     * pixels per CSS pixel.
      */
     hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | undefined {
         const { matrix, scene } = this.picture;
@@ -69,7 +69,8 @@ export class HitTester {
     }
 
     /**
-     * Whether the parallel coordinates cover the slices at this y, in pixels. `viewCamera` must have been set before.
+     * Whether the parallel coordinates cover slices at the height `y` of the picture, in pixels from the top.
+     * `viewCamera` must have been set before.
      */
     private isCovered(y: number, size: Viewport): boolean {
         const { scene } = this.picture;

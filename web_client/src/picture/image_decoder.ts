@@ -7,7 +7,7 @@ interface PendingDecode {
 
 export class ImageDecoder {
     private readonly worker = new Worker(new URL("decode_worker.js", import.meta.url), { type: "module" });
-    private readonly pending: PendingDecode[] = []; // the worker answers in this order
+    private readonly pending: PendingDecode[] = []; // the worker answers in the order of the requests
 
     constructor() {
         this.worker.onmessage = ({ data }: MessageEvent<ImageBitmap | string>) => {

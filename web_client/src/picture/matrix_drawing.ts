@@ -13,12 +13,12 @@ const kAxisOpacity = 0.55; // the opacity of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
 const kNameHeight = 0.3; // the font size of an axis' name, as a fraction of a panel's side
 const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
-// The lines that show the focus point in the focus slice: half their length, in circumradii, and their width, as a
+// For the lines that show the focus point in the focus slice: half their length, in circumradii; and their width, as a
 // fraction of the viewport's height.
 const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
-/** What the functions that draw a panel need: it is the same for all panels of a picture. */
+/** What the functions that draw a panel need, and what is the same for all panels of a picture. */
 interface PanelContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;
@@ -111,7 +111,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 
 type Quadruple = [number, number, number, number];
 
-/** Fills the section if its edges are one closed polygon and cannot cross each other. */
+/** Fills the section of a convex polytope if its edges form a single closed polygon. */
 function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelContext): void {
     const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
     if (boundary.length === 0 || !isConvex) return;

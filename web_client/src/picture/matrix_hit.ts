@@ -8,9 +8,9 @@ import type { MatrixPanel } from "./matrix_panel";
 type Pixel = readonly [x: number, y: number];
 
 /**
- * Of the section's points that are drawn at the pixel, the nearest one; if no point is, the nearest edge that is drawn
- * there; if no edge is, undefined. Here, the radius of a point and half the width of an edge are at least `reach`
- * pixels.
+ * The nearest of the section's points that are drawn at the pixel. If no point is drawn there, the nearest of the edges
+ * that are; undefined if there is none, either. The pointer hits points and edges within `reach` pixels even if they
+ * are drawn thinner.
  */
 export function hitInPanel(
     panel: MatrixPanel,

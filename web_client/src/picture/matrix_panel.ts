@@ -4,7 +4,10 @@ import type { PlanarSection, SectionMatrix, Viewport } from "@oval4d/protocol";
 
 const kAxes = [0, 1, 2, 3] as const; // x, y, z, w
 
-/** The panel of the plane that is parallel to two axes: axis `column` points to the right, axis `row` upward. */
+/**
+ * The panel in row `row` and column `column` of the matrix. It shows the section by a plane: axis `column` points to
+ * the right, axis `row` upward.
+ */
 export class MatrixPanel {
     readonly section: PlanarSection;
     /** The center in pixels, where the panel shows the origin. */
@@ -41,14 +44,14 @@ export class MatrixPanel {
     }
 }
 
-/** All panels that show a section. */
+/** The panels of the matrix that show a section: all except those on the diagonal. */
 export function panelsOf(matrix: SectionMatrix, viewport: Viewport): MatrixPanel[] {
     return kAxes.flatMap((row) =>
         kAxes.filter((column) => column !== row).map((column) => new MatrixPanel(matrix, row, column, viewport)),
     );
 }
 
-/** The center in pixels of the panel on the diagonal that shows the name of an axis, 0 to 3. */
+/** The center, in pixels, of that panel on the diagonal of the matrix which shows the name of `axis`, 0 to 3. */
 export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
     return {
         x: (left + axis * step + panel / 2) * height,

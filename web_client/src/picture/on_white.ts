@@ -1,12 +1,13 @@
-// Converts a picture to colors with enough contrast on white paper, for printing. The page does this itself, because it
-// cannot wait until the server has drawn the picture on white.
+// Converts a picture to colors with enough contrast on white paper, for printing. The page converts its own pictures,
+// because printing cannot wait until the server has sent a picture with a white background.
 
 import type { Slices } from "@oval4d/protocol";
 
 import table from "../../../protocol/colors.json";
 
 const kLeastContrast = 3.6; // the least contrast to white, as in server/scene/color.cpp
-const kMostLuminance = 1.05 / kLeastContrast - 0.05; // the luminance that has this contrast to white (WCAG 2.2)
+// The greatest luminance with at least this contrast to white (WCAG 2.2).
+const kMostLuminance = 1.05 / kLeastContrast - 0.05;
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;
@@ -22,7 +23,7 @@ const kReplaced = new Map(
     fixedColors(dark).map((color, i): [number, number] => [color, fixedColors(light)[i]!]),
 );
 
-/** Returns the picture in colors for white. Most data that are not colors are shared with `picture`, not copied. */
+/** Returns the picture in colors for white. The result shares most of its data that are not colors with `picture`. */
 export function onWhite(picture: Slices): Slices {
     const { scene, slices, projection, histogram } = picture;
     const background = numberOf(table.grounds.white);
@@ -84,12 +85,15 @@ export function onWhite(picture: Slices): Slices {
     };
 }
 
-/** The opacity on a light ground of faces that have this one on a dark ground. Translucent faces stay translucent. */
+/** Converts the opacity of faces from a dark to a light ground. Translucent faces stay translucent. */
 function onLightGround(opacity: number): number {
     return opacity < 1 ? Math.min((opacity * light.faces) / dark.faces, kMostTranslucent) : opacity;
 }
 
-/** The color, or a darker one of the same hue whose contrast to white is large enough. */
+/**
+ * The color itself if its contrast to white is large enough, otherwise a darker color of the same hue with this
+ * contrast.
+ */
 function darkened(color: number): number {
     const channels = [16, 8, 0].map((shift) => {
         const value = ((color >> shift) & 255) / 255;

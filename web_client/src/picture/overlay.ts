@@ -30,7 +30,10 @@ export function drawOverlay(
     drawMatrix(pen, picture, viewCamera, viewport, highlighted, counts);
 }
 
-/** The height of the parallel coordinates' upper edge above the bottom, in pixels; CoordinatesLayout::top() in C++. */
+/**
+ * The height of the upper edge of the parallel coordinates above the bottom of the picture, in pixels, as
+ * CoordinatesLayout::top() in C++.
+ */
 export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
 }
@@ -49,13 +52,13 @@ interface Label {
     size: number; // font size, in canvas pixels like the other members
     digits: number; // height of the digits
     half: number; // half the width of the text
-    room: number; // half the width that other labels must leave free
+    room: number; // half the width of the room that other labels must leave free
 }
 
 /**
- * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps a
- * label nearer to the focus slice, or if the edge of the picture would cut it; this can happen if it was enlarged or
- * the viewer has moved the camera. The label of the focus slice is always drawn.
+ * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps the
+ * label of a slice nearer to the focus slice, or if an edge of the picture would cut it, as can happen after it was
+ * enlarged or the viewer has moved the camera. The label of the focus slice is always drawn.
  */
 function drawLabels(
     pen: CanvasRenderingContext2D,
@@ -76,8 +79,8 @@ function drawLabels(
     const sample = 100; // the font size at which the labels are measured
     setFontAndMeasureDigits(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
-    // Labels nearer to the focus slice are placed first; of two at the same distance, the one that comes first in
-    // `slices`. LabelLayout::removeOverlappingLabels() in C++ decides in the same order.
+    // Labels nearer to the focus slice are placed first. Of two labels at the same distance, the one that is first in
+    // `slices` comes first, as in LabelLayout::removeOverlappingLabels() in C++.
     const focusIndex = slices.find((slice) => slice.focus)?.index ?? 0;
     const fromFocus = ({ index }: Slice): number => Math.abs(index - focusIndex);
     labeled.sort((a, b) => fromFocus(a) - fromFocus(b));
@@ -126,7 +129,7 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     pen.fillText(slice.label, x, baseline);
 }
 
-/** Draws the axes x, y and z in their corner, as seen by the camera, from far to near. */
+/** Draws the axes x, y and z in the upper left corner of the picture, as the camera sees them, from far to near. */
 function drawAxes(
     pen: CanvasRenderingContext2D,
     scene: SceneDescription,

@@ -1,7 +1,7 @@
 // The painter's algorithm for the mesh of slice_mesh.ts. The slices are painted from far to near; of each slice, first
 // the back faces, then the balls and bars on the back, then the front faces, then the other balls and bars. Balls are
-// ordered from far to near, each followed by the bars to nearer balls; a bar therefore covers its farther ball, and its
-// nearer ball covers the bar. This order is exact for convex slices that do not overlap.
+// painted from far to near, and each ball is followed by its bars to nearer balls. Therefore a bar covers the farther
+// of its two balls, and the nearer ball covers the bar. This order is exact for convex slices that do not overlap.
 
 import type { Parts, Vector } from "@oval4d/protocol";
 
@@ -22,10 +22,11 @@ export class PaintersOrder {
     private scratch = new Uint32Array(0); // the working memory of sortByKey()
     private rank = new Uint32Array(0); // the index of each vertex in `order`
     private readonly sliceRanges: SliceRanges[] = []; // the slices from far to near
-    private readonly edgesByRank = new EdgeBuckets(); // a slice's edges, grouped by the rank of their farther end
+    // A slice's edges, grouped by the rank of the farther of their two vertices.
+    private readonly edgesByRank = new EdgeBuckets();
     private out = new Uint32Array(0);
     private used = 0;
-    /** The number of indices of the slices that are farther from the eye than the point passed to writeIndices(). */
+    /** How many of the first indices belong to slices farther from the eye than the point passed to writeIndices(). */
     fartherIndexCount = 0;
 
     constructor(private readonly elements: SliceElements) {}

@@ -15,7 +15,10 @@ import { kQuadTriangles, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
 import type { ViewCamera } from "./view_camera";
 
-/** What determines the depth of a translucent shape: a polygon's middle, a ball's center, or an end of a bar. */
+/**
+ * Which point determines the depth of a translucent shape: the middle of a polygon, the center of a ball, or the
+ * farther or nearer end of a bar.
+ */
 const kMiddle = 0;
 const kCenter = 1;
 const kFarEnd = 2;
@@ -84,7 +87,8 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section's bars are drawn over the faces beside them
+                // The bars of a section must be drawn over the faces beside them.
+                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd);
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
             if (part.opacity > 0) this.addFaces(part, point, color, opacities);
@@ -162,7 +166,7 @@ export class ProjectionMesh {
         }
     }
 
-    /** Adds a translucent shape that consists of the last `vertices` vertices. */
+    /** Adds a translucent shape that consists of the `vertices` vertices that were added last. */
     private addTranslucentShape(vertices: number, depthKind: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;

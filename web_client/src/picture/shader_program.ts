@@ -1,6 +1,9 @@
 // Shader programs of painters that use WebGL without three.js.
 
-/** Compiles and links a program with the uniforms `names`. On failure, throws an Error that contains the text `of`. */
+/**
+ * Compiles and links a program with the uniforms `names`. On failure, throws an Error whose message contains `of`, a
+ * name for the program.
+ */
 export function makeProgram<Name extends string>(
     gl: WebGL2RenderingContext,
     of: string,

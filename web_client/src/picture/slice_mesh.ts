@@ -1,6 +1,6 @@
 // Balls, bars and faces of all slices as one mesh. A new picture changes the vertices of the mesh. A new picture or
-// camera changes the indices, which order all elements from far to near; therefore transparency and soft edges are
-// correct without a depth buffer.
+// camera changes the indices: they order all elements from far to near, so that transparency and soft edges are correct
+// without a depth buffer.
 
 import { BufferGeometry } from "three";
 
@@ -33,7 +33,7 @@ export class SliceMesh {
         this.resizeBuffers();
         const { scene } = picture;
         const { shown } = scene;
-        // Without balls, the bars are joined by balls of their own radius.
+        // If balls are not shown, balls with the radius of the bars join the bars.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
         for (const { slice, vertices, edges } of elements.sliceRanges) {
             for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -81,8 +81,8 @@ export class SliceMesh {
     }
 
     /**
-     * Orders all elements for this camera, from far to near. `projection` is the position of the whole object's
-     * projection: select() can choose the slices behind it, or those in front of it.
+     * Orders all elements for this camera, from far to near. `projection` is the world position of the projection of
+     * the whole object: select() can then choose the slices behind it, or those in front of it.
      */
     sortForCamera(viewCamera: ViewCamera, projection: Vector = [0, 0, 0]): void {
         this.count = this.order.writeIndices(viewCamera, this.index.array, projection);
@@ -115,8 +115,8 @@ export class SliceMesh {
     }
 
     /**
-     * Writes a bar shortened at each end by the length `inBall`, which lies inside the ball there. A bar that is not
-     * longer than these two lengths becomes a point.
+     * Writes a bar, shortened at each end by `inBall`, the length that is hidden inside the ball there. A bar that is
+     * not longer than 2 · inBall becomes a point.
      */
     private writeBar(e: number, inBall: number): void {
         const { points, edges, vertexCount } = this.elements;

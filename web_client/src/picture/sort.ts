@@ -1,6 +1,6 @@
 // A stable merge sort; unlike the built-in sort, it allocates no memory.
 
-const kRun = 8; // items per run that is sorted by insertion
+const kRun = 8; // the items of each initial run, which is sorted by insertion before runs are merged
 
 /** Sorts items[begin] … items[end − 1] by keys[item], ascending, stably. `scratch` has at least `end` elements. */
 export function sortByKey(

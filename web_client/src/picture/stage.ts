@@ -54,7 +54,8 @@ export class Stage {
     private isDraft = false; // whether a finer picture will follow the newest one
     private unpresentedRevision: number | undefined; // the revision of the new picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
-    private readonly afterRendering = new MessageChannel(); // its message arrives after the browser has rendered
+    // A message that is sent through this channel during a drawing arrives after the browser has rendered the page.
+    private readonly afterRendering = new MessageChannel();
     private scheduled = false;
     private limits: SizeLimits = {};
 
@@ -68,7 +69,8 @@ export class Stage {
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
-        // After the loss of the WebGL context, three.js lets the browser restore it, and then uploads its data again.
+        // After the loss of the WebGL context, three.js makes the browser restore the context, and then uploads its own
+        // data again.
         for (const change of ["lost", "restored"]) {
             this.canvases.solids.addEventListener(`webglcontext${change}`, () => {
                 this.isContextLost = change === "lost";
@@ -143,8 +145,8 @@ export class Stage {
     }
 
     /**
-     * The size of the picture for printing, in pixels. It has the aspect ratio of the picture on the page. If the
-     * server draws the picture, the size is within the server's limits.
+     * The size, in pixels, of the picture to print. Its aspect ratio is that of the picture on the page. If the server
+     * draws the picture, the size is within the server's limits.
      */
     get printSize(): Viewport {
         const { width, height } = this.size;
@@ -168,8 +170,8 @@ export class Stage {
     }
 
     /**
-     * The height of the picture on the page, in CSS pixels. The picture itself may have fewer pixels than this area of
-     * the screen, because kMaxPixels and the server's limits bound its size.
+     * The height of the picture on the page, in CSS pixels. The picture may have fewer pixels than the area of the
+     * screen in which it is shown, because kMaxPixels and the server's limits bound its size.
      */
     get shownHeight(): number {
         return this.root.clientHeight || this.size.height / devicePixelRatio; // in print, the element has no height
@@ -220,7 +222,7 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
-        this.scheduleRedraw(); // zooming the page may change the size of texts only
+        this.scheduleRedraw(); // even if the size stays the same: zooming the page may change the size of texts
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
         this.events.resized(size);

@@ -1,7 +1,8 @@
 // Draws the surfaces of a field with a depth buffer, as server/render/slices/surface_batch.cpp does: first the opaque
-// ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded as they
-// are. Each slice has its own range of the buffers, and the vertex shader moves the slice to its place. The painter
-// shares the WebGL context with three.js, and tells three.js when it has changed the state of the context.
+// ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded without
+// conversion. Each slice has its own range of the buffers, and the vertex shader moves the slice to its place in the
+// picture. The painter shares the WebGL context with three.js, and tells three.js when it has changed the state of the
+// context.
 
 import type { WebGLRenderer } from "three";
 
@@ -57,7 +58,9 @@ void main() {
 
 const kUniforms = ["view", "projection", "place", "color", "hasPointColors", "isCap", "light", "shading"] as const;
 
-/** The buffers of the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and of the indices. */
+/**
+ * The buffers of the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and of the indices (triangles).
+ */
 const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as const;
 type BufferName = (typeof kBuffers)[number];
 
@@ -176,7 +179,10 @@ export class SurfacePainter {
         gl.bufferData(target, entry.size, gl.DYNAMIC_DRAW);
     }
 
-    /** Draws the opaque surfaces, or the translucent ones from far to near: of all slices, or only of one. */
+    /**
+     * Draws the opaque surfaces, or the translucent ones from far to near: of all slices or, if `only` is given, of
+     * this slice.
+     */
     draw(which: "opaque" | "translucent", viewCamera: ViewCamera, only?: Slice): void {
         const { gl, picture, parts } = this;
         const opaque = which === "opaque";
@@ -231,13 +237,16 @@ export class SurfacePainter {
         if (!isOpaque(level)) {
             for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
         } else if (level.caps) {
-            this.drawSides(part, level, gl.BACK); // with caps, the surface is closed, so that its back is not seen
+            this.drawSides(part, level, gl.BACK); // a surface with caps is closed, so that its back is not seen
         } else {
             this.drawSides(part, level, undefined);
         }
     }
 
-    /** Draws the triangles of a level. If `hidden` is given, leaves out those of this side (gl.FRONT or gl.BACK). */
+    /**
+     * Draws the triangles of a level. `hidden` is the side, gl.FRONT or gl.BACK, that is not drawn; if it is undefined,
+     * both sides are drawn.
+     */
     private drawSides(
         { groups, firstByte, firstPoint }: SliceSurfaces,
         { level, caps }: SurfaceLevel,

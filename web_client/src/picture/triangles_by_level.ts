@@ -1,5 +1,5 @@
-// The triangles of a surface, grouped by level; the caps of a level are a group of their own. Triangles that are in
-// this order already are not copied.
+// The triangles of a surface, grouped by level; the caps of a level are a group of their own. If the triangles of a
+// surface are in the order of these groups already, they are not copied.
 
 import type { Integers, Surface } from "@oval4d/protocol";
 
@@ -11,7 +11,7 @@ export class TrianglesByLevel {
     triangles: Integers = new Uint8Array(0);
     private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
     private readonly next = new Uint32Array(kGroups);
-    private memory = new ArrayBuffer(0); // holds `triangles` if the surface has them in another order
+    private memory = new ArrayBuffer(0); // holds `triangles` if the surface has its triangles in another order
 
     /** Groups the triangles of a surface. */
     update(surface: Surface): void {

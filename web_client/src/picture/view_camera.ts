@@ -24,7 +24,9 @@ export class ViewCamera {
     private width = 1;
     private height = 1;
 
-    /** Sets the camera; `from` is the orbit in which the server placed it, `to` the desired one. */
+    /**
+     * Sets the camera. `from` is the orbit for which the server placed `camera`; `to` is the orbit from which to look.
+     */
     set(camera: SceneDescription["camera"], viewport: Viewport, from: Orbit, to: Orbit): void {
         this.width = viewport.width;
         this.height = viewport.height;
@@ -62,7 +64,10 @@ export class ViewCamera {
         return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
     }
 
-    /** Projects the camera coordinates x, y, z that begin at points[at]; writes the pixels x, y after them. */
+    /**
+     * Projects a point whose camera coordinates x, y, z begin at points[at]; writes the x and y of its pixel after
+     * them.
+     */
     cameraToScreen(points: Float32Array, at: number): void {
         const f = this.projection.elements;
         const depth = -points[at + 2]!;
@@ -70,7 +75,7 @@ export class ViewCamera {
         points[at + 4] = ((1 - (f[5]! * points[at + 1]!) / depth + f[9]!) / 2) * this.height;
     }
 
-    /** The camera coordinates x and y, at the depth 1, of the ray through a point in pixels. */
+    /** The camera coordinates x and y of a point on the ray through the pixel (x, y): the point at the depth 1. */
     rayAt(x: number, y: number): [number, number] {
         const f = this.projection.elements;
         return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
