@@ -791,14 +791,15 @@ def _with_rows(encoding, read, failure):
 
 
 # A kind of binary message: its first bytes, the function that decodes it and, if two bytes tell the kind, the second.
-BinaryKind = collections.namedtuple("BinaryKind", "first_bytes read second_byte", defaults=[None])
+BinaryMessageKind = collections.namedtuple("BinaryMessageKind", "first_bytes read second_byte", defaults=[None])
 
 # The kinds of binary messages, as ../README.md lists them ("Binary messages"). Each encoding of slices has a kind of
 # its name.
-BINARY_KINDS = {"file": BinaryKind(range(0x21, 0x7F), bytes), "frame": BinaryKind(range(0x89, 0x8A), bytes),
-                "cbor": BinaryKind(range(0xA0, 0xC0), from_cbor),
-                "msgpack": BinaryKind(range(0xDF, 0xE0), from_msgpack),
-                "bjdata": BinaryKind(range(0x7B, 0x7C), from_bjdata, second_byte=0x55)}
+BINARY_KINDS = {"file": BinaryMessageKind(range(0x21, 0x7F), bytes),
+                "frame": BinaryMessageKind(range(0x89, 0x8A), bytes),
+                "cbor": BinaryMessageKind(range(0xA0, 0xC0), from_cbor),
+                "msgpack": BinaryMessageKind(range(0xDF, 0xE0), from_msgpack),
+                "bjdata": BinaryMessageKind(range(0x7B, 0x7C), from_bjdata, second_byte=0x55)}
 
 
 def _rows(flat, sizes, width=1):

@@ -259,7 +259,7 @@ test("export: of a field, only what each format can contain is offered, and is s
     const { page, script, errors, close } = await openWithScript();
     await script.request({ type: "load", name: "ball", format: "formula", data: "x^2 + y^2 + z^2 + w^2 < 1" });
     await named(page, "ball");
-    const small = { svg: /^<(\?xml|svg)/, pdf: /^%PDF-1/, csv: /^n,w,volume/ };
+    const small = { svg: /^<(\?xml|svg)/, pdf: /^%PDF-1/, csv: /^(n,w,volume|w,change)/ };
     for (const [format, expected] of Object.entries(small)) {
         await openExport(page);
         await choose(page, "format", "stl");
@@ -269,7 +269,8 @@ test("export: of a field, only what each format can contain is offered, and is s
             .locator("#export label:visible:has([name=of])")
             .evaluateAll((all) => all.map((label) => [label.firstElementChild.value, label.innerText.split("\n")[0]]));
         const names = offered.map(([, name]) => name.replace(/ (w =|\d).*/, ""));
-        assert.deepEqual(names, format === "csv" ? ["Focus slice", "Whole oval"] : ["Histogram", "Projection", "Matrix"]);
+        const ofCsv = ["Focus slice", "Whole oval", "Critical w"];
+        assert.deepEqual(names, format === "csv" ? ofCsv : ["Histogram", "Projection", "Matrix"]);
         if (format !== "csv") assert.match(await page.locator("#export-about").textContent(), /^The histogram/);
         await page.keyboard.press("Escape");
         for (const [of] of offered) {
