@@ -263,13 +263,15 @@ export function decodeText(text: string): Message {
  */
 export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file" | "frame" {
     const [first = -1, second] = bytes;
-    const kinds = Object.entries(kBinaryKinds).filter(([, { firstByte, secondByte = second }]) => {
-        return first >= firstByte[0] && first <= firstByte[1] && second === secondByte;
-    });
-    // A kind that two bytes tell comes before one that the first of them tells.
-    const kind = kinds.find(([, { secondByte }]) => secondByte !== undefined) ?? kinds[0];
-    if (kind) {
-        const [name, { read }] = kind;
+    let found: [name: string, kind: BinaryMessageKind] | undefined;
+    for (const [name, kind] of Object.entries(kBinaryKinds)) {
+        const { firstByte, secondByte = second } = kind;
+        if (first < firstByte[0] || first > firstByte[1] || second !== secondByte) continue;
+        // A kind that two bytes tell comes before one that the first of them tells.
+        if (!found || kind.secondByte !== undefined) found = [name, kind];
+    }
+    if (found) {
+        const [name, { read }] = found;
         return read ? decodeSlices(bytes, read, within) : (name as "file" | "frame");
     }
     const what = first < 0 ? "is empty" : `begins with the byte 0x${first.toString(16)}`;
