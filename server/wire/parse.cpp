@@ -285,7 +285,7 @@ template <typename... T>
 constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
     return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
 }
-// mp_flatten replaces session::Command, a variant in Body, by its alternatives, the types of commands.
+// mp_flatten replaces session::Command, a variant in RequestBody, by its alternatives, the types of commands.
 constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<RequestBody>>{});
 
 // A listener of the JSON parser that records the type and the id of a message, without building a value.

@@ -97,8 +97,8 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
     return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
 }
 
-/// The values of the linear functions of a Paint at the first pixels of two rows: those of the first row in lanes 0 …
-/// 3, those of the second one in lanes 4 … 7.
+/// The values of the linear functions of a PatchShading at the first pixels of two rows: those of the first row in
+/// lanes 0 … 3, those of the second one in lanes 4 … 7.
 struct StartValues {
     __m256 u, v, halfRadius, nearness;
 };
