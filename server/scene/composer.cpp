@@ -242,16 +242,7 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
 }
 
 void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {
-    using slicing::Visibility;
-    std::vector<Visibility> ofType(slicing::infoOf(object).cellTypes.size(), Visibility::full);
-    const auto set = [&](const std::vector<std::uint32_t>& types, Visibility visibility) {
-        for (const std::uint32_t type : types) {
-            if (type < ofType.size()) ofType[type] = visibility;
-        }
-    };
-    set(filter.faded, Visibility::faded);
-    set(filter.hidden, Visibility::hidden);
-    slicing::findVisibilities(object, ofType, visibilities_);
+    slicing::findVisibilities(object, filter.hidden, filter.faded, visibilities_);
     filter_ = filter;
 }
 

@@ -297,6 +297,35 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     return Element{kind, candidates[nearest]};
 }
 
+std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
+                                const geometry::Hyperplanes& plane) {
+    std::vector<bool> isCut(elementCount(object, kind));
+    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    const auto cutComplex = [&](const CellComplex& complex) {
+        const double w = plane.w(0), slack = kOnPlaneTolerance * complex.circumradius;
+        std::vector<double> distances;  // of the vertices from the hyperplane, positive above it
+        distances.reserve(complex.vertices.size());
+        for (const glm::dvec4& v : complex.vertices) distances.push_back(glm::dot(direction, v) - w);
+        for (std::size_t i = 0; i < isCut.size(); ++i) {
+            bool isAbove = false, isBelow = false;
+            visitVertexNumbers(complex, {kind, i}, [&](std::uint32_t v) {
+                isAbove = isAbove || distances[v] > slack;
+                isBelow = isBelow || distances[v] < -slack;
+            });
+            isCut[i] = isAbove == isBelow;
+        }
+    };
+    const auto cutCloud = [&](const PointCloud& cloud) {
+        for (std::size_t i = 0; i < isCut.size(); ++i) {
+            const double height = glm::dot(direction, cloud.points[i]);
+            const double number = std::floor((height - plane.offset) / plane.spacing + 0.5) - plane.first;
+            isCut[i] = number >= 0 && number < plane.count;
+        }
+    };
+    visitElements(Overloaded{cutComplex, cutCloud}, object);
+    return isCut;
+}
+
 void PartsShowingElement::clear() {
     for (auto* list : {&vertices, &edges, &ownVertices}) list->clear();
 }

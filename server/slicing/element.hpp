@@ -10,6 +10,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "geometry/hyperplanes.hpp"
 #include "geometry/rotation.hpp"
 #include "serialization/stored_members.hpp"
 #include "slicing/object.hpp"
@@ -62,6 +63,15 @@ geometry::Rotation rotationToW(const Object& object, const Element& element, con
 /// consider. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident = {});
+
+/// Returns, for each element of this kind in the order of indices, whether a hyperplane cuts it after rotation by
+/// `orientation`: whether the element has vertices on both sides of the hyperplane, or all of it lies in the
+/// hyperplane. An element that only touches the hyperplane is not cut. Vertices within kOnPlaneTolerance circumradii
+/// (see slice_set.hpp) of the hyperplane count as lying in it. A point of a point cloud is cut if it is within half of
+/// plane.spacing of the hyperplane, as in CloudSlicer. Requires plane.count == 1, and that plane.listed is empty. Takes
+/// time linear in the size of the object.
+std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
+                                const geometry::Hyperplanes& plane);
 
 /// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
 /// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.

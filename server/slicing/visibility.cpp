@@ -51,6 +51,34 @@ void findVisibilities(const Object& object, std::span<const Visibility> ofType, 
                   object);
 }
 
+void findVisibilities(const Object& object, std::span<const std::uint32_t> hidden, std::span<const std::uint32_t> faded,
+                      Visibilities& out) {
+    std::vector<Visibility> ofType(infoOf(object).cellTypes.size(), Visibility::full);
+    const auto set = [&](std::span<const std::uint32_t> types, Visibility visibility) {
+        for (const std::uint32_t type : types) {
+            if (type < ofType.size()) ofType[type] = visibility;
+        }
+    };
+    set(faded, Visibility::faded);
+    set(hidden, Visibility::hidden);
+    findVisibilities(object, ofType, out);
+}
+
+Visibility visibilityOf(const Object& object, const Visibilities& visibilities, const Element& element) {
+    const auto index = static_cast<std::uint32_t>(element.index);
+    switch (element.kind) {
+        case ElementKind::vertex:
+            return visibilities.vertex(static_cast<std::uint32_t>(elementCount(object, ElementKind::edge)) + index);
+        case ElementKind::edge:
+            return visibilities.vertex(index);
+        case ElementKind::face:
+            return visibilities.edge(index);
+        case ElementKind::cell:
+            break;
+    }
+    return visibilities.face(index);
+}
+
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
     return visitElements(
         Overloaded{[&](const CellComplex& complex) { return coloringCell(complex, visibilities, source); },

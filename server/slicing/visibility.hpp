@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "slicing/element.hpp"
 #include "slicing/object.hpp"
 
 namespace oval4d::slicing {
@@ -34,6 +35,16 @@ struct Visibilities {
 /// Finds the visibilities of all elements. `ofType` has the visibility of each cell type, in the order of
 /// ObjectInfo::cellTypes. Overwrites `out`.
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out);
+
+/// Finds the visibilities of all elements if the cell types in `hidden` are hidden, those in `faded` are faded, and all
+/// others are fully visible. Both lists have indices into ObjectInfo::cellTypes; an index that is too large is ignored,
+/// and a cell type that is in both lists is hidden. Overwrites `out`.
+void findVisibilities(const Object& object, std::span<const std::uint32_t> hidden, std::span<const std::uint32_t> faded,
+                      Visibilities& out);
+
+/// Returns the visibility of an element of `object`, for which findVisibilities() has found `visibilities`. Requires
+/// element.index < elementCount(object, element.kind).
+Visibility visibilityOf(const Object& object, const Visibilities& visibilities, const Element& element);
 
 /// Returns the cell that determines the color of the slice face with the source number `source`. If the face was cut
 /// from a cell, this is that cell. If the slice face is a 2-face that lies in the hyperplane, the result is the first

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -161,6 +163,47 @@ TEST(Elements, AreChosenAmongThoseAtAnother) {
         if (kind == litKind) {
             EXPECT_EQ(*visited.begin(), lit.index);
         }
+    }
+}
+
+TEST(ElementsCutBy, AreThoseFromWhichTheSliceIsCut) {
+    std::mt19937 random(17);
+    for (const char* name : {"5-cell", "24-cell", "snub 24-cell", "3,5-duoprism"}) {
+        const auto polytope = shared(name);
+        const Object object = polytope;
+        for (int round = 0; round < 5; ++round) {
+            const geometry::Rotation orientation = support::randomRotation(random);
+            const double w = std::uniform_real_distribution<double>(-0.9, 0.9)(random) * polytope->circumradius;
+            const SliceSet slice = support::cutAt(*polytope, orientation, w);
+            const auto expectSources = [&](ElementKind kind, const std::vector<std::uint32_t>& sources) {
+                const std::vector<bool> isCut = elementsCutBy(object, kind, orientation, {0, 1, 1, w});
+                ASSERT_EQ(isCut.size(), elementCount(object, kind));
+                for (std::uint32_t i = 0; i < isCut.size(); ++i)
+                    EXPECT_EQ(isCut[i], std::ranges::count(sources, i) > 0) << name << ", " << i;
+            };
+            expectSources(ElementKind::vertex, {});
+            expectSources(ElementKind::edge, slice.vertexSource);
+            expectSources(ElementKind::face, slice.edgeSource);
+            expectSources(ElementKind::cell, slice.faceSource);
+        }
+    }
+}
+
+TEST(ElementsCutBy, LieInTheHyperplaneOrOnBothSides) {
+    const Object tesseract = shared("tesseract");
+    const auto countAt = [&](double w, ElementKind kind) {
+        return std::ranges::count(elementsCutBy(tesseract, kind, {}, {0, 1, 1, w}), true);
+    };
+    // All elements of the cell w = 1 are cut; those that only touch it are not.
+    struct {
+        ElementKind kind;
+        std::ptrdiff_t atOne, atZero;
+    } const rows[] = {
+        {ElementKind::vertex, 8, 0}, {ElementKind::edge, 12, 8}, {ElementKind::face, 6, 12}, {ElementKind::cell, 1, 6}};
+    for (const auto& [kind, atOne, atZero] : rows) {
+        EXPECT_EQ(countAt(1, kind), atOne);
+        EXPECT_EQ(countAt(0, kind), atZero);
+        EXPECT_EQ(countAt(1.5, kind), 0);
     }
 }
 

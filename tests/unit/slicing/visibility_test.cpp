@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +34,7 @@ TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
         for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
             const Visibility expected = greatest([&](std::uint32_t other) { return other == f; });
             EXPECT_EQ(found.edge(f), expected);
+            EXPECT_EQ(visibilityOf(object, found, {ElementKind::face, f}), expected);
             EXPECT_EQ(found.face(static_cast<std::uint32_t>(polytope.cells.size()) + f), expected);
             if (expected == Visibility::hidden) continue;
             EXPECT_NE(found.face(coloringCell(object, found, static_cast<std::uint32_t>(polytope.cells.size()) + f)),
@@ -42,6 +46,7 @@ TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
                 return std::find(edges.begin(), edges.end(), e) != edges.end();
             };
             EXPECT_EQ(found.vertex(e), greatest(onLoop));
+            EXPECT_EQ(visibilityOf(object, found, {ElementKind::edge, e}), greatest(onLoop));
             EXPECT_EQ(found.edge(static_cast<std::uint32_t>(polytope.faces.size()) + e), greatest(onLoop));
         }
         for (std::uint32_t v = 0; v < polytope.vertices.size(); ++v) {
@@ -50,8 +55,32 @@ TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
                 return std::find(loop.begin(), loop.end(), v) != loop.end();
             };
             EXPECT_EQ(found.vertex(static_cast<std::uint32_t>(polytope.edges.size()) + v), greatest(onLoop));
+            EXPECT_EQ(visibilityOf(object, found, {ElementKind::vertex, v}), greatest(onLoop));
         }
+        for (std::uint32_t c = 0; c < polytope.cells.size(); ++c)
+            EXPECT_EQ(visibilityOf(object, found, {ElementKind::cell, c}), ofType.at(polytope.typeOfCell[c]));
     }
+}
+
+TEST(Visibilities, AreFoundFromTheHiddenAndTheFadedTypes) {
+    const auto polytope = support::rectifiedFiveCell();
+    const Object object = support::objectOf(polytope);
+    const std::vector<std::uint32_t> first{0}, second{1}, beyond{0, 2};
+    Visibilities found;
+    const auto cellOfType = [&](std::uint32_t type) {
+        const auto at = std::ranges::find(polytope.typeOfCell, type);
+        return visibilityOf(object, found,
+                            {ElementKind::cell, static_cast<std::size_t>(at - polytope.typeOfCell.begin())});
+    };
+    findVisibilities(object, first, second, found);
+    EXPECT_EQ(cellOfType(0), Visibility::hidden);
+    EXPECT_EQ(cellOfType(1), Visibility::faded);
+    findVisibilities(object, first, beyond, found);
+    EXPECT_EQ(cellOfType(0), Visibility::hidden) << "a type in both lists is hidden";
+    EXPECT_EQ(cellOfType(1), Visibility::full);
+    findVisibilities(object, {}, {}, found);
+    EXPECT_TRUE(found.allVisible());
+    EXPECT_EQ(cellOfType(0), Visibility::full);
 }
 
 TEST(Visibilities, AreEmptyIfEverythingIsFullyVisible) {
