@@ -103,7 +103,8 @@ class CommandApplier {
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
         VoidResult done = *binding ? press(**binding) : VoidResult(std::monostate{});
-        if (done) session_.pendingKey = std::move(pending);
+        // A sequence ends also if its action is refused. If an object is pending, the key is pressed again later.
+        if (done || !loader_.isPending()) session_.pendingKey = std::move(pending);
         return done;
     }
     VoidResult operator()(const Rotate& command) {

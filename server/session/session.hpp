@@ -160,7 +160,8 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 
-/// Applies a command to the session. After an error, the session is unchanged. Every change adds an undo step, except
+/// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
+/// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
 /// moves of the camera, the end of continuous turning, commands with `continues`, and added time steps; see
 /// history.hpp. `loader` builds polytopes and reads files.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);

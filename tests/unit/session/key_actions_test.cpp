@@ -240,6 +240,15 @@ TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
     EXPECT_EQ(session.current.slices.focus, -3) << "any other key ends a sequence and acts by itself";
 }
 
+TEST(Keys, ARefusedActionEndsItsSequence) {
+    Session session;
+    must(session, LoadObject{"two points", "cloud", "0 0 0 -0.96\n0 0 0 0.97\n"});
+    press(session, "z");
+    expectRefused(session, Key{"c"}, ErrorCode::out_of_range, "the two points has no cell");
+    press(session, "f");
+    EXPECT_FALSE(session.current.look.parts.faces) << "f acts by itself, and not as zf";
+}
+
 // A slice of a point cloud contains the points within half a spacing of its hyperplane.
 TEST(Keys, TwoGsGoToTheFirstPointsOfACloud) {
     Session session;
