@@ -157,6 +157,11 @@ std::vector<Action> allActions() {
     for (const auto& [name, kind] : slicing::kElementKinds) {
         actions.push_back(
             {"toward_" + std::string(name), [of = kind](ActionContext& c) { return turnToward(c.state, {of, {}}); }});
+        for (const bool forward : {true, false}) {
+            actions.push_back(
+                {(forward ? "highlight_next_" : "highlight_previous_") + std::string(name),
+                 [of = kind, forward](ActionContext& c) { return highlightNeighbor(c.state, of, forward); }});
+        }
     }
     for (const scene::ViewRow& row : scene::kViews) {
         // The oval has no action of its own; View::single is toggled by the action "view" of ownActions().

@@ -16,6 +16,7 @@
 #include "session/cell_types.hpp"
 #include "session/object_lookup.hpp"
 #include "session/setting_table.hpp"
+#include "slicing/visibility.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
@@ -354,6 +355,42 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     } else {
         state.ongoingTurnToward = OngoingTurnToward{goal, seconds};
     }
+    return std::monostate{};
+}
+
+Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind, bool forward) {
+    if (auto valid = checkElement(state.object, {kind, 0}); !valid) return valid;
+    const std::size_t count = slicing::elementCount(state.object, kind);
+    slicing::Visibilities visibilities;
+    slicing::findVisibilities(state.object, state.look.cellTypes.hidden, state.look.cellTypes.faded, visibilities);
+    const auto isVisible = [&](std::size_t index) {
+        return slicing::visibilityOf(state.object, visibilities, {kind, index}) != slicing::Visibility::hidden;
+    };
+    std::optional<slicing::Element>& highlight = state.look.highlight;
+    std::optional<std::size_t> found;
+    if (highlight && highlight->kind == kind) {
+        const std::size_t step = forward ? 1 : count - 1;  // modulo `count`, the latter is a step backward
+        std::size_t index = highlight->index;
+        for (std::size_t i = 0; i < count && !found; ++i) {
+            index = (index + step) % count;
+            if (isVisible(index)) found = index;
+        }
+    } else {
+        const geometry::Hyperplanes focusSlice{state.slices.focus, 1, state.slices.spacing, state.slices.offset};
+        const std::vector<bool> isCut = slicing::elementsCutBy(state.object, kind, state.orientation, focusSlice);
+        for (std::size_t index = 0; index < count; ++index) {
+            if (!isVisible(index)) continue;
+            if (!found) found = index;
+            if (!isCut[index]) continue;
+            found = index;
+            break;
+        }
+    }
+    if (!found) {
+        return Error{ErrorCode::out_of_range, "every " + std::string(text::nameOf(slicing::kElementKinds, kind)) +
+                                                  " of the " + slicing::infoOf(state.object).name + " is hidden"};
+    }
+    highlight = slicing::Element{kind, *found};
     return std::monostate{};
 }
 

@@ -69,6 +69,13 @@ void rotate(State& state, const geometry::Turn& turn);
 /// turning. Error: `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
+/// Highlights the element of this kind whose index comes after that of the highlighted element or, if `forward` is
+/// false, before it. Skips hidden elements: those whose cells are all of types in CellTypeFilter::hidden. The last and
+/// the first element are neighbors. If no element of this kind is highlighted, begins with the first visible one that
+/// the focus slice cuts (see slicing::elementsCutBy()) or, if it cuts none, with the first visible one. Error:
+/// `out_of_range` if the object has no element of this kind, or if all of them are hidden.
+Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind, bool forward);
+
 /// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if
 /// the offset were 0, and the offset to the difference. The caller must ensure |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);

@@ -54,6 +54,36 @@ test("keys: w changes from the perspective to the orthogonal projection, and the
     await end();
 });
 
+test("keys: elements are highlighted one after another, except hidden ones, and a notice says why not", async () => {
+    const { page, script, press, errors, close: end } = await openWithScript();
+    const highlighted = async (...keys) => (await press(...keys)).highlight;
+    await script.request({ type: "set", polytope: "rectified 5-cell" });
+    const { polytope } = await script.state();
+    const octahedron = polytope.kinds.findIndex(({ name }) => name === "octahedron");
+    await script.request({ type: "set", hidden: [octahedron] });
+    const first = await highlighted("v", "c");
+    assert.equal(first.element, "cell");
+    const numbers = [first.number];
+    while (numbers.length < 5) numbers.push((await highlighted("v", "c")).number);
+    assert.equal(new Set(numbers).size, 5, `the five tetrahedra: ${numbers}`);
+    assert.deepEqual(await highlighted("v", "Shift+C"), { element: "cell", number: numbers[3] });
+    assert.deepEqual(await highlighted("v", "c"), { element: "cell", number: numbers[4] });
+    assert.deepEqual(await highlighted("v", "c"), first, "the first one follows the last one");
+    assert.deepEqual(await highlighted("u"), { element: "cell", number: numbers[4] });
+    assert.equal((await highlighted("v", "v")).element, "vertex");
+    assert.equal(await highlighted("Escape"), null);
+
+    const points = { name: "points", format: "cloud", data: "0 0 0 0\n0 0 0 1" };
+    const { revision } = await script.request({ type: "load", ...points });
+    await presented(page, revision);
+    for (const key of ["v", "c"]) await page.keyboard.press(key);
+    await page.waitForFunction(() => /points has no cell/.test(document.getElementById("notice").textContent));
+    assert.deepEqual(await highlighted("v", "v"), { element: "vertex", number: 0 }, "the refused keys are forgotten");
+    assert.equal(await page.textContent("#notice"), "");
+    assert.deepEqual(errors, []);
+    await end();
+});
+
 /** Sends a key event as a keyboard with another layout does. */
 async function dispatch(page, event) {
     const session = await page.context().newCDPSession(page);

@@ -10,7 +10,9 @@ const read = (file) => JSON.parse(readFileSync(new URL(`../../../protocol/${file
 export const { keys: table } = read("keymap.json");
 
 const parts = Object.keys(read("schema/parts.schema.json").properties);
-const views = read("schema/settings.schema.json").properties.view.enum;
+const settings = read("schema/settings.schema.json").properties;
+const views = settings.view.enum;
+const elements = settings.highlight.properties.element.enum;
 /** The views that have an action of their name: all but the oval and the single view, whose action is "view". */
 export const toggledViews = views.filter((view) => view !== "oval" && view !== "single");
 
@@ -20,6 +22,11 @@ const toggles = (part) => (before, after) => assert.equal(after.shown[part], !be
 const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
 
 const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
+
+const highlights = (element) => (before, after) => {
+    assert.equal(before.highlight, null);
+    assert.equal(after.highlight.element, element);
+};
 
 /** Checks of the state after each action that effectOf() does not know from the tables. */
 const effects = {
@@ -44,6 +51,10 @@ const effects = {
     toward_edge: moves,
     toward_face: moves,
     toward_cell: moves,
+    ...Object.fromEntries(elements.flatMap((element) => [
+        [`highlight_next_${element}`, highlights(element)],
+        [`highlight_previous_${element}`, highlights(element)],
+    ])),
     vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
     vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
     turn: (before, after) => assert.equal(after.turning, !before.turning),
@@ -79,8 +90,9 @@ export function effectOf({ action, name, increases, decreases }) {
 
 /** The key presses of a binding in Playwright's notation, on a US keyboard. */
 export function strokes({ key, code, ctrl }, inverse = false) {
-    if (key.length > 1) return [...key];
-    const name = code ?? (/[A-Z()]/.test(key) ? `Shift+${key}` : key);
+    const typed = (character) => (/[A-Z()]/.test(character) ? `Shift+${character}` : character);
+    if (key.length > 1) return [...key].map(typed);
+    const name = code ?? typed(key);
     if (ctrl) return [`Control+${key}`];
     return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
 }
@@ -94,7 +106,7 @@ const kShown = {
 export async function prepare(script, { action }) {
     await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: kShown });
+    await script.request({ type: "set", shown: kShown, highlight: null });
     await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
