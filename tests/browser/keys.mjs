@@ -335,6 +335,36 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
     await end();
 });
 
+test("keys: a held second key of a sequence repeats the sequence if it may, and does not act by itself", async () => {
+    const { page, script, press, close: end } = await openWithScript();
+    await press("4");
+    const { shown } = await press("w"); // with a projection, c alone shows or hides its cells
+    const numbers = [];
+    await page.keyboard.press("v");
+    for (let times = 0; times < 3; ++times) {
+        const { revision } = await script.state();
+        await page.keyboard.down("c"); // from the second time on, as the keyboard repeats it
+        const after = await script.until((one) => one.revision > revision, "the next cell");
+        numbers.push(after.highlight?.number);
+        assert.deepEqual(after.shown, shown);
+        await presented(page, (await stateAfter(page, script)).revision);
+    }
+    await page.keyboard.up("c");
+    const [first] = numbers;
+    assert.deepEqual(numbers, [first, (first + 1) % 5, (first + 2) % 5]);
+    await press("Escape");
+    await page.keyboard.press("z");
+    for (let times = 0; times < 2; ++times) {
+        await page.keyboard.down("c");
+        const { revision } = await stateAfter(page, script);
+        const after = await script.until((one) => one.revision >= revision && !one.moving, "the end of the turn");
+        await presented(page, after.revision);
+        assert.deepEqual(after.shown, shown);
+    }
+    await page.keyboard.up("c");
+    await end();
+});
+
 test("keys: single keys can be turned off, which the browser remembers", async () => {
     const { page, script, close: end } = await openWithScript({ viewport: { width: 1280, height: 800 } });
     const button = () => page.locator("[data-page-tool=single_keys]");

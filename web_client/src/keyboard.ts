@@ -24,6 +24,7 @@ export class Keyboard {
     /** The key table; empty before the server has sent it. */
     keys: readonly KeyBinding[] = [];
     private first: KeyStroke | undefined; // the first key of a sequence of two, which has not been sent yet
+    private ended: KeyBinding | undefined; // the sequence whose second key is the last key that was typed
     private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
 
     constructor(
@@ -65,10 +66,7 @@ export class Keyboard {
         this.first = undefined;
     }
 
-    /**
-     * Executes the action of a key or a button. The page executes its own actions and those of the camera; the others
-     * are sent to the server.
-     */
+    /** Executes the action of a key or a button: one of the page, of the camera, or of the server. */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void {
         this.cancelSequence();
         const act = this.actions.page[binding.action];
@@ -86,16 +84,21 @@ export class Keyboard {
     }
 
     /**
-     * Sends a key that has been typed. The first key of a sequence of two is kept, and sent together with the second
-     * one.
+     * Sends a key that has been typed; the first key of a sequence is sent together with the second one. While the
+     * second key is held, the sequence is repeated if its action may repeat; the held key does not act by itself.
      */
     private type(stroke: KeyStroke, held: boolean): void {
+        if (held && this.ended) {
+            // If Shift is released first, the held letter is no longer the second key.
+            if (this.ended.repeats && this.ended.key[1] === stroke.key) this.press(this.ended, false, held);
+            return;
+        }
         const { first } = this;
         const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
-        if (begins && held) return; // a held key does not count as pressed a second time
-        const ends = first && !stroke.ctrl && this.keys.some(({ key }) => key === first.key + stroke.key);
-        this.first = begins && !ends ? stroke : undefined;
-        if (first && ends) this.send(first, false);
-        if (ends || !begins) this.send(stroke, held);
+        if (begins && held) return; // it is not pressed a second time
+        this.ended = first && !stroke.ctrl ? this.keys.find(({ key }) => key === first.key + stroke.key) : undefined;
+        this.first = begins && !this.ended ? stroke : undefined;
+        if (first && this.ended) this.send(first, false);
+        if (this.ended || !begins) this.send(stroke, held);
     }
 }
