@@ -1,6 +1,3 @@
-// This file is long, because the functions of a session run on one strand and share its state. Code that does not need
-// this state is in other files of this folder.
-
 #include "net/live/live_session.hpp"
 
 #include <spdlog/spdlog.h>
@@ -34,12 +31,6 @@ using wire::Stream;
 
 namespace {
 
-using namespace std::chrono_literals;
-
-// Delay from a change until the session is saved. The store must be at most a second behind the session, even on a busy
-// machine.
-constexpr std::chrono::milliseconds kSaveDelay{250};
-
 constexpr const char* kTakenOverReason = "another server has taken over this session";
 
 OutgoingMessage textAnswer(const wire::Answer& answer, LiveSession::RequestId id) {
@@ -57,24 +48,18 @@ struct KeepSessionAlive {
 LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                          store::Fence fence, AddressAccountPtr client, session::Session value)
     : services_(services),
-      writeBehind_(writeBehind),
       credentials_(std::move(credentials)),
-      fence_(fence),
       strand_(asio::make_strand(services.io)),
       metered_(std::make_shared<MeteredSession>(std::move(client), std::move(value))),
       session_(metered_->value),
       streams_(std::make_shared<PictureStreams>(services, strand_, credentials_.id, metered_)),
-      saveTimer_(strand_) {}
-
-std::shared_ptr<LiveSession> LiveSession::create(Services services, store::WriteBehindStore& writeBehind,
-                                                 store::SessionCredentials credentials, store::Fence fence,
-                                                 AddressAccountPtr client, session::Session value) {
-    auto session = std::make_shared<LiveSession>(services, writeBehind, std::move(credentials), fence,
-                                                 std::move(client), std::move(value));
-    session->streams_->whenMoved([weak = std::weak_ptr(session)] {
-        if (const auto self = weak.lock()) self->scheduleSave();
+      // The saver shares the ownership of metered_.
+      saver_(std::make_shared<SessionSaver>(writeBehind, credentials_.id, fence,
+                                            std::shared_ptr<const session::Session>(metered_, &metered_->value),
+                                            callAfterOn(strand_))) {
+    streams_->whenMoved([weak = std::weak_ptr(saver_)] {
+        if (const auto saver = weak.lock()) saver->scheduleSave();
     });
-    return session;
 }
 
 asio::awaitable<void> LiveSession::addAndWelcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
@@ -94,7 +79,7 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
     stopSearches(peer);
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->streams_->remove(peer.get());
-        self->detached_ = left(self->session_) || self->detached_;
+        if (left(self->session_)) self->saver_->detach();
     });
 }
 
@@ -104,54 +89,21 @@ void LiveSession::stopSearches(std::shared_ptr<Peer> peer) {
 
 void LiveSession::save(std::shared_ptr<void> completion) {
     asio::post(strand_, [self = shared_from_this(), completion = std::move(completion)] {
-        self->saveNow([completion](bool /*written*/) {});
+        self->saver_->saveNow([completion](bool /*written*/) {});
     });
 }
 
 void LiveSession::detachAndDisconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
-        self->detached_ = true;
+        self->saver_->detach();
         self->streams_->closeAll(close_code::kStopping, kTakenOverReason);
     });
-}
-
-void LiveSession::saveNow(store::SaveCallback written) {
-    assertOnStrand();
-    if (!detached_)
-        writeBehind_.save(credentials_.id, fence_, session_, store::WriteBehindStore::SaveScope::whole,
-                          std::move(written));
-}
-
-/// Schedules a save. Must be called after each change.
-void LiveSession::scheduleSave() {
-    assertOnStrand();
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
-    writeBehind_.noteChange(credentials_.id, fence_);
-    saveTimer_.startUnlessRunning(weak_from_this(), Clock::now() + kSaveDelay,
-                                  [](LiveSession& session) { session.saveNow(); });
-}
-
-/// Returns a function that writes the session as it is now, or only its head (the state and the revision), to the
-/// store. The returned function must be called on the strand. Its argument is called as WriteBehindStore::save() calls
-/// `written`; if `detached_` is true, nothing is written, and the argument is called with `false`.
-std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
-    session::Session value;
-    if (scope == store::WriteBehindStore::SaveScope::whole) {
-        value = session_;
-    } else {
-        value.current = session_.current;
-        value.revision = revision();
-    }
-    return [self = shared_from_this(), scope, value](const std::function<void(bool)>& written) {
-        if (self->detached_) return written(false);
-        self->writeBehind_.save(self->credentials_.id, self->fence_, value, scope, written);
-    };
 }
 
 template <>
 asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
-    if (detached_) {  // detachAndDisconnectAll() was called after this client had joined the session
+    if (saver_->isDetached()) {  // detachAndDisconnectAll() was called after this client had joined the session
         peer->close(close_code::kStopping, kTakenOverReason);
         co_return;
     }
@@ -274,15 +226,12 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) streams_->beginDrafts();
-    scheduleSave();
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
-        // The head of a record is saved without objects, so a new object requires a save of the whole session.
-        auto write = storeWriter(hasNewObject ? store::WriteBehindStore::SaveScope::whole
-                                              : store::WriteBehindStore::SaveScope::head);
+    saver_->scheduleSave();
+    if (auto write = saver_->writeBeforeAcknowledgment(hasNewObject)) {
         if (awaitStore) {
-            applied.owned = co_await awaitCallback<bool>(std::move(write));
+            applied.owned = co_await awaitCallback<bool>(std::move(*write));
         } else {
-            write([](bool) {});
+            (*write)([](bool) {});
         }
     }
     co_return applied;

@@ -17,8 +17,8 @@
 #include "net/live/metered_session.hpp"
 #include "net/live/peer.hpp"
 #include "net/live/picture_streams.hpp"
+#include "net/live/session_saver.hpp"
 #include "net/live/snapshot.hpp"
-#include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
@@ -27,21 +27,17 @@
 
 namespace oval4d::net {
 
-/// A session in use: holds the session's value, applies commands, answers requests, and saves the session. Every
-/// command is applied when it arrives; PictureStreams then sends the changed state and pictures to the clients. The
-/// members of a session are used only on its strand. Public functions may be called from any thread.
+/// A session in use: holds the session's value, applies commands and answers requests. Every command is applied when it
+/// arrives; PictureStreams then sends the changed state and pictures to the clients, and SessionSaver saves the
+/// session. The members of a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// Returns a session in use. `client`: the client that opened the session; the session's memory counts against this
-    /// client's byte account. `value`: the session, new or read from the store. `fence`: the fence with which the
-    /// session was created in the store or fetched from it (see store::Fence).
-    static std::shared_ptr<LiveSession> create(Services services, store::WriteBehindStore& writeBehind,
-                                               store::SessionCredentials credentials, store::Fence fence,
-                                               AddressAccountPtr client, session::Session value);
-    /// Only create() may call this constructor, because create() does the rest of the construction.
+    /// `client`: the client that opened the session; the session's memory counts against this client's byte account.
+    /// `value`: the session, new or read from the store. `fence`: the fence with which the session was created in the
+    /// store or fetched from it (see store::Fence).
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 store::Fence fence, AddressAccountPtr client, session::Session value);
 
@@ -115,28 +111,20 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
                                                                  std::shared_ptr<session::ObjectLoader> loader,
                                                                  std::shared_ptr<CriticalSearchHandle> search);
-    std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
-    void scheduleSave();
-    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If `detached_` is
-    /// true, saves nothing and destroys `written` without calling it.
-    void saveNow(store::SaveCallback written = {});
 
     std::uint64_t revision() const { return session_.revision; }
 
     // Constant after construction.
     const Services services_;  // declared first, because other members are initialized from it
-    store::WriteBehindStore& writeBehind_;
     const store::SessionCredentials credentials_;
-    const store::Fence fence_;
     Strand strand_;  // runs all code that uses the members of the next group
 
     // Used only on the strand.
     const std::shared_ptr<MeteredSession> metered_;
     session::Session& session_;  // the value of metered_
     const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<SessionSaver> saver_;
     CriticalSearches searches_;
-    OneShotTimer saveTimer_;
-    bool detached_ = false;  // whether this object must no longer write the session to the store
 };
 
 }  // namespace oval4d::net

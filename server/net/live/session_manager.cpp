@@ -240,7 +240,7 @@ std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials 
                                                       const AddressAccountPtr& client, session::Session value) {
     const std::string id = credentials.id;
     auto session =
-        LiveSession::create(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
+        std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
     byClient_.recordOpened(id, client->name());
     return session;

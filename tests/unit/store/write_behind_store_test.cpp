@@ -1,11 +1,10 @@
 #include <future>
-#include <type_traits>
 #include <utility>
 
 #include "hang_limit.hpp"
 #include "store/memory_store.hpp"
 #include "store/write_behind_store.hpp"
-#include "unit/parallel/virtual_clock.hpp"
+#include "unit/store/faulty_store.hpp"
 #include "unit/store/support.hpp"
 
 namespace oval4d::store {
@@ -13,70 +12,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using session::Session;
-
-/// Shared by a test and its FaultyStore.
-struct StoreControl {
-    explicit StoreControl(std::size_t quota) : kept(quota, clock.now<MemoryStore::Clock>()) {}
-
-    support::VirtualClock clock;
-    std::atomic<bool> fails = false;
-    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
-    std::mutex mutex;
-    MemoryStore kept;                    // guarded by mutex
-    std::vector<TakenOverSession> lost;  // for the next poll; guarded by mutex
-};
-
-/// A shared store that a test can make fail.
-class FaultyStore final : public Store {
-  public:
-    explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
-    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
-    std::string name() const override { return "faulty"; }
-    std::optional<std::string> tokenHash(const std::string& id) override {
-        return attempt([&](MemoryStore& kept) { return kept.tokenHash(id); });
-    }
-    std::optional<Record> claim(const std::string& id) override {
-        return attempt([&](MemoryStore& kept) { return kept.claim(id); });
-    }
-    std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override {
-        return attempt([&](MemoryStore& kept) {
-            control_->saves += static_cast<int>(updates.size());
-            return kept.save(updates);
-        });
-    }
-    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override {
-        return attempt([&](MemoryStore& kept) { return kept.evict(updates, isPinned); });
-    }
-    void remove(std::span<const std::string> ids) override {
-        attempt([&](MemoryStore& kept) { kept.remove(ids); });
-    }
-    void restartExpiry(std::span<const std::string> ids) override {
-        attempt([&](MemoryStore& kept) { kept.restartExpiry(ids); });
-    }
-    std::size_t expire(Milliseconds age) override {
-        return attempt([&](MemoryStore& kept) {
-            ++control_->refreshes;
-            return kept.expire(age);
-        });
-    }
-    std::vector<TakenOverSession> pollTakenOverSessions() override {
-        return attempt([&](MemoryStore& /*kept*/) { return std::exchange(control_->lost, {}); });
-    }
-    std::size_t size() const override {
-        const std::lock_guard lock(control_->mutex);
-        return control_->kept.size();
-    }
-
-  private:
-    template <typename Operation>
-    std::invoke_result_t<Operation, MemoryStore&> attempt(Operation operation) {
-        const std::lock_guard lock(control_->mutex);
-        ++control_->attempts;
-        if (control_->fails) throw StoreError("failure requested by the test: " + std::to_string(control_->attempts));
-        return operation(control_->kept);
-    }
-    const std::shared_ptr<StoreControl> control_;
-};
 
 /// Tests in virtual time: the cache's thread regards only the time of the test's clock.
 class WriteBehindStoreTest : public testing::Test {

@@ -1,0 +1,56 @@
+#include "net/live/session_saver.hpp"
+
+#include <utility>
+
+namespace oval4d::net {
+
+using SaveScope = store::WriteBehindStore::SaveScope;
+using WritePolicy = store::Store::WritePolicy;
+
+SessionSaver::SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
+                           std::shared_ptr<const session::Session> session, CallAfter callAfter)
+    : writeBehind_(writeBehind),
+      id_(std::move(id)),
+      fence_(fence),
+      session_(std::move(session)),
+      callAfter_(std::move(callAfter)) {}
+
+void SessionSaver::scheduleSave() {
+    if (writeBehind_.writePolicy() == WritePolicy::at_close) return;
+    writeBehind_.noteChange(id_, fence_);
+    if (scheduled_) return;
+    scheduled_ = true;
+    callAfter_(kDelay, [weak = weak_from_this()] {
+        const auto self = weak.lock();
+        if (!self) return;
+        self->scheduled_ = false;
+        self->saveNow();
+    });
+}
+
+void SessionSaver::saveNow(store::SaveCallback written) {
+    if (!detached_) writeBehind_.save(id_, fence_, *session_, SaveScope::whole, std::move(written));
+}
+
+std::optional<SessionSaver::Write> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
+    if (writeBehind_.writePolicy() != WritePolicy::at_once) return std::nullopt;
+    // The head of a record is saved without objects, so a new object requires a save of the whole session.
+    return writeOf(hasNewObject ? SaveScope::whole : SaveScope::head);
+}
+
+/// Returns a function that writes the session as it is now, or only its head (the state and the revision).
+SessionSaver::Write SessionSaver::writeOf(SaveScope scope) {
+    session::Session value;
+    if (scope == SaveScope::whole) {
+        value = *session_;
+    } else {
+        value.current = session_->current;
+        value.revision = session_->revision;
+    }
+    return [self = shared_from_this(), scope, value = std::move(value)](const store::SaveCallback& written) {
+        if (self->detached_) return written(false);
+        self->writeBehind_.save(self->id_, self->fence_, value, scope, written);
+    };
+}
+
+}  // namespace oval4d::net

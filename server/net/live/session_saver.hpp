@@ -1,0 +1,61 @@
+#pragma once
+// Decides when a session is saved, and until when.
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "net/call_after.hpp"
+#include "session/session.hpp"
+#include "store/write_behind_store.hpp"
+
+namespace oval4d::net {
+
+/// Saves a session in use, as the write policy of the store demands: a short time after each change, and perhaps before
+/// the change is acknowledged. After detach(), never writes the session again. Not thread-safe: every function must run
+/// on the strand of the session, and so do the functions that it returns.
+class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
+  public:
+    /// Delay from a change until the session is saved. The store must be at most a second behind the session, even on a
+    /// busy machine.
+    static constexpr std::chrono::milliseconds kDelay{250};
+
+    /// Hands a value of the session to the store, which calls `written` as WriteBehindStore::save() does.
+    using Write = std::function<void(store::SaveCallback written)>;
+
+    /// `fence`: the fence with which the session was created in the store or fetched from it (see store::Fence).
+    /// `session`: the session, which the caller changes. `callAfter`: the timer of the delay.
+    SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
+                 std::shared_ptr<const session::Session> session, CallAfter callAfter);
+
+    /// Schedules a save. Must be called after each change.
+    void scheduleSave();
+
+    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is
+    /// detached, saves nothing and destroys `written` without calling it.
+    void saveNow(store::SaveCallback written = {});
+
+    /// Returns a function that writes the session as it is now, if a change must be written before it is acknowledged;
+    /// else an empty optional. `hasNewObject`: whether the change has added or replaced an object of the session. If
+    /// the session is detached when the function is called, it writes nothing, and calls its argument with `false`.
+    std::optional<Write> writeBeforeAcknowledgment(bool hasNewObject);
+
+    /// Never writes the session to the store again.
+    void detach() { detached_ = true; }
+    bool isDetached() const { return detached_; }
+
+  private:
+    Write writeOf(store::WriteBehindStore::SaveScope scope);
+
+    store::WriteBehindStore& writeBehind_;
+    const std::string id_;
+    const store::Fence fence_;
+    const std::shared_ptr<const session::Session> session_;
+    const CallAfter callAfter_;
+    bool scheduled_ = false;  // whether a save is scheduled
+    bool detached_ = false;
+};
+
+}  // namespace oval4d::net

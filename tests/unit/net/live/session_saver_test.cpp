@@ -1,0 +1,194 @@
+// When a session is saved, in times that the tests choose.
+
+#include "net/live/session_saver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "store/session_codec.hpp"
+#include "unit/polytopes/support.hpp"
+#include "unit/store/faulty_store.hpp"
+
+namespace oval4d::net {
+namespace {
+
+using namespace std::chrono_literals;
+using WritePolicy = store::Store::WritePolicy;
+
+/// A timer whose time passes only when a test says so.
+class VirtualTimer {
+  public:
+    CallAfter callAfter() {
+        return [this](std::chrono::steady_clock::duration delay, std::function<void()> call) {
+            EXPECT_FALSE(call_) << "only one call may be scheduled";
+            due_ = now_ + delay;
+            call_ = std::move(call);
+        };
+    }
+    bool isRunning() const { return call_ != nullptr; }
+    void advance(std::chrono::steady_clock::duration by) {
+        now_ += by;
+        if (call_ && now_ >= due_) std::exchange(call_, nullptr)();
+    }
+
+  private:
+    std::chrono::steady_clock::duration now_{0}, due_{0};
+    std::function<void()> call_;
+};
+
+/// A session that is saved in a store with this write policy.
+struct SavedSession {
+    explicit SavedSession(WritePolicy policy)
+        : control(std::make_shared<store::StoreControl>(store::kDefaultQuota, policy)) {}
+
+    std::shared_ptr<SessionSaver> makeSaver(store::Fence fence = store::kFirstFence) {
+        return std::make_shared<SessionSaver>(writeBehind, id, fence, value, timer.callAfter());
+    }
+    /// Changes the session.
+    void change() {
+        ++value->revision;
+        saver->scheduleSave();
+    }
+    /// Returns the revision in the store; an empty optional if the session is not stored.
+    std::optional<std::uint64_t> stored() {
+        std::string whole, head;
+        {
+            const std::lock_guard lock(control->mutex);
+            for (const store::RecordUpdate& update : control->updates) {
+                if (update.credentials.id != id) continue;
+                if (!update.whole.empty()) whole = update.whole;
+                head = update.head;
+            }
+        }
+        if (whole.empty()) return std::nullopt;
+        const auto noObject = [](const std::string&) { return std::nullopt; };
+        return store::decodeSession(whole, head, noObject, support::cache()).revision;
+    }
+    /// Waits until everything that was handed to the store before is written.
+    void waitForWrites() {
+        const std::string other = writeBehind.create().id;
+        std::promise<bool> done;
+        writeBehind.save(other, store::kFirstFence, {}, store::WriteBehindStore::SaveScope::whole,
+                         [&](bool written) { done.set_value(written); });
+        EXPECT_TRUE(done.get_future().get());
+    }
+    /// Calls `write`, and returns what the store answers.
+    static bool resultOf(const SessionSaver::Write& write) {
+        std::promise<bool> done;
+        write([&](bool written) { done.set_value(written); });
+        return done.get_future().get();
+    }
+
+    const std::shared_ptr<store::StoreControl> control;
+    store::WriteBehindStore writeBehind{
+        std::make_unique<store::FaultyStore>(control),
+        {1h, 100, store::kDefaultQuota},
+        {[](const std::string&) {}, [](const std::string&) {}, [] {}, [](const char*, double, bool) {}},
+        control->clock.now<store::WriteBehindStore::Clock>()};
+    const std::string id = writeBehind.create().id;
+    const std::shared_ptr<session::Session> value = std::make_shared<session::Session>();
+    VirtualTimer timer;
+    std::shared_ptr<SessionSaver> saver = makeSaver();
+};
+
+TEST(SessionSaver, SavesAfterADelayThatFurtherChangesDoNotProlong) {
+    SavedSession saved(WritePolicy::soon);
+    saved.change();
+    EXPECT_EQ(saved.writeBehind.unsaved(), 1U) << "the store knows of the change at once";
+    saved.timer.advance(SessionSaver::kDelay - 1ms);
+    EXPECT_TRUE(saved.timer.isRunning());
+    saved.waitForWrites();
+    EXPECT_FALSE(saved.stored());
+    saved.change();
+    saved.timer.advance(1ms);
+    EXPECT_FALSE(saved.timer.isRunning());
+    saved.waitForWrites();
+    EXPECT_EQ(saved.stored(), 2U);
+    EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
+}
+
+TEST(SessionSaver, SavesEveryLaterChangeToo) {
+    SavedSession saved(WritePolicy::soon);
+    for (std::uint64_t revision = 1; revision < 4; ++revision) {
+        saved.change();
+        saved.timer.advance(SessionSaver::kDelay);
+        saved.waitForWrites();
+        EXPECT_EQ(saved.stored(), revision);
+    }
+    saved.timer.advance(1h);
+    saved.waitForWrites();
+    EXPECT_EQ(saved.control->saves.load(), 3 + 4) << "nothing is saved without a change";
+}
+
+TEST(SessionSaver, LeavesChangesToTheEndIfTheStoreWantsThemOnlyThen) {
+    SavedSession saved(WritePolicy::at_close);
+    saved.change();
+    EXPECT_FALSE(saved.timer.isRunning());
+    EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
+    EXPECT_FALSE(saved.saver->writeBeforeAcknowledgment(true));
+    EXPECT_FALSE(SavedSession(WritePolicy::soon).saver->writeBeforeAcknowledgment(true));
+}
+
+TEST(SessionSaver, WritesTheSessionAsItWasBeforeAChangeIsAcknowledged) {
+    SavedSession saved(WritePolicy::at_once);
+    saved.value->revision = 1;
+    const auto whole = saved.saver->writeBeforeAcknowledgment(true);
+    ASSERT_TRUE(whole);
+    saved.value->revision = 2;
+    const auto head = saved.saver->writeBeforeAcknowledgment(false);
+    ASSERT_TRUE(head);
+    saved.value->revision = 3;
+    EXPECT_TRUE(SavedSession::resultOf(*whole));
+    EXPECT_EQ(saved.stored(), 1U);
+    EXPECT_TRUE(SavedSession::resultOf(*head));
+    EXPECT_EQ(saved.stored(), 2U);
+    const std::lock_guard lock(saved.control->mutex);
+    EXPECT_TRUE(saved.control->updates.back().whole.empty()) << "only the state is written again";
+}
+
+TEST(SessionSaver, SaysIfAnotherServerHasTakenTheSessionOver) {
+    SavedSession saved(WritePolicy::at_once);
+    const auto write = saved.makeSaver(store::kFirstFence + 1)->writeBeforeAcknowledgment(true);
+    ASSERT_TRUE(write);
+    EXPECT_FALSE(SavedSession::resultOf(*write));
+}
+
+TEST(SessionSaver, NeverWritesADetachedSession) {
+    SavedSession saved(WritePolicy::at_once);
+    saved.change();
+    const auto write = saved.saver->writeBeforeAcknowledgment(true);
+    ASSERT_TRUE(write);
+    EXPECT_FALSE(saved.saver->isDetached());
+    saved.saver->detach();
+    EXPECT_TRUE(saved.saver->isDetached());
+    saved.timer.advance(SessionSaver::kDelay);
+    EXPECT_FALSE(SavedSession::resultOf(*write));
+    const auto held = std::make_shared<int>();
+    bool called = false;
+    saved.saver->saveNow([held, &called](bool) { called = true; });
+    EXPECT_EQ(held.use_count(), 1) << "who waits for the save learns that there is none";
+    EXPECT_FALSE(called);
+    saved.waitForWrites();
+    EXPECT_FALSE(saved.stored());
+}
+
+TEST(SessionSaver, MayBeDestroyedWhileASaveIsScheduled) {
+    SavedSession saved(WritePolicy::soon);
+    saved.change();
+    saved.saver.reset();
+    saved.timer.advance(SessionSaver::kDelay);
+    saved.waitForWrites();
+    EXPECT_FALSE(saved.stored());
+}
+
+}  // namespace
+}  // namespace oval4d::net
