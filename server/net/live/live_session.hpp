@@ -12,28 +12,27 @@
 #include <utility>
 #include <vector>
 
-#include "net/live/critical_searches.hpp"
-#include "net/live/message.hpp"
 #include "net/live/metered_session.hpp"
+#include "net/live/object_loading.hpp"
 #include "net/live/peer.hpp"
 #include "net/live/picture_streams.hpp"
+#include "net/live/request_answers.hpp"
 #include "net/live/session_saver.hpp"
-#include "net/live/snapshot.hpp"
 #include "net/services.hpp"
-#include "session/object_loader.hpp"
 #include "session/session.hpp"
 #include "store/write_behind_store.hpp"
 #include "wire/request.hpp"
 
 namespace oval4d::net {
 
-/// A session in use: holds the session's value, applies commands and answers requests. Every command is applied when it
-/// arrives; PictureStreams then sends the changed state and pictures to the clients, and SessionSaver saves the
-/// session. The members of a session are used only on its strand. Public functions may be called from any thread.
+/// A session in use: holds the session's value and applies commands. Every command is applied when it arrives;
+/// PictureStreams then sends the changed state and pictures to the clients, and SessionSaver saves the session.
+/// RequestAnswers answers questions. The members of a session are used only on its strand. Public functions may be
+/// called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
-    using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
+    using RequestId = RequestAnswers::RequestId;
 
     /// `client`: the client that opened the session; the session's memory counts against this client's byte account.
     /// `value`: the session, new or read from the store. `fence`: the fence with which the session was created in the
@@ -93,24 +92,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// is missing, the program does not link.
     template <typename RequestBody>
     boost::asio::awaitable<void> executeAndAnswer(std::shared_ptr<Peer> peer, RequestBody /*body*/, RequestId id);
-    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
-                                                   std::optional<glm::dvec2> point = {});
-    void answerWithOpenAddress(Peer& peer, RequestId id);
-    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
-                                                RequestId id);
-    boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);
-    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
-    std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
-    std::function<OutgoingMessage(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
-                                                                     std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(AddressAccountPtr by,
                                                                                session::Command command);
     boost::asio::awaitable<Result<CommandResult>> applyCommand(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                const session::Command& command, bool awaitStore);
-    std::shared_ptr<session::ObjectLoader> makeLoader() const;
-    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
-                                                                 std::shared_ptr<session::ObjectLoader> loader,
-                                                                 std::shared_ptr<CriticalSearchHandle> search);
 
     std::uint64_t revision() const { return session_.revision; }
 
@@ -123,8 +108,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     const std::shared_ptr<MeteredSession> metered_;
     session::Session& session_;  // the value of metered_
     const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<ObjectLoading> loading_;
+    const std::shared_ptr<RequestAnswers> answers_;
     const std::shared_ptr<SessionSaver> saver_;
-    CriticalSearches searches_;
 };
 
 }  // namespace oval4d::net

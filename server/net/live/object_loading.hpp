@@ -1,0 +1,53 @@
+#pragma once
+// Loads the objects that the commands and questions of a session need.
+
+#include <boost/asio/awaitable.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "errors/error.hpp"
+#include "net/clients.hpp"
+#include "net/live/critical_searches.hpp"
+#include "net/live/metered_session.hpp"
+#include "net/live/peer.hpp"
+#include "net/live/picture_streams.hpp"
+#include "net/services.hpp"
+#include "session/object_loader.hpp"
+
+namespace oval4d::net {
+
+/// Builds and reads the objects that commands need, and searches for critical values of w, on workers. Every function
+/// runs on the session's strand.
+class ObjectLoading {
+  public:
+    ObjectLoading(Services services, std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams)
+        : services_(services), metered_(std::move(metered)), streams_(std::move(streams)) {}
+
+    /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred).
+    std::shared_ptr<session::ObjectLoader> makeLoader() const;
+
+    /// Registers a search for the critical values of w of the current object (see slicing/critical/), so that the
+    /// search can be stopped. completePending() runs the search. `peer`: the connection that needs the result; may be
+    /// null.
+    std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
+
+    /// Builds or reads the loader's pending object on a worker. If a search is pending instead, an export worker runs
+    /// it. `by`: the client whose job queue is charged. `search`: the registration of the pending search; null if no
+    /// search is pending. Returns an error if there is no room for the result, else an empty optional. Throws
+    /// parallel::QueueFull if too many jobs are waiting, and what the job throws.
+    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
+                                                                 std::shared_ptr<session::ObjectLoader> loader,
+                                                                 std::shared_ptr<CriticalSearchHandle> search);
+
+    /// The searches that registerSearch() has registered.
+    CriticalSearches& searches() { return searches_; }
+
+  private:
+    const Services services_;
+    const std::shared_ptr<MeteredSession> metered_;
+    const std::shared_ptr<PictureStreams> streams_;
+    CriticalSearches searches_;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,215 @@
+#include "net/live/request_answers.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "net/jobs/data_names.hpp"
+#include "net/jobs/export_job.hpp"
+#include "net/jobs/run_on_pool.hpp"
+#include "net/live/errors.hpp"
+#include "pipeline/cost.hpp"
+#include "session/query.hpp"
+#include "session/settings.hpp"
+#include "slicing/element.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using wire::Stream;
+
+namespace {
+
+/// The completion handler of a coroutine, which keeps the answers alive until the coroutine has ended.
+struct KeepAnswersAlive {
+    std::shared_ptr<RequestAnswers> answers;
+    void operator()(const std::exception_ptr& /*failure*/) const {}
+};
+
+}  // namespace
+
+RequestAnswers::RequestAnswers(Services services, PictureStreams::Strand strand, std::string sessionId,
+                               std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams,
+                               std::shared_ptr<ObjectLoading> loading)
+    : services_(services),
+      strand_(std::move(strand)),
+      sessionId_(std::move(sessionId)),
+      metered_(std::move(metered)),
+      session_(metered_->value),
+      streams_(std::move(streams)),
+      loading_(std::move(loading)) {}
+
+asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
+    const StreamKey* const stream = streams_->streamOf(*peer);
+    if (stream == nullptr) co_return;
+    StreamKey key = *stream;
+    if (get.viewport) key.viewport = *get.viewport;
+    key.background = get.background;
+    switch (get.what) {
+        case wire::GetTarget::state:
+            peer->send(textMessage(stateText(session_, id, key.scheme)));
+            break;
+        case wire::GetTarget::catalogue: {
+            const std::vector<std::string> names = co_await dataNames(services_, peer->client());
+            std::vector<slicing::Object> loaded;
+            for (const auto& [name, object] : session_.loaded) loaded.push_back(object);
+            peer->send(textMessage(wire::catalogueMessage(id, loaded, names)));
+            break;
+        }
+        case wire::GetTarget::keymap:
+            peer->send(textMessage(wire::keymapMessage(id)));
+            break;
+        case wire::GetTarget::address:
+            answerWithOpenAddress(*peer, id);
+            break;
+        case wire::GetTarget::slices:
+            key.stream = Stream::geometry;
+            co_await answerWithPicture(peer, key, id);
+            break;
+        case wire::GetTarget::frame:
+            key.stream = Stream::frames;
+            co_await answerWithPicture(peer, key, id);
+            break;
+        case wire::GetTarget::at:
+            key.stream = Stream::geometry;
+            co_await answerWithPicture(peer, key, id, get.point);
+            break;
+        case wire::GetTarget::file:
+            co_await answerWithFile(peer, get.file, id);
+            break;
+        case wire::GetTarget::critical:
+            // The search may take long, so the client's further messages do not wait for this answer.
+            asio::co_spawn(strand_, answerWithCriticalValues(peer, id), KeepAnswersAlive{shared_from_this()});
+            break;
+    }
+}
+
+void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId id) {
+    // Measure State::source, which has the coordinates of the object's file, and not State::object, which is
+    // State::source transformed to the frame of reference.
+    const slicing::Object& object = session_.current.source;
+    const slicing::Element element{measure.element, measure.number};
+    if (const auto exists = session::checkElement(object, element); !exists) {
+        sendError(peer, services_.metrics, exists.error(), id);
+        return;
+    }
+    const slicing::ElementMeasurements found = slicing::measureElement(object, element);
+    wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
+    if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
+    peer.send(textAnswer(measured, id));
+}
+
+void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id) {
+    const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
+    peer.send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
+                                    Seconds(PictureStreams::Clock::now().time_since_epoch()).count()},
+                         id));
+}
+
+void RequestAnswers::answerWithOpenAddress(Peer& peer, RequestId id) {
+    const auto query = session::queryFromState(session_.current, *loading_->makeLoader());
+    if (query) {
+        peer.send(textAnswer(session::OpenAddress{session::queryText(*query)}, id));
+    } else {
+        sendError(peer, services_.metrics, query.error(), id);
+    }
+}
+
+asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
+                                                     RequestId id) {
+    const std::uint64_t askedRevision = revision();
+    ExportResult made;
+    try {
+        made = co_await runOnPool<ExportResult>(
+            services_.exportWorkers, exportJob(services_, session_.current, request, peer->client()),
+            streams_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(session_.current, request));
+    } catch (const parallel::QueueFull&) {
+        made = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("file failed session={} revision={} fault=\"{}\"", sessionId_, askedRevision, fault.what());
+    }
+    if (!made || !*made) {
+        sendError(*peer, services_.metrics, made ? made->error() : kInternalError, id);
+        co_return;
+    }
+    const FinishedFile& finished = **made;
+    OutgoingMessage message;
+    message.bytes = finished.bytes;
+    message.binary = true;
+    peer->send(std::move(message));
+    peer->send(textAnswer(wire::Done{askedRevision, finished.warnings}, id));
+}
+
+asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id) {
+    const std::uint64_t askedRevision = revision();
+    const double originW = slicing::infoOf(session_.current.object).originInFile.w;
+    Result<slicing::CriticalPtr> found = kInternalError;
+    try {
+        found = co_await findCriticalValues(peer);
+    } catch (const parallel::QueueFull&) {
+        found = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("search failed session={} revision={} fault=\"{}\"", sessionId_, askedRevision, fault.what());
+    }
+    if (!found) {
+        sendError(*peer, services_.metrics, found.error(), id);
+        co_return;
+    }
+    peer->send(textMessage(wire::criticalMessage(**found, originW, askedRevision, id)));
+}
+
+/// Finds the critical values of w of the current object. Unless they are known, an export worker searches for them.
+asio::awaitable<Result<slicing::CriticalPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
+    const auto loader = loading_->makeLoader();
+    const session::State asked = session_.current;
+    auto found = loader->criticalSections(asked);
+    if (!loader->isPending()) co_return found;
+    auto search = loading_->registerSearch(peer);
+    if (auto refused = co_await loading_->completePending(peer->client(), loader, std::move(search)))
+        co_return *refused;
+    co_return loader->criticalSections(asked);
+}
+
+asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
+                                                        std::optional<glm::dvec2> point) {
+    const std::uint64_t askedRevision = revision();
+    std::optional<Error> failed;
+    try {
+        OutgoingMessage picture = co_await runOnPool<OutgoingMessage>(
+            services_.pictureWorkers, requestedJob(key, id, point), streams_->jobQueuesOf(peer->client()).pictures,
+            pictureCost(session_.current, key, slicing::Quality::full));
+        peer->send(std::move(picture));
+        if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
+    } catch (const parallel::QueueFull&) {
+        failed = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        failed = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+    }
+    if (failed) sendError(*peer, services_.metrics, *failed, id);
+}
+
+/// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows at this
+/// point.
+std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob(
+    const StreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
+    const SnapshotPtr known = streams_->currentFullSnapshot();
+    return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
+            point, &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+        const SnapshotPtr snapshot =
+            suffices(known, key) ? known
+                                 : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
+        if (point)
+            return textMessage(
+                pipeline.describePoint(state, snapshot->slices, askedRevision, id, key.viewport, *point));
+        OutgoingMessage picture = makePicture(pipeline, *snapshot, key, id);
+        metrics.observe(pipeline.times());
+        return picture;
+    };
+}
+
+}  // namespace oval4d::net

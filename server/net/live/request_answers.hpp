@@ -1,0 +1,68 @@
+#pragma once
+// Answers the questions of clients, which do not change the session.
+
+#include <boost/asio/awaitable.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+#include "errors/error.hpp"
+#include "export/export_request.hpp"
+#include "net/live/message.hpp"
+#include "net/live/metered_session.hpp"
+#include "net/live/object_loading.hpp"
+#include "net/live/peer.hpp"
+#include "net/live/picture_streams.hpp"
+#include "net/live/snapshot.hpp"
+#include "net/services.hpp"
+#include "pipeline/pipeline.hpp"
+#include "session/session.hpp"
+#include "slicing/critical/critical_sections.hpp"
+#include "wire/request.hpp"
+
+namespace oval4d::net {
+
+/// Answers the requests for what a session shows, and for the load of the server. What takes long is made by a worker.
+/// Every function runs on the session's strand.
+class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
+  public:
+    using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
+
+    /// `sessionId`: for the log. `streams` and `loading`: those of the session `metered`.
+    RequestAnswers(Services services, PictureStreams::Strand strand, std::string sessionId,
+                   std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams,
+                   std::shared_ptr<ObjectLoading> loading);
+
+    /// Answers a `get`, and returns when it is answered. However, if it asks for critical values of w, returns at once
+    /// and answers later. Does nothing if the client was not added to the streams.
+    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
+    void answer(Peer& peer, const wire::Measure& measure, RequestId id);
+    void answer(Peer& peer, const wire::Ping& ping, RequestId id);
+
+  private:
+    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
+                                                   std::optional<glm::dvec2> point = {});
+    void answerWithOpenAddress(Peer& peer, RequestId id);
+    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
+                                                RequestId id);
+    boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);
+    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
+    std::function<OutgoingMessage(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
+                                                                     std::optional<glm::dvec2> point) const;
+
+    std::uint64_t revision() const { return session_.revision; }
+
+    const Services services_;
+    const PictureStreams::Strand strand_;
+    const std::string sessionId_;
+    const std::shared_ptr<MeteredSession> metered_;
+    const session::Session& session_;  // the value of metered_
+    const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<ObjectLoading> loading_;
+};
+
+}  // namespace oval4d::net
