@@ -104,8 +104,9 @@ std::vector<Action> ownActions() {
          }>},
         {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
         {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
-        {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }},
-        {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }},
+        {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }, nullptr, true},
+        {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }, nullptr,
+         true},
         {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
         {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
         {"slices_fewer",
@@ -113,8 +114,8 @@ std::vector<Action> ownActions() {
         {"slices_more", always<[](ActionContext& c) {
              if (c.state.slices.count + 2 <= c.limits.maxSlices) setSliceCount(c.state, c.state.slices.count + 2);
          }>},
-        {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
-        {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
+        {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }, nullptr, true},
+        {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }, nullptr, true},
         {"view", always<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
         {"undo", nullptr, undo},
         {"redo", nullptr, redo},

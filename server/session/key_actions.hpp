@@ -27,6 +27,7 @@ struct Action {
     std::string name;  ///< the value of "action" in protocol/keymap.json
     std::function<Result<std::monostate>(ActionContext&)> onState = nullptr;
     std::function<Result<std::monostate>(Session&)> onSession = nullptr;
+    bool mayNeedLoading = false;  ///< whether `onState` may use ActionContext::loader
 };
 
 /// Returns all actions that the server performs: those of the table in key_actions.cpp; for each row of scene::kParts,

@@ -37,11 +37,11 @@ ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache
 
 ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
                            CriticalSearchOptions search)
-    : limits_(limits), cache_(cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
+    : limits_(limits), cache_(&cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
 
 Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
     try {
-        return slicing::Object(cache_.get(design));
+        return slicing::Object(cache_->get(design));
     } catch (const polytopes::TooLarge& fault) {
         return Error{ErrorCode::too_large, "the " + design.name + " cannot be built: " + fault.what()};
     } catch (const std::invalid_argument& fault) {
@@ -52,7 +52,11 @@ Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
 Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design) {
     if (mode_ == Mode::immediate) return build(design);
     if (built_ && builtName_ == design.name) return *built_;
-    if (auto ready = cache_.find(design)) return slicing::Object(std::move(ready));
+    if (auto ready = cache_->find(design)) {
+        built_ = Result<slicing::Object>(slicing::Object(std::move(ready)));
+        builtName_ = design.name;
+        return *built_;
+    }
     pending_ = design;
     return kLater;
 }
@@ -77,13 +81,17 @@ Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& 
 
 Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& source,
                                                     const geometry::ReferenceFrame& frame) {
-    if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{} || elementsOf(source) <= kSmall)
-        return slicing::transformedTo(source, frame);
+    if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{}) return slicing::transformedTo(source, frame);
     const auto made = std::ranges::find_if(objectsInFrames_, [&](const ObjectInReferenceFrame& each) {
         return each.source == source && each.frame == frame;
     });
     if (made != objectsInFrames_.end()) return made->object;
-    pending_ = ObjectInReferenceFrame{source, frame};
+    ObjectInReferenceFrame wanted{source, frame};
+    if (elementsOf(source) <= kSmall) {
+        wanted.object = slicing::transformedTo(source, frame);
+        return objectsInFrames_.emplace_back(std::move(wanted)).object;
+    }
+    pending_ = std::move(wanted);
     return kLater;
 }
 
@@ -105,7 +113,12 @@ Result<slicing::CriticalPtr> ObjectLoader::criticalSections(const State& state) 
     CriticalSearchArguments arguments = criticalSearchArguments(state);
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     if (search_.cache != nullptr) {
-        if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) return known;
+        if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) {
+            if (mode_ == Mode::immediate) return known;
+            critical_ = Result<slicing::CriticalPtr>(std::move(known));
+            searched_ = state.object;
+            return *critical_;
+        }
     }
     if (mode_ == Mode::immediate || (!isField && elementsOf(state.object) <= kSmall)) return search(arguments, {});
     pending_ = std::move(arguments);

@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -45,8 +46,10 @@ CriticalSearchArguments criticalSearchArguments(const State& state);
 
 /// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
 /// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
-/// they return an error if the object is not available yet, and the object becomes pending. The caller then calls
-/// completePending(), on any thread, and applies the command again, until nothing is pending.
+/// they return an error if the object is not available yet, and the object becomes pending. needsLoading() calls them
+/// to find what a command needs; the caller then calls completePending(), on any thread, and asks again, until nothing
+/// is pending. What was available once stays available, even if a cache drops it in the meantime. A loader can be
+/// moved, also while something is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
@@ -66,7 +69,7 @@ class ObjectLoader {
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
     /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is always
-    /// transformed at once, even with Mode::deferred.
+    /// transformed at once, even with Mode::deferred, which makes each image once.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
@@ -77,9 +80,11 @@ class ObjectLoader {
     /// `canceled` if the search was stopped.
     Result<slicing::CriticalPtr> criticalSections(const State& state);
 
-    /// Returns whether an object or a search is pending: the command failed only because its result is not available
+    /// Returns whether an object or a search is pending: a function failed only because its result is not available
     /// yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
+    /// Replaces the FileReader.
+    void readFilesWith(FileReader reader) { reader_ = std::move(reader); }
     /// Returns whether the pending object must be read by the FileReader.
     bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
     /// Returns whether a search for critical values of w is pending. A search takes longer than drawing a picture.
@@ -112,7 +117,7 @@ class ObjectLoader {
     Result<slicing::Object> build(const polytopes::Design& design);
 
     Limits limits_;
-    polytopes::PolytopeCache& cache_;
+    polytopes::PolytopeCache* cache_;
     Mode mode_;
     FileReader reader_;
     CriticalSearchOptions search_;
@@ -130,7 +135,8 @@ class ObjectLoader {
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    // Up to two objects, because a command may change both the object and the frame of reference.
+    // In the frame before the command and in the one after it, because a command may change both the object and the
+    // frame of reference; more only if the session changes while they are made.
     std::vector<ObjectInReferenceFrame> objectsInFrames_;
 };
 

@@ -92,20 +92,131 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     return {left, quaternion()};
 }
 
+// What a session is after a command: its state and its loaded objects.
+struct Outcome {
+    State next;
+    std::optional<LoadedObjects> loaded = {};  // empty if they stay the same
+};
+
+// Computes the outcome of the commands that may need an object or critical values of w from the loader. Does not change
+// the session.
+class OutcomeOfCommand {
+  public:
+    OutcomeOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
+        : session_(session), limits_(limits), loader_(loader) {}
+
+    Result<Outcome> of(const Binding& binding) const {
+        Outcome outcome{session_.current};
+        ActionContext context{outcome.next,  session_.loaded,          limits_,        loader_,
+                              binding.plane, binding.isDoubleRotation, binding.inverse};
+        if (VoidResult done = binding.action->onState(context); !done) return done.error();
+        return outcome;
+    }
+    Result<Outcome> of(const Set& command) const {
+        Outcome outcome{session_.current};
+        if (command.formula) {
+            outcome.loaded = session_.loaded;
+            if (VoidResult done = loadFormula(*command.formula, *outcome.loaded); !done) return done.error();
+        }
+        const LoadedObjects& loaded = outcome.loaded ? *outcome.loaded : session_.loaded;
+        if (VoidResult done = applySet(outcome.next, command, loaded, limits_, loader_); !done) return done.error();
+        return outcome;
+    }
+    // The command replaces an object: `append` is false.
+    Result<Outcome> of(const LoadObject& command) const {
+        if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room.error();
+        const auto reading = loader_.objectFrom(command);
+        if (!reading) return reading.error();
+        Outcome outcome{session_.current, session_.loaded};
+        State& next = outcome.next;
+        if (VoidResult done = replaceObject(next, reading->object, loader_); !done) return done.error();
+        const State& before = session_.current;
+        if (command.continues && slicing::fieldIn(before.object) != nullptr &&
+            slicing::fieldIn(next.object) != nullptr) {
+            next.look.field = before.look.field;
+            if (slicing::infoOf(before.object).circumradius == slicing::infoOf(next.object).circumradius) {
+                next.look.focusPoint = before.look.focusPoint;
+                next.slices = before.slices;
+            }
+        }
+        outcome.loaded->insert_or_assign(command.name, reading->object);
+        return outcome;
+    }
+    Result<Outcome> of(const OpenAddress& command) const {
+        auto query = parseQuery(command.query);
+        if (!query) {
+            return Error{ErrorCode::bad_expression,
+                         "in the query of an address, two hexadecimal digits must follow each %, as in 5%25"};
+        }
+        std::erase_if(*query, [](const auto& parameter) { return isOfConnection(parameter.first); });
+        const auto has = [&](std::string_view name) {
+            return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
+        };
+        State start = session_.current;
+        // The rotations of an address lead from the initial orientation to its view.
+        if (has("rotate") || has("polytope") || has(kFormula)) returnToInitialOrientation(start);
+        auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
+        if (!next) return next.error();
+        Outcome outcome{std::move(*next)};
+        const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
+        if (formula != query->end()) {
+            if (VoidResult room = checkRoom(session_.loaded, formula->first); !room) return room.error();
+            outcome.loaded = session_.loaded;
+            outcome.loaded->insert_or_assign(formula->first, outcome.next.source);
+        }
+        return outcome;
+    }
+
+    // Returns the loaded array called `command.name`, extended by the time steps in the file of `command`.
+    Result<slicing::Object> extendedField(const LoadObject& command) const {
+        const auto loaded = session_.loaded.find(command.name);
+        if (loaded == session_.loaded.end())
+            return Error{ErrorCode::not_found, "no field called " + text::inQuotes(command.name) + " is loaded"};
+        const auto added = loader_.objectFrom(command);
+        if (!added) return added.error();
+        return loader_.fieldWithTimeSteps(loaded->second, added->object);
+    }
+
+  private:
+    VoidResult checkRoom(const LoadedObjects& loaded, const std::string& name) const {
+        if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
+        return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
+                                              " loaded objects; load under a name that is in use to replace one"};
+    }
+
+    // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.
+    VoidResult loadFormula(const LoadObject& load, LoadedObjects& loaded) const {
+        if (const auto present = loadedOrExample(load.name, loaded)) {
+            const fields::Field* const field = slicing::fieldIn(*present);
+            const std::string second = field != nullptr && field->second ? field->second->formula : "";
+            if (field != nullptr && field->formula == load.data && second == load.secondFormula &&
+                field->box == load.box)
+                return std::monostate{};
+        }
+        if (VoidResult room = checkRoom(loaded, load.name); !room) return room;
+        const auto reading = loader_.objectFrom(load);
+        if (!reading) return reading.error();
+        loaded.insert_or_assign(load.name, reading->object);
+        return std::monostate{};
+    }
+
+    const Session& session_;
+    const Limits& limits_;
+    ObjectLoader& loader_;
+};
+
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class CommandApplier {
   public:
     CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader)
-        : session_(session), limits_(limits), loader_(loader) {}
+        : session_(session), limits_(limits), outcome_(session, limits, loader) {}
 
     VoidResult operator()(const Key& key) {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
-        VoidResult done = *binding ? press(**binding) : VoidResult(std::monostate{});
-        // A sequence ends also if its action is refused. If an object is pending, the key is pressed again later.
-        if (done || !loader_.isPending()) session_.pendingKey = std::move(pending);
-        return done;
+        session_.pendingKey = std::move(pending);  // a sequence ends also if its action is refused
+        return *binding ? press(**binding) : VoidResult(std::monostate{});
     }
     VoidResult operator()(const Rotate& command) {
         if (VoidResult valid = checkTurn(command.turn); !valid) return valid;
@@ -131,38 +242,9 @@ class CommandApplier {
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    VoidResult operator()(const Set& command) {
-        State next = session_.current;
-        std::optional<LoadedObjects> extended;  // with the field of `formula`; empty if there is no `formula`
-        if (command.formula) {
-            extended = session_.loaded;
-            if (VoidResult done = loadFormula(*command.formula, *extended); !done) return done;
-        }
-        const LoadedObjects& loaded = extended ? *extended : session_.loaded;
-        if (VoidResult done = applySet(next, command, loaded, limits_, loader_); !done) return done;
-        if (extended) session_.loaded = std::move(*extended);
-        (command.continues ? amend : commit)(session_, std::move(next), limits_);
-        return std::monostate{};
-    }
+    VoidResult operator()(const Set& command) { return finish(outcome_.of(command), command.continues); }
     VoidResult operator()(const LoadObject& command) {
-        if (command.append) return append(command);
-        if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room;
-        const auto reading = loader_.objectFrom(command);
-        if (!reading) return reading.error();
-        State next = session_.current;
-        if (VoidResult done = replaceObject(next, reading->object, loader_); !done) return done;
-        const State& before = session_.current;
-        if (command.continues && slicing::fieldIn(before.object) != nullptr &&
-            slicing::fieldIn(next.object) != nullptr) {
-            next.look.field = before.look.field;
-            if (slicing::infoOf(before.object).circumradius == slicing::infoOf(next.object).circumradius) {
-                next.look.focusPoint = before.look.focusPoint;
-                next.slices = before.slices;
-            }
-        }
-        session_.loaded.insert_or_assign(command.name, reading->object);
-        (command.continues ? amend : commit)(session_, std::move(next), limits_);
-        return std::monostate{};
+        return command.append ? append(command) : finish(outcome_.of(command), command.continues);
     }
     VoidResult operator()(const Undo& /*command*/) { return undo(session_); }
     VoidResult operator()(const Redo& /*command*/) { return redo(session_); }
@@ -177,85 +259,81 @@ class CommandApplier {
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
-    VoidResult operator()(const OpenAddress& command) {
-        auto query = parseQuery(command.query);
-        if (!query) {
-            return Error{ErrorCode::bad_expression,
-                         "in the query of an address, two hexadecimal digits must follow each %, as in 5%25"};
-        }
-        std::erase_if(*query, [](const auto& parameter) { return isOfConnection(parameter.first); });
-        const auto has = [&](std::string_view name) {
-            return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
-        };
-        State start = session_.current;
-        // The rotations of an address lead from the initial orientation to its view.
-        if (has("rotate") || has("polytope") || has(kFormula)) returnToInitialOrientation(start);
-        auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
-        if (!next) return next.error();
-        const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
-        if (formula != query->end()) {
-            if (VoidResult room = checkRoom(session_.loaded, formula->first); !room) return room;
-            session_.loaded.insert_or_assign(formula->first, next->source);
-        }
-        commit(session_, std::move(*next), limits_);
-        return std::monostate{};
-    }
+    VoidResult operator()(const OpenAddress& command) { return finish(outcome_.of(command), false); }
 
   private:
-    VoidResult checkRoom(const LoadedObjects& loaded, const std::string& name) const {
-        if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
-        return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
-                                              " loaded objects; load under a name that is in use to replace one"};
-    }
-
-    // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.
-    VoidResult loadFormula(const LoadObject& load, LoadedObjects& loaded) {
-        if (const auto present = loadedOrExample(load.name, loaded)) {
-            const fields::Field* const field = slicing::fieldIn(*present);
-            const std::string second = field != nullptr && field->second ? field->second->formula : "";
-            if (field != nullptr && field->formula == load.data && second == load.secondFormula &&
-                field->box == load.box)
-                return std::monostate{};
-        }
-        if (VoidResult room = checkRoom(loaded, load.name); !room) return room;
-        const auto reading = loader_.objectFrom(load);
-        if (!reading) return reading.error();
-        loaded.insert_or_assign(load.name, reading->object);
+    // Makes an outcome that is not an error that of the session. `continues`: whether it belongs to the undo step of
+    // the previous command.
+    VoidResult finish(Result<Outcome> outcome, bool continues) {
+        if (!outcome) return outcome.error();
+        if (outcome->loaded) session_.loaded = std::move(*outcome->loaded);
+        (continues ? amend : commit)(session_, std::move(outcome->next), limits_);
         return std::monostate{};
     }
 
     // Adds time steps to a loaded array. Undo does not remove them: the longer array replaces the shorter one in the
     // states of the history, too, so that only one array is in memory.
     VoidResult append(const LoadObject& command) {
-        const auto loaded = session_.loaded.find(command.name);
-        if (loaded == session_.loaded.end())
-            return Error{ErrorCode::not_found, "no field called " + text::inQuotes(command.name) + " is loaded"};
-        const auto added = loader_.objectFrom(command);
-        if (!added) return added.error();
-        const slicing::Object before = loaded->second;
-        const auto extended = loader_.fieldWithTimeSteps(before, added->object);
+        const auto extended = outcome_.extendedField(command);
         if (!extended) return extended.error();
+        slicing::Object& loaded = session_.loaded.at(command.name);
+        const slicing::Object before = loaded;
         ExtendedFieldsByOriginal images;
         for (State& state : session_.undoSteps) extendField(state, before, *extended, images);
         for (State& state : session_.redoSteps) extendField(state, before, *extended, images);
         if (extendField(session_.current, before, *extended, images)) ++session_.revision;
-        loaded->second = *extended;
+        loaded = *extended;
         return std::monostate{};
     }
 
     VoidResult press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
-        State next = session_.current;
-        ActionContext context{next,          session_.loaded,          limits_,        loader_,
-                              binding.plane, binding.isDoubleRotation, binding.inverse};
-        if (VoidResult done = binding.action->onState(context); !done) return done;
-        commit(session_, std::move(next), limits_);
-        return std::monostate{};
+        return finish(outcome_.of(binding), false);
     }
 
     Session& session_;
     const Limits& limits_;
-    ObjectLoader& loader_;
+    const OutcomeOfCommand outcome_;
+};
+
+// Asks the loader for what a command needs, as CommandApplier does. Only the loader remembers it: the outcome of the
+// command, which may be an error, is dropped. Commands that need nothing are not computed.
+class NeedsOfCommand {
+  public:
+    NeedsOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
+        : session_(session), outcome_(session, limits, loader) {}
+
+    void operator()(const Key& key) const {
+        std::string pending = session_.pendingKey;
+        const auto binding = bindingOf(key, pending);
+        if (binding && *binding && (*binding)->action->mayNeedLoading) static_cast<void>(outcome_.of(**binding));
+    }
+    void operator()(const Set& command) const {
+        // A formula alone needs nothing, because its field is made at once.
+        if (command.object || command.pace || command.follow || command.boost) static_cast<void>(outcome_.of(command));
+    }
+    void operator()(const LoadObject& command) const {
+        if (command.append) {
+            static_cast<void>(outcome_.extendedField(command));
+        } else {
+            static_cast<void>(outcome_.of(command));
+        }
+    }
+    void operator()(const CommandLine& command) const {
+        const auto parsed = parseCommandLine(command.line, session_.current);
+        if (parsed) std::visit(*this, *parsed);
+    }
+    void operator()(const OpenAddress& command) const { static_cast<void>(outcome_.of(command)); }
+    void operator()(const Rotate& /*command*/) const {}
+    void operator()(const TurnToward& /*command*/) const {}
+    void operator()(const TurnAtRandom& /*command*/) const {}
+    void operator()(const Undo& /*command*/) const {}
+    void operator()(const Redo& /*command*/) const {}
+    void operator()(const Reset& /*command*/) const {}
+
+  private:
+    const Session& session_;
+    const OutcomeOfCommand outcome_;
 };
 
 }  // namespace
@@ -277,6 +355,11 @@ State initialState() {
 double spanningSpacing(const slicing::Object& object, int count) {
     const double reach = slicing::initialSliceExtent(object);
     return count > 1 ? 2 * reach / (count - 1) : reach;
+}
+
+bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
+    std::visit(NeedsOfCommand(session, limits, loader), command);
+    return loader.isPending();
 }
 
 VoidResult apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {

@@ -160,10 +160,16 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 
+/// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. They are then
+/// pending, and the caller completes them (ObjectLoader::completePending()) and asks again: a command may need first an
+/// object and then its image in the frame of reference. Does not change the session.
+bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
+
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
 /// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
 /// moves of the camera, the end of continuous turning, commands with `continues`, and added time steps; see
-/// history.hpp. `loader` builds polytopes and reads files.
+/// history.hpp. `loader` builds polytopes and reads files; if it defers this, needsLoading() must have returned false
+/// for this session and this loader.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.

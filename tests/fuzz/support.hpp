@@ -192,14 +192,14 @@ inline void execute(session::Session& session, const session::Command& command) 
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
-    auto done = session::apply(session, command, kLimits, loader);
-    for (int orders = 0; loader.isPending(); ++orders) {
-        require(!done && session == before, "what is not ready yet changes nothing");
+    for (int orders = 0; session::needsLoading(session, command, kLimits, loader); ++orders) {
+        require(session == before, "what is not ready yet changes nothing");
         if (!small) return;
-        loader.completePending();
-        done = session::apply(session, command, kLimits, loader);
         require(orders < 3, "a command orders at most a file, the array to which it is added, and images");
+        loader.completePending();
     }
+    const auto done = session::apply(session, command, kLimits, loader);
+    require(!loader.isPending(), "a command needs nothing that was not found before");
     if (!done) {
         requireSentence(done.error());
         require(session == before, "an error leaves the session as it was:", done.error().message);

@@ -133,31 +133,24 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
                                                                               std::shared_ptr<Peer> peer,
                                                                               const session::Command& command,
                                                                               bool awaitStore) {
-    const auto loader = loading_->makeLoader();
+    session::ObjectLoader loader = loading_->makeLoader();
+    const session::Limits& limits = services_.options.session;
     Result<std::monostate> done = kInternalError;
     std::uint64_t before = 0;
     slicing::Object source, shown;
     session::LoadedObjects loaded;
     try {
-        for (;;) {
-            before = revision();
-            source = session_.current.source;
-            shown = session_.current.object;
-            loaded = session_.loaded;
-            done = session::apply(session_, command, services_.options.session, *loader);
-            if (!loader->isPending()) break;
-            std::shared_ptr<CriticalSearchHandle> search;
-            if (loader->isSearchPending()) {
-                search = loading_->registerSearch(peer);
-                // Without this call, the connection would not read for some time while this command runs, and would
-                // notice too late that the client has left.
-                if (peer) peer->watchForDisconnect();
-            }
-            if (auto refused = co_await loading_->completePending(by, loader, std::move(search))) {
-                done = std::move(*refused);
-                break;
-            }
+        while (session::needsLoading(session_, command, limits, loader)) {
+            // Without this call, the connection would not read for some time while this command runs, and would notice
+            // too late that the client has left.
+            if (peer && loader.isSearchPending()) peer->watchForDisconnect();
+            if (auto refused = co_await loading_->completePending(by, peer, loader)) co_return *refused;
         }
+        before = revision();
+        source = session_.current.source;
+        shown = session_.current.object;
+        loaded = session_.loaded;
+        done = session::apply(session_, command, limits, loader);
         if (done) metered_->adjustReservationOrTrimUndo(session_.current.object != shown || session_.loaded != loaded);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
@@ -166,7 +159,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
         done = kInternalError;
     }
     if (!done) co_return done.error();
-    CommandResult applied{revision(), loader->warnings(), true};
+    CommandResult applied{revision(), loader.warnings(), true};
     // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;

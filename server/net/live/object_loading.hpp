@@ -24,23 +24,19 @@ class ObjectLoading {
     ObjectLoading(Services services, std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams)
         : services_(services), metered_(std::move(metered)), streams_(std::move(streams)) {}
 
-    /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred).
-    std::shared_ptr<session::ObjectLoader> makeLoader() const;
+    /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred). Allocates no memory, because most
+    /// commands need nothing.
+    session::ObjectLoader makeLoader() const;
 
-    /// Registers a search for the critical values of w of the current object (see slicing/critical/), so that the
-    /// search can be stopped. completePending() runs the search. `peer`: the connection that needs the result; may be
-    /// null.
-    std::shared_ptr<CriticalSearchHandle> registerSearch(const std::shared_ptr<Peer>& peer);
+    /// Builds or reads the loader's pending object on a worker. If a search for critical values of w is pending instead
+    /// (see slicing/critical/), an export worker runs it, and searches() can stop it. `by`: the client whose job queue
+    /// is charged. `peer`: the connection that needs the result; may be null. The caller must keep `loader` until the
+    /// result is there. Returns an error if there is no room for the result, else an empty optional. Throws
+    /// parallel::QueueFull if too many jobs are waiting, and what the job throws; the loader must not be used then.
+    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
+                                                                 session::ObjectLoader& loader);
 
-    /// Builds or reads the loader's pending object on a worker. If a search is pending instead, an export worker runs
-    /// it. `by`: the client whose job queue is charged. `search`: the registration of the pending search; null if no
-    /// search is pending. Returns an error if there is no room for the result, else an empty optional. Throws
-    /// parallel::QueueFull if too many jobs are waiting, and what the job throws.
-    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by,
-                                                                 std::shared_ptr<session::ObjectLoader> loader,
-                                                                 std::shared_ptr<CriticalSearchHandle> search);
-
-    /// The searches that registerSearch() has registered.
+    /// Returns the searches that completePending() runs.
     CriticalSearches& searches() { return searches_; }
 
   private:

@@ -112,7 +112,8 @@ void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id
 }
 
 void RequestAnswers::answerWithOpenAddress(Peer& peer, RequestId id) {
-    const auto query = session::queryFromState(session_.current, *loading_->makeLoader());
+    session::ObjectLoader loader = loading_->makeLoader();
+    const auto query = session::queryFromState(session_.current, loader);
     if (query) {
         peer.send(textAnswer(session::OpenAddress{session::queryText(*query)}, id));
     } else {
@@ -165,14 +166,12 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
 
 /// Finds the critical values of w of the current object. Unless they are known, an export worker searches for them.
 asio::awaitable<Result<slicing::CriticalPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
-    const auto loader = loading_->makeLoader();
+    session::ObjectLoader loader = loading_->makeLoader();
     const session::State asked = session_.current;
-    auto found = loader->criticalSections(asked);
-    if (!loader->isPending()) co_return found;
-    auto search = loading_->registerSearch(peer);
-    if (auto refused = co_await loading_->completePending(peer->client(), loader, std::move(search)))
-        co_return *refused;
-    co_return loader->criticalSections(asked);
+    auto found = loader.criticalSections(asked);
+    if (!loader.isPending()) co_return found;
+    if (auto refused = co_await loading_->completePending(peer->client(), peer, loader)) co_return *refused;
+    co_return loader.criticalSections(asked);
 }
 
 asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,

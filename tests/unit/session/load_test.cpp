@@ -197,6 +197,26 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_FALSE(done);
 }
 
+TEST(Load, FilesThatWouldBeRefusedAreNotRead) {
+    Session session;
+    must(session, LoadObject{"a", "off", kPentachoron});
+    const FileReader reader = [](const LoadObject&, const Limits&) -> Result<ObjectWithWarnings> {
+        return Error{ErrorCode::internal, "the test does not read"};
+    };
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
+    const Limits full{.maxLoaded = 1};
+    LoadObject load{"b", "off", kPentachoron};
+    EXPECT_FALSE(needsLoading(session, load, full, loader)) << "no room";
+    load.append = true;
+    EXPECT_FALSE(needsLoading(session, load, full, loader)) << "no field to append to";
+    load.append = false;
+    load.format = "docx";
+    EXPECT_FALSE(needsLoading(session, load, Limits{}, loader)) << "no such format";
+    load = {"a", "off", kPentachoron};
+    EXPECT_TRUE(needsLoading(session, load, full, loader)) << "it replaces the loaded object";
+    EXPECT_TRUE(loader.pendingNeedsFile());
+}
+
 TEST(Load, IsLimited) {
     Session session;
     const Limits limits{.maxLoaded = 2};

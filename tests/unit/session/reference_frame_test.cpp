@@ -175,29 +175,31 @@ TEST(ReferenceFrames, QueriesApplyThemBeforeTheSlices) {
 TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     Session session;
     line(session, "set pace=2");
-    const auto apply = [&](const CommandLine& command, ObjectLoader& loader) {
-        return session::apply(session, command, Limits{}, loader);
-    };
     for (const char* name : {"120-cell", "24-cell"}) (void)support::shared(name);  // in the cache
     const Session before = session;
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     const CommandLine both{"set polytope=120-cell boost=0.5,0,0"};
     int images = 0;
-    auto done = apply(both, loader);
-    for (; loader.isPending() && images < 5; ++images) {
-        EXPECT_FALSE(done);
+    for (; needsLoading(session, both, Limits{}, loader) && images < 5; ++images) {
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
         EXPECT_GT(loader.memoryNeeded(), slicing::memoryOf(support::shared("120-cell")));
-        loader.completePending();
-        done = apply(both, loader);
+        ObjectLoader moved = std::move(loader);  // as a server moves it to a worker and back
+        moved.completePending();
+        loader = std::move(moved);
     }
+    const auto done = session::apply(session, both, Limits{}, loader);
     ASSERT_TRUE(done) << done.error().message;
     EXPECT_EQ(images, 2) << "in the old frame and in the new one";
     EXPECT_EQ(infoOf(session.current).name, "120-cell");
     EXPECT_EQ(session.current.referenceFrame, (geometry::ReferenceFrame{2, {}, {0.5, 0, 0}}));
     ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
-    ASSERT_TRUE(apply(CommandLine{"polytope 24-cell"}, other)) << "small images are made at once";
+    const CommandLine small{"polytope 24-cell"};
+    EXPECT_FALSE(needsLoading(session, small, Limits{}, other)) << "small images are made at once";
+    const auto image = other.transformedTo(support::shared("24-cell"), session.current.referenceFrame);
+    ASSERT_TRUE(image);
+    ASSERT_TRUE(session::apply(session, small, Limits{}, other));
+    EXPECT_EQ(session.current.object, *image) << "and only once";
 }
 
 TEST(ReferenceFrames, ImagesAreCountedAndLimited) {

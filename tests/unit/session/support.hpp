@@ -79,14 +79,13 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
 /// Applies a command as a server does, and sets `done` to the result. Returns how many times the server must wait for
 /// `loader` to load an object.
 inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
-    for (int orders = 0;; ++orders) {
-        const Session before = session;
-        done = apply(session, command, Limits{}, loader);
-        if (!loader.isPending()) return orders;
-        EXPECT_FALSE(done);
-        EXPECT_EQ(session, before);
-        loader.completePending();
-    }
+    const Session before = session;
+    int orders = 0;
+    for (; needsLoading(session, command, Limits{}, loader); ++orders) loader.completePending();
+    EXPECT_EQ(session, before);
+    done = apply(session, command, Limits{}, loader);
+    EXPECT_FALSE(loader.isPending()) << "a command needs nothing that needsLoading() has not found";
+    return orders;
 }
 
 }  // namespace oval4d::session
