@@ -78,6 +78,11 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
     return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n) + field);
 }
 
+EstimatedSeconds focusSectionCost(const session::State& state) {
+    const double n = elementTotal(state.object);
+    return EstimatedSeconds(1e-4 + 1e-8 * n + 1e-7 * elementsCut(n));
+}
+
 EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request) {
     constexpr slicing::Quality kQuality = slicing::Quality::file;
     const int chosen = request.fittedSlices.value_or(static_cast<int>(request.chosenW.size()));

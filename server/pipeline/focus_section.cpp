@@ -1,6 +1,18 @@
 #include "pipeline/focus_section.hpp"
 
+#include <cstddef>
+#include <numeric>
+#include <variant>
+
 namespace oval4d::pipeline {
+
+bool FocusSectionNamer::isFast(const session::State& state) {
+    constexpr std::size_t kFew = 1000;
+    if (slicing::fieldIn(state.object) != nullptr || std::holds_alternative<slicing::CloudPtr>(state.object))
+        return true;  // see SectionNamer::mayHaveName()
+    const auto counts = slicing::elementCounts(state.object);
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) <= kFew;
+}
 
 slicing::SectionNamePair FocusSectionNamer::names(const session::State& state) {
     if (!slicing::SectionNamer::mayHaveName(state.object, state.orientation, state.focusW())) return {};

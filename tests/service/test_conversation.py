@@ -105,6 +105,28 @@ async def test_commands_select_and_rotate_a_polytope(server):
         assert state["last"]["angles"] == pytest.approx([math.pi / 8, math.pi / math.sqrt(3) - math.pi / 8])
 
 
+async def test_states_of_large_polytopes_name_their_sections(server):
+    """Workers name them; clients without pictures are sent the newest state all the same, in the colors of each."""
+    async with Client(server) as dark:
+        session, token = dark.welcome["session"], dark.welcome["token"]
+        async with Client(server, session, token=token, scheme="light") as light:
+            await dark.request("set", polytope="600-cell")
+            done = await dark.request("toward", element="vertex", immediately=True)
+            colors = []
+            for client in (dark, light):
+                state = await client.wait_for_state(done["revision"])
+                assert (state["section"]["name"], state["section"]["vertices"]) == ("", "icosidodecahedron")
+                answer = await client.request("get", what="state")
+                assert {name: value for name, value in answer.items() if name != "id"} == state
+                colors.append(state["polytope"]["kinds"][0]["color"])
+            assert colors[0] != colors[1]
+            for _ in range(20):
+                await dark.send("key", key="l")
+            done = await dark.request("key", key="l")
+            for client in (dark, light):
+                assert (await client.wait_for_state(done["revision"]))["slices"]["focus"] == 21
+
+
 async def test_a_loaded_polytope_is_shown_and_listed(server):
     simplex = ("4OFF\n5 10 10 5\n1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n"
                "0 0 0 1.788854\n3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n"

@@ -1,11 +1,16 @@
 #include "net/live/picture_streams.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <boost/asio/post.hpp>
+#include <exception>
 #include <tuple>
 #include <utility>
 
 #include "net/live/errors.hpp"
+#include "pipeline/cost.hpp"
+#include "pipeline/focus_section.hpp"
 
 namespace oval4d::net {
 
@@ -74,13 +79,19 @@ void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
 void PictureStreams::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
+    if (state_ && state_->revision != revision()) state_.reset();  // it may keep objects that the session has dropped
     std::vector<StreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
     for (auto& [key, subscriber] : subscribers_) {
         if (subscriber.pacing.newestSentOrSkipped() == revision() && subscriber.quality >= wanted) continue;
         if (subscriber.streamKey.stream == Stream::none) {
-            if (!subscriber.stateInFlight) sendState(subscriber);
+            if (subscriber.stateInFlight) continue;
+            if (const SnapshotPtr state = currentState()) {
+                sendState(subscriber, *state);
+            } else {
+                requestState(subscriber);
+            }
             continue;
         }
         allServed = false;
@@ -203,6 +214,7 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
         try {
             if (!suffices(result.snapshot, key))
                 result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
+            result.snapshot->stateTextFor(key.scheme);  // makes the text here, and not when the strand sends it
             std::function<void()> whenDrawn;
             if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onLastPictureDrawn(job, key); };
             result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
@@ -232,6 +244,7 @@ void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& 
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
+    if (result.snapshot) section_.emplace(result.snapshot->revision, result.snapshot->section);
     pictures_.addUnlessOlder(result.snapshot, std::move(result.pictures));
     for (auto& [key, subscriber] : subscribers_) {
         if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
@@ -273,34 +286,88 @@ void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingM
                });
 }
 
-/// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
-/// client's socket accepts messages, states in between are skipped.
-void PictureStreams::sendState(Subscriber& subscriber) {
+SnapshotPtr PictureStreams::currentState() {
+    assertOnStrand();
+    if (state_ && state_->revision == revision()) return state_;
+    slicing::SectionNamePair section;
+    if (section_ && section_->first == revision()) {
+        section = section_->second;
+    } else if (pipeline::FocusSectionNamer::isFast(session_.current)) {
+        section = pipeline::FocusSectionNamer().names(session_.current);
+    } else {
+        return nullptr;
+    }
+    return state_ = makeStateSnapshot(session_.current, revision(), lastChangeTime(), section);
+}
+
+std::function<SnapshotPtr(pipeline::Pipeline&)> PictureStreams::currentStateJob() const {
+    return [state = session_.current, ofRevision = revision(), changed = lastChangeTime()](pipeline::Pipeline& worker) {
+        return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(state));
+    };
+}
+
+bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
+    assertOnStrand();
+    if (state->revision != revision()) return false;
+    state_ = state;
+    return true;
+}
+
+/// Lets a worker make the current state for clients without a stream, unless it makes one already. `subscriber`: the
+/// client that is charged.
+void PictureStreams::requestState(const Subscriber& subscriber) {
+    assertOnStrand();
+    if (stateRequested_) return;
+    const auto job = [self = shared_from_this(), make = currentStateJob()](pipeline::Pipeline& pipeline) {
+        SnapshotPtr made;
+        try {
+            made = make(pipeline);
+        } catch (const std::exception& fault) {
+            spdlog::error("state failed session={} fault=\"{}\"", self->sessionId_, fault.what());
+        }
+        asio::post(self->strand_, [self, made] { self->onStateMade(made); });
+    };
+    stateRequested_ =
+        services_.pictureWorkers.post(job, subscriber.jobQueues.pictures, pipeline::focusSectionCost(session_.current));
+    if (!stateRequested_) scheduleRetry();
+}
+
+/// Sends the state that a worker has made. As a picture, it is sent even if the session has changed in the meantime,
+/// because it is newer than the state that the clients have. `made`: null if it could not be made.
+void PictureStreams::onStateMade(const SnapshotPtr& made) {
+    assertOnStrand();
+    stateRequested_ = false;
+    if (!made) return scheduleRetry();
+    if (!keepIfCurrent(made)) {
+        for (auto& [key, subscriber] : subscribers_) {
+            const auto newest = subscriber.pacing.newestSentOrSkipped();
+            if (subscriber.streamKey.stream == Stream::none && !subscriber.stateInFlight &&
+                (!newest || *newest < made->revision))
+                sendState(subscriber, *made);
+        }
+    }
+    sendAndRequestPictures();
+}
+
+/// Sends the state of `snapshot` to a client without a stream, one message at a time: if the state changes faster than
+/// the client's socket accepts messages, states in between are skipped.
+void PictureStreams::sendState(Subscriber& subscriber, const Snapshot& snapshot) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
-    SharedBytes text;
-    if (subscriber.streamKey.scheme == scene::Scheme::dark) {
-        if (stateRevision_ != revision()) {
-            stateText_ = SharedBytes(stateText(session_, {}, scene::Scheme::dark));
-            stateRevision_ = revision();
-        }
-        text = stateText_;
-    } else {
-        text = SharedBytes(stateText(session_, {}, subscriber.streamKey.scheme));
-    }
-    subscriber.pacing.recordSkipped(revision());
+    subscriber.pacing.recordSkipped(snapshot.revision);
     subscriber.quality = slicing::Quality::full;
     subscriber.stateInFlight = true;
-    peer->send({text, false}, [weak = weak_from_this(), to = subscriber.peer] {
-        const auto self = weak.lock();
-        if (!self) return;
-        asio::post(self->strand_, [self, to] {
-            const auto written = self->subscribers_.find(to.lock().get());
-            if (written == self->subscribers_.end()) return;
-            written->second.stateInFlight = false;
-            self->sendAndRequestPictures();
-        });
-    });
+    peer->send({snapshot.stateTextFor(subscriber.streamKey.scheme), false},
+               [weak = weak_from_this(), to = subscriber.peer] {
+                   const auto self = weak.lock();
+                   if (!self) return;
+                   asio::post(self->strand_, [self, to] {
+                       const auto written = self->subscribers_.find(to.lock().get());
+                       if (written == self->subscribers_.end()) return;
+                       written->second.stateInFlight = false;
+                       self->sendAndRequestPictures();
+                   });
+               });
 }
 
 /// Starts a timer that calls assumeOverduePicturesShown(), which marks pictures as shown that clients have not

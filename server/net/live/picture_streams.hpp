@@ -25,7 +25,8 @@
 #include "net/live/snapshot_picture_cache.hpp"
 #include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
-#include "net/shared_bytes.hpp"
+#include "pipeline/pipeline.hpp"
+#include "slicing/section_name.hpp"
 
 namespace oval4d::net {
 
@@ -76,6 +77,15 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return draftTiming_.lastChangeTime(); }
+    /// Returns the current state with the names of its section, without slices; null if a worker must name the section,
+    /// because that may take long, and none has yet.
+    SnapshotPtr currentState();
+    /// Returns a job that names the section of the current state, and returns the state.
+    std::function<SnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
+    /// Lets currentState() return this result of a currentStateJob(), unless the session has changed in the meantime.
+    /// Returns whether it has not.
+    bool keepIfCurrent(const SnapshotPtr& state);
+
     /// Returns the snapshot of the current revision, of full quality; null if there is none.
     SnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
@@ -123,7 +133,9 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     void scheduleRetry();
     void onJobDone(JobResult result);
     void sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture);
-    void sendState(Subscriber& subscriber);
+    void requestState(const Subscriber& subscriber);
+    void onStateMade(const SnapshotPtr& made);
+    void sendState(Subscriber& subscriber, const Snapshot& snapshot);
     void scheduleShownTimeout();
     void assumeOverduePicturesShown();
     Clock::duration shownTimeout() const;
@@ -147,14 +159,16 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     MotionTiming motionTiming_;
     PictureJobs inProgress_;
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
-    SharedBytes stateText_;  // the `state` message of stateRevision_ in the dark scheme, for clients without a stream
-    std::optional<std::uint64_t> stateRevision_;
+    SnapshotPtr state_;              // what currentState() has returned for the current revision, else null
+    bool stateRequested_ = false;    // whether a worker has been asked for a state
+    // The newest names that were made for pictures, and the revision of their section.
+    std::optional<std::pair<std::uint64_t, slicing::SectionNamePair>> section_;
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
     // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while the
-    // worker pool has no job of this session.
+    // worker pool has no picture job of this session.
     std::optional<PictureJob> queuedJob_;
 };
 

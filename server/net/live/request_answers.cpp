@@ -52,7 +52,7 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
     key.background = get.background;
     switch (get.what) {
         case wire::GetTarget::state:
-            peer->send(textMessage(stateText(session_, id, key.scheme)));
+            co_await answerWithState(peer, key.scheme, id);
             break;
         case wire::GetTarget::catalogue: {
             const std::vector<std::string> names = co_await dataNames(services_, peer->client());
@@ -109,6 +109,26 @@ void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id
     peer.send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
                                     Seconds(PictureStreams::Clock::now().time_since_epoch()).count()},
                          id));
+}
+
+asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id) {
+    SnapshotPtr state = streams_->currentState();
+    std::optional<Error> failed;
+    try {
+        if (!state) {
+            state = co_await runOnPool<SnapshotPtr>(services_.pictureWorkers, streams_->currentStateJob(),
+                                                    streams_->jobQueuesOf(peer->client()).pictures,
+                                                    pipeline::focusSectionCost(session_.current));
+            streams_->keepIfCurrent(state);
+        }
+        peer->send({state->stateTextFor(scheme, id), false});
+    } catch (const parallel::QueueFull&) {
+        failed = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("state failed session={} fault=\"{}\"", sessionId_, fault.what());
+        failed = kInternalError;
+    }
+    if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
 void RequestAnswers::answerWithOpenAddress(Peer& peer, RequestId id) {

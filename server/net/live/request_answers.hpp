@@ -46,6 +46,7 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
   private:
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
+    boost::asio::awaitable<void> answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id);
     void answerWithOpenAddress(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);

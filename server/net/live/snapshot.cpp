@@ -1,5 +1,6 @@
 #include "net/live/snapshot.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,8 +14,15 @@ namespace oval4d::net {
 using wire::Stream;
 
 SharedBytes Snapshot::stateTextFor(scene::Scheme scheme) const {
-    if (scheme == scene::Scheme::dark) return stateText;
-    return SharedBytes(wire::stateMessage(state, section, revision, {}, quality, scheme));
+    const std::lock_guard lock(textsMutex_);
+    SharedBytes& text = texts_.at(static_cast<std::size_t>(scheme));
+    if (text.size() == 0) text = SharedBytes(wire::stateMessage(state, section, revision, {}, quality, scheme));
+    return text;
+}
+
+SharedBytes Snapshot::stateTextFor(scene::Scheme scheme, std::optional<double> id) const {
+    if (!id) return stateTextFor(scheme);
+    return SharedBytes(wire::stateMessage(state, section, revision, id, quality, scheme));
 }
 
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
@@ -26,9 +34,18 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->changed = changed;
     made->quality = quality;
     made->section = pipeline.nameFocusSection(state);
-    made->stateText = SharedBytes(wire::stateMessage(state, made->section, revision, {}, quality));
     made->sliced = key.stream != Stream::frames;
     if (made->sliced) pipeline.slice(state, quality, made->slices);
+    return made;
+}
+
+SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
+                              std::chrono::steady_clock::time_point changed, const slicing::SectionNamePair& section) {
+    auto made = std::make_shared<Snapshot>();
+    made->state = state;
+    made->revision = revision;
+    made->changed = changed;
+    made->section = section;
     return made;
 }
 
@@ -58,11 +75,6 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapsh
     pipeline.writeSlices(state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
                          snapshot.quality);
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
-}
-
-std::string stateText(const session::Session& session, std::optional<double> id, scene::Scheme scheme) {
-    const auto section = pipeline::FocusSectionNamer().names(session.current);
-    return wire::stateMessage(session.current, section, session.revision, id, slicing::Quality::full, scheme);
 }
 
 Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality) {

@@ -1,10 +1,12 @@
 #pragma once
 // Pictures of one revision of a session.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -29,25 +31,37 @@ struct StreamKey {
     bool operator==(const StreamKey&) const = default;
 };
 
-/// The state of one revision of a session, with its slices if a client needs them. Immutable once made.
+/// The state of one revision of a session, with its slices if a client needs them. Its public members are immutable
+/// once it is made.
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
     slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
     slicing::SectionNamePair section;                   ///< the names of the section in the focus slice
-    SharedBytes stateText;                              ///< the `state` message for viewers who prefer dark pictures
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;
 
-    /// Returns the `state` message of this revision for viewers who prefer pictures of this scheme.
+    /// Returns the `state` message of this revision for viewers who prefer pictures of this scheme. Makes the text of
+    /// each scheme only once. Thread-safe.
     SharedBytes stateTextFor(scene::Scheme scheme) const;
+    /// Returns the same message, or, with an id, the message that answers the request with this id.
+    SharedBytes stateTextFor(scene::Scheme scheme, std::optional<double> id) const;
+
+  private:
+    mutable std::mutex textsMutex_;
+    mutable std::array<SharedBytes, scene::kSchemes.size()> texts_;  // by scheme; empty until made
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 
 /// Makes the snapshot of a revision, with slices if pictures of the kind `key` need them. Must be called on a worker.
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
                          std::chrono::steady_clock::time_point changed, const StreamKey& key, slicing::Quality quality);
+
+/// Makes the snapshot of a revision without slices and in full quality, for clients that are sent only states.
+/// `section`: the names of the section in the focus slice.
+SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
+                              std::chrono::steady_clock::time_point changed, const slicing::SectionNamePair& section);
 
 /// Returns whether the snapshot contains all that pictures of the kind `key` need. Returns false for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
@@ -57,9 +71,6 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 /// std::runtime_error if the picture cannot be drawn.
 OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                             std::optional<double> id, const std::function<void()>& whenDrawn = {});
-
-/// Returns the `state` message of the current state of a session, with this request id.
-std::string stateText(const session::Session& session, std::optional<double> id, scene::Scheme scheme);
 
 /// Returns the estimated time to make a picture of the kind `key`.
 Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,21 @@ SnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) 
 
 SnapshotPictureCache::MessagesByStream pictureOf(const StreamKey& key, const std::string& text) {
     return {{key, textMessage(text)}};
+}
+
+TEST(Snapshot, MakesOneTextOfTheStateForEachScheme) {
+    const SnapshotPtr snapshot = makeStateSnapshot(session::initialState(), 7, {}, {"cuboctahedron", "point"});
+    const SharedBytes dark = snapshot->stateTextFor(scene::Scheme::dark);
+    const SharedBytes light = snapshot->stateTextFor(scene::Scheme::light);
+    EXPECT_NE(dark.view().find("\"revision\":7,"), std::string_view::npos) << dark.view();
+    EXPECT_NE(dark.view().find("cuboctahedron"), std::string_view::npos) << dark.view();
+    EXPECT_NE(dark.view(), light.view()) << "their colors of cells differ";
+    EXPECT_EQ(snapshot->stateTextFor(scene::Scheme::dark).view().data(), dark.view().data());
+    EXPECT_EQ(snapshot->stateTextFor(scene::Scheme::light, {}).view().data(), light.view().data());
+    const SharedBytes answer = snapshot->stateTextFor(scene::Scheme::dark, 3);
+    EXPECT_NE(answer.view().find("\"id\":3,"), std::string_view::npos) << answer.view();
+    EXPECT_FALSE(snapshot->sliced);
+    EXPECT_EQ(snapshot->quality, Quality::full);
 }
 
 TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
