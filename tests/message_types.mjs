@@ -1,11 +1,12 @@
-// Generates protocol/ts/messages.ts, the types of messages and of the answers to requests, from the JSON Schemas of
-// messages; with --check, only compares. The slices message is not among them: slices.ts beside it has its types as they
-// are after decoding.
+// Generates the types of messages and of the answers to requests, in TypeScript (protocol/ts/messages.ts) and in Python
+// (protocol/python/oval4d_messages/), from the JSON Schemas of messages; with --check, only compares. The slices message
+// is not among them: protocol/ts/slices.ts has its types as they are after decoding.
 import { readFile, readdir, writeFile } from "node:fs/promises";
 import { compile } from "json-schema-to-typescript";
+import { kMeaning, pythonModule } from "./message_types_python.mjs";
 
 const kSchemas = new URL("../protocol/schema/", import.meta.url);
-const kOutput = new URL("../protocol/ts/messages.ts", import.meta.url);
+const kProtocol = new URL("../protocol/", import.meta.url);
 const kLongestTuple = 4;
 const kNotGenerated = ["slices"];
 const kNames = { error: "ErrorMessage" }; // "Error" is a class of JavaScript
@@ -14,7 +15,8 @@ const read = async (file) => JSON.parse(await readFile(new URL(file, kSchemas), 
 const files = (await readdir(kSchemas)).filter((name) => name.endsWith(".schema.json")).sort();
 const schemas = new Map(await Promise.all(files.map(async (name) => [name, await read(name)])));
 
-const converted = new Map(); // from each part of a schema to what json-schema-to-typescript reads
+// From each part of a schema to what json-schema-to-typescript and pythonModule read. Only the former reads "tsType".
+const converted = new Map();
 const namedParts = {}; // by name, the parts that are referred to by their names
 
 /** Returns the part of a schema that a reference names, such as "settings.schema.json#/properties/view", or is. */
@@ -51,7 +53,9 @@ function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, "x-a
     const name = $anchor && { title: $anchor };
     if (types.includes("array") && minItems === maxItems && minItems <= kLongestTuple) {
         const allowed = types.map((type) => (type === "array" ? tuple(keywords.items, minItems) : type));
-        return { tsType: allowed.join(" | "), description: keywords.description, ...name };
+        const meaning = { type: types, items: keywords.items };
+        const { description } = keywords;
+        return { tsType: allowed.join(" | "), description, [kMeaning]: () => convert(meaning), ...name };
     }
     if (keywords.items) keywords.items = convert(keywords.items);
     return { ...keywords, ...name };
@@ -72,7 +76,8 @@ function refer(part, { $ref, ...beside }) {
     const { required, description = part.description, title, ...others } = beside;
     if (part.$anchor === undefined || Object.keys(others).length > 0) return convertKeywords(merge(part, beside));
     const name = nameOf(part);
-    return { tsType: required ? `Required<${name}>` : name, description };
+    const meant = required ? { ...part, $anchor: undefined, required: [...(part.required ?? []), ...required] } : part;
+    return { tsType: required ? `Required<${name}>` : name, description, [kMeaning]: () => convert(meant) };
 }
 
 /** Adds keywords to a schema. Properties and items that both have are merged in the same way. */
@@ -123,42 +128,71 @@ const answers = messages.filter((message) => !isRequest(message) || message.type
 // The answer to a get has the type of what it asks for. Any other request without "x-answer" is a command.
 const withOneAnswer = requests.filter(({ type }) => type !== "get");
 const answerOf = ({ file }) => schemas.get(file)["x-answer"];
-const answerName = (request) => {
-    const type = answerOf(request) ?? "done";
-    return nameOfMessage(messages.find((message) => message.type === type));
+const answerName = (message) => {
+    const type = answerOf(message) ?? "done";
+    return nameOfMessage(messages.find((each) => each.type === type));
 };
-const unions = [
-    union("Request", requests),
-    union("Answer", answers),
-    union(
-        "Command",
-        withOneAnswer.filter((request) => answerOf(request) === undefined),
-        "A request that may change the session. The server answers it with `done`.",
-    ),
-];
+const request = union("Request", requests);
+const answer = union("Answer", answers);
+const command = union(
+    "Command",
+    withOneAnswer.filter((message) => answerOf(message) === undefined),
+    "A request that may change the session. The server answers it with `done`.",
+);
 const requestAnswers = {
     title: "RequestAnswers",
     description: "The messages that answer requests, by the types of the requests; without `get`, whose answer depends on `what`.",
     type: "object",
-    properties: Object.fromEntries(withOneAnswer.map((request) => [request.type, { tsType: answerName(request) }])),
+    properties: Object.fromEntries(withOneAnswer.map((message) => [message.type, { tsType: answerName(message) }])),
     required: withOneAnswer.map(({ type }) => type),
 };
 
+/**
+ * Returns a setting as Python can send it: also as a part of a state, in which more members are required. To type
+ * checkers, the part is not of the type in a set, because what takes that type might remove the members.
+ */
+function sentByPython(name, setting) {
+    if (!schemas.get("state.schema.json").properties[name]?.required) return setting;
+    const partOfState = { title: `State${name[0].toUpperCase()}${name.slice(1)}` };
+    return { description: setting.description, anyOf: [setting, partOfState] };
+}
+
+const setMembers = convert(schemas.get("set.schema.json")).properties;
+const settingNames = [...Object.keys(schemas.get("settings.schema.json").properties), "continues"];
+const settings = {
+    title: "Settings",
+    description: "The settings that set() of the client changes. Absent settings keep their values.",
+    type: "object",
+    properties: Object.fromEntries(settingNames.map((name) => [name, sentByPython(name, setMembers[name])])),
+};
+const answeredByDone = {
+    title: "AnsweredByDone",
+    description: "The types of those messages that `done` answers.",
+    enum: withOneAnswer.filter((message) => answerName(message) === "Done").map(({ type }) => type),
+};
+
 // json-schema-to-typescript generates the types that one type needs, so one, which is then removed, needs all of them.
-const everything = { anyOf: [...unions, requestAnswers, ...Object.values(namedParts).map(convert)] };
+const everything = { anyOf: [request, answer, command, requestAnswers, ...Object.values(namedParts).map(convert)] };
 const generated = await compile(everything, "Everything", {
     additionalProperties: false,
     bannerComment: "// Types for the messages of protocol/README.md. Generated from the schemas in protocol/schema/ by tests/lint --fix.",
     style: { printWidth: 120, tabWidth: 4 },
     unknownAny: true,
 });
-const text = generated.replace(/export type Everything =[^;]*;\n/, "");
+const outputs = {
+    "ts/messages.ts": generated.replace(/export type Everything =[^;]*;\n/, ""),
+    "python/oval4d_messages/__init__.py": pythonModule([answer, request, command, answeredByDone], {
+        sent: new Set([settings.title, ...requests.map(nameOfMessage)]),
+        bases: new Map([["SetRequest", settings]]),
+    }),
+};
 
-if (process.argv.includes("--check")) {
-    if ((await readFile(kOutput, "utf8")) !== text) {
-        console.error("protocol/ts/messages.ts differs from the schemas; run tests/lint --fix");
+for (const [file, text] of Object.entries(outputs)) {
+    const path = new URL(file, kProtocol);
+    if (!process.argv.includes("--check")) {
+        await writeFile(path, text);
+    } else if ((await readFile(path, "utf8")) !== text) {
+        console.error(`protocol/${file} differs from the schemas; run tests/lint --fix`);
         process.exitCode = 1;
     }
-} else {
-    await writeFile(kOutput, text);
 }

@@ -12,8 +12,12 @@ python3-msgpack (1.0 or later) for slices in MessagePack. With python3-numpy, ar
 surfaces in slices are numpy arrays. A separate thread handles the socket. Therefore any thread may call the client, and
 the connection stays open while a script is idle.
 
-It is one file, although it is long, so that a project can copy it.
+The package oval4d_messages beside it has the types of messages. Only type checkers and editors need it.
+
+The client is one file, although it is long, so that a project can copy it.
 """
+
+from __future__ import annotations
 
 import array
 import asyncio
@@ -32,6 +36,7 @@ import struct
 import threading
 import time
 import warnings
+from typing import TYPE_CHECKING, cast, overload
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit, urlunsplit
 
 import websockets
@@ -48,6 +53,13 @@ try:
     import numpy
 except ImportError:
     numpy = None
+
+if TYPE_CHECKING:
+    from typing import Any, Literal, Optional, Union
+
+    from oval4d_messages import (AnsweredByDone, At, CatalogueEntry, Critical, Done, ElementKind, ErrorMessage,
+                                 Inside, KeyBinding, Measured, Pong, Request, Settings, State, Stream, Welcome)
+    from typing_extensions import Unpack
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -103,7 +115,7 @@ def _json(message):
     return text
 
 
-def connect(url="http://127.0.0.1:8080/", session=None, **options):
+def connect(url: str = "http://127.0.0.1:8080/", session: Optional[str] = None, **options: Any) -> Client:
     """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens the session with the name
     `session`. Without a name, `url` may be a link that the page's button Share has copied: it names a session, and
     hello() sends its token. Otherwise opens a new session, in which hello() shows the view of the query of `url`, such
@@ -120,7 +132,7 @@ def connect(url="http://127.0.0.1:8080/", session=None, **options):
     return Client(address, token=shared.get("token"), view=parts.query if has_view else "", **options)
 
 
-def socket_url(url, session=None):
+def socket_url(url: str, session: Optional[str] = None) -> str:
     """Returns the WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query. With a
     session, its path ends in /ws/session."""
     parts = urlsplit(url)
@@ -149,11 +161,12 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        self.welcome = None  # the newest welcome; here and in the next three, None before the first message
-        self.newest_state = None
-        self.newest_slices = None
-        self.newest_frame = None
-        self.errors = []  # error messages that do not answer a call
+        # The newest welcome; here and in the next three, None before the first message.
+        self.welcome: Optional[Welcome] = None
+        self.newest_state: Optional[State] = None
+        self.newest_slices: Optional[dict[str, Any]] = None
+        self.newest_frame: Optional[bytes] = None
+        self.errors: list[ErrorMessage] = []  # error messages that do not answer a call
         self._live = None  # the function that live() sets, which is called with each frame of the stream
         # The revision and the bytes of a frame that is an answer or part of the stream; the next message tells which.
         self._held = None
@@ -175,7 +188,7 @@ class Client:
 
     # Messages
 
-    def hello(self, stream="none", **members):
+    def hello(self, stream: Stream = "none", **members: Any) -> Welcome:
         """Sends the first message. `stream` is "geometry", "frames" or "none"; `members` may be width, height,
         encoding, scheme and token. Then shows the view of the address given to connect(), if there is one."""
         welcome = self.request("hello", stream=stream, **self._token | members)
@@ -184,24 +197,24 @@ class Client:
             self.open_address(view)
         return welcome
 
-    def key(self, key, shift=False, ctrl=False):
+    def key(self, key: str, shift: bool = False, ctrl: bool = False) -> Done:
         return self.request("key", key=key, shift=shift, ctrl=ctrl)
 
-    def rotate(self, planes, *angles):
+    def rotate(self, planes: str, *angles: float) -> Done:
         """Rotates by one angle in radians for each plane: rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2)."""
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
-    def toward(self, element, number=None, immediately=False):
+    def toward(self, element: ElementKind, number: Optional[int] = None, immediately: bool = False) -> Done:
         """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number or, if `number` is None, the
         closest one. If the closest one is already there, turns the next one. If `immediately` is true, the object jumps
         instead of turning step by step."""
         chosen = {} if number is None else {"number": number}
         return self.request("toward", element=element, immediately=immediately, **chosen)
 
-    def set(self, **settings):
+    def set(self, **settings: Unpack[Settings]) -> Done:
         return self.request("set", **settings)
 
-    def restore(self, source):
+    def restore(self, source) -> Done:
         """Shows the state in a picture that oval4d has made, but does not start turning. `source` is the path of a PNG
         file or of a state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it has no state."""
         if isinstance(source, (str, os.PathLike)):
@@ -214,26 +227,27 @@ class Client:
         if not isinstance(state, dict) or state.get("type") != "state":
             raise ValueError('not a state of oval4d, whose "type" is "state"')
         settings = {name: value for name, value in state.items() if name not in ("type", "id")}
-        return self.set(**settings | {"turning": False})
+        return self.request("set", **settings | {"turning": False})
 
-    def open_address(self, query):
+    def open_address(self, query: str) -> Done:
         """Shows the view that the query of an address describes, such as "polytope=24-cell&rotate=xw:0.3"."""
         return self.request("address", query=query.removeprefix("?"))
 
-    def address(self):
+    def address(self) -> str:
         """Returns the query of an address that opens this view."""
         return self.get("address")["query"]
 
-    def command(self, line):
+    def command(self, line: str) -> Done:
         return self.request("command", line=line)
 
-    def load(self, name, data, format="off", box=None, **members):
+    def load(self, name: str, data: str, format: str = "off", box=None, **members: Any) -> Done:
         """Loads an object and shows it. `data` is the text of a file, or a formula. `box` is as in formula(); the other
         members are those of the message `load`, such as axes."""
         domain = {} if box is None else {"box": [[float(low), float(high)] for low, high in box]}
         return self.request("load", name=name, data=data, format=format, **domain, **members)
 
-    def formula(self, formula, box=None, levels=None, inside=None, name="formula", values=None):
+    def formula(self, formula: str, box=None, levels=None, inside: Optional[Inside] = None, name: str = "formula",
+                values: Optional[str] = None) -> Done:
         """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain, four
         pairs of numbers; without it, all coordinates are from -2 to 2. `levels` are up to four values at which surfaces
         are shown; without them, 0. `inside` is "below" or "above"; without it, "below". If `values` is given, a formula
@@ -242,7 +256,8 @@ class Client:
         colored = {} if values is None else {"values": values}
         return self._set_levels(self.load(name, formula, "formula", box, **colored), levels, inside)
 
-    def field(self, name, array, axes=None, spacing=None, origin=None, levels=None, inside=None, values=None):
+    def field(self, name: str, array, axes: Optional[str] = None, spacing=None, origin=None, levels=None,
+              inside: Optional[Inside] = None, values=None) -> Done:
         """Shows a numpy array of 1 to 4 dimensions as a field. `axes` names the axis of each index; t means w. If it is
         None, it is "tzyx" or, with fewer dimensions, the end of this. `spacing` (a number, or four along x, y, z and w)
         is the distance between samples, and `origin` (four numbers) the place of the first one; without both, the
@@ -254,15 +269,16 @@ class Client:
         box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
         return self._set_levels(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
 
-    def append(self, name, array, axes=None, values=None):
+    def append(self, name: str, array, axes: Optional[str] = None, values=None) -> Done:
         """Adds moments to the field `name`, after its last w, for example while a simulation runs. The numpy array is
         one moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the
         moments need one, too. The settings stay the same. undo() does not remove the moments."""
         samples = _samples(array)
         return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
 
-    def upload(self, name, data, format=None, axes=None, box=None, variable=None, append=False, values=None,
-               values_variable=None):
+    def upload(self, name: str, data, format: Optional[str] = None, axes: Optional[str] = None, box=None,
+               variable: Optional[str] = None, append: bool = False, values: Optional[str] = None,
+               values_variable: Optional[str] = None) -> Done:
         """Uploads the file of an array by HTTP, and shows it as a field. `data` is its bytes, or a file that is open in
         binary mode. `format` is "npy", "netcdf", "hdf5" or "nifti"; if it is None, the server detects it. `box` is as
         in formula(). The formula `values`, or the array `values_variable` of the same file, colors the surfaces. If
@@ -303,7 +319,7 @@ class Client:
     def _set_levels(self, done, levels, inside):
         settings = {} if levels is None else {"levels": [float(level) for level in levels]}
         settings |= {} if inside is None else {"inside": inside}
-        return self.set(continues=True, **settings) if settings else done
+        return self.request("set", continues=True, **settings) if settings else done
 
     def _send_array(self, name, samples, values=None, box=None, **members):
         format = "npy"
@@ -319,24 +335,26 @@ class Client:
             return self.upload(name, data, format, box=box, **members)
         return self.load(name, base64.b64encode(data).decode(), format, box, **members)
 
-    def undo(self):
+    def undo(self) -> Done:
         return self.request("undo")
 
-    def redo(self):
+    def redo(self) -> Done:
         return self.request("redo")
 
-    def reset(self):
+    def reset(self) -> Done:
         return self.request("reset")
 
-    def get(self, what, width=None, height=None, background=None):
+    def get(self, what: str, width: Optional[int] = None, height: Optional[int] = None,
+            background: Optional[str] = None) -> Any:
         size = {} if width is None else {"width": width, "height": height}
         ground = {} if background is None else {"background": background}
         return self.request("get", what=what, **size, **ground)
 
-    def state(self):
+    def state(self) -> State:
         return self.get("state")
 
-    def slices(self, width=None, height=None, background=None):
+    def slices(self, width: Optional[int] = None, height: Optional[int] = None,
+               background: Optional[str] = None) -> dict[str, Any]:
         """Returns a slices message. A slice of a field has a "surface" if its hyperplane meets one. In the surface,
         "points", "normals" and "triangles" are numpy arrays of shape (n, 3), and "level", "cap", "colors" and
         "cap_colors" are numpy arrays of shape (n,); without numpy, all are lists. The triangles are triples of points,
@@ -345,7 +363,8 @@ class Client:
         with x fastest."""
         return self.get("slices", width, height, background)
 
-    def frame(self, width=None, height=None, background=None):
+    def frame(self, width: Optional[int] = None, height: Optional[int] = None,
+              background: Optional[str] = None) -> bytes:
         """Returns a picture as the bytes of a PNG file. `width` and `height` are in pixels; without them, the size in
         hello() applies. `background` is "dark", "light", "white" or "transparent"; if it is None, the background of the
         session applies."""
@@ -355,7 +374,7 @@ class Client:
         """Shows the picture in a notebook."""
         return self.frame(960, 540)
 
-    def live(self, width=960, height=540):
+    def live(self, width: int = 960, height: int = 540) -> None:
         """Shows the picture in a notebook, and renews it after every change of the session: by this script, on the
         page, or by other clients. The stream is then "frames". Needs IPython, which every notebook has. Raises
         RuntimeError outside of a notebook."""
@@ -372,37 +391,37 @@ class Client:
             raise RuntimeError("live() shows its picture in a notebook, and this is none")
         self._live = lambda png: handle.update(picture(png))
 
-    def at(self, x, y, width=None, height=None):
+    def at(self, x: float, y: float, width: Optional[int] = None, height: Optional[int] = None) -> At:
         """Returns what the picture shows at the point (x, y), in pixels from the upper left corner."""
         size = {} if width is None else {"width": width, "height": height}
         return self.request("get", what="at", x=x, y=y, **size)
 
-    def file(self, format, **members):
+    def file(self, format: str, **members: Any) -> bytes:
         """Returns the bytes of an exported file. `format` is "stl", "3mf", …; `members` may be of, body, size, label,
         at and fit, as in the message `get`. Issues a UserWarning for what the file lacks, such as empty slices."""
         return self.request("get", what="file", format=format, **members)
 
-    def critical(self):
+    def critical(self) -> Critical:
         """Returns the critical message: the values of w at which the section by the hyperplane w changes its type. Its
         "sections", in the order of w, have "w" and "change"; those of a field also have "level", and "components",
         "cavities" and "euler" of the body below and above w. For a field, the search may take seconds."""
         return self.get("critical")
 
-    def catalogue(self):
+    def catalogue(self) -> list[CatalogueEntry]:
         return self.get("catalogue")["polytopes"]
 
-    def keymap(self):
+    def keymap(self) -> list[KeyBinding]:
         return self.get("keymap")["keys"]
 
-    def ping(self):
+    def ping(self) -> Pong:
         """Returns a pong: how busy the server is. Its members are in protocol/README.md."""
         return self.request("ping")
 
-    def shown(self, revision):
+    def shown(self, revision: int) -> None:
         """Tells the server that the picture of this revision has been presented."""
         self.send({"type": "shown", "revision": revision})
 
-    def wait(self, revision, timeout=None):
+    def wait(self, revision: int, timeout: Optional[float] = None) -> State:
         """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Drafts of
         fields do not count. Returns the newest state. Raises TimeoutError after `timeout` seconds (if it is None, after
         those of the client), and Closed if the connection has ended."""
@@ -413,11 +432,22 @@ class Client:
             return message is not None and message["revision"] >= revision and "draft" not in message
 
         self._wait_for(arrived, timeout, f"revision {revision}")
-        return self.newest_state
+        return cast("State", self.newest_state)  # the server sends a state before its picture
 
     # Transport
 
-    def request(self, type, **members):
+    @overload
+    def request(self, type: Literal["hello"], **members: Any) -> Welcome: ...
+    @overload
+    def request(self, type: Literal["measure"], **members: Any) -> Measured: ...
+    @overload
+    def request(self, type: Literal["ping"], **members: Any) -> Pong: ...
+    @overload
+    def request(self, type: AnsweredByDone, **members: Any) -> Done: ...
+    @overload
+    def request(self, type: str, **members: Any) -> Any: ...
+
+    def request(self, type: str, **members: Any) -> Any:
         """Sends a message of any type with an id, and returns the answer. Raises Refused if the answer is an error, Closed
         if the connection ends, and TimeoutError if no answer arrives."""
         if type == "hello":
@@ -446,7 +476,7 @@ class Client:
                 warnings.warn(text, stacklevel=3)  # names the line that called file()
         return answer
 
-    def send(self, message):
+    def send(self, message: Union[Request, dict[str, Any], str, bytes]) -> None:
         """Sends a message without an id, and does not wait for an answer. A dict is sent as JSON, in which numpy's
         numbers and arrays become numbers and lists; text and bytes are sent unchanged. Raises ValueError if JSON cannot
         contain the dict, because it has numbers that are not finite or text that is not Unicode."""
@@ -458,14 +488,14 @@ class Client:
         except websockets.ConnectionClosed:
             raise Closed(self._socket.close_code, self._socket.close_reason or "") from None
 
-    def close(self):
+    def close(self) -> None:
         self._closing = True
         if self._loop.is_running():
             self._run(self._socket.close())
             self._reader.result(self.timeout)
             self._stop()
 
-    def __enter__(self):
+    def __enter__(self) -> Client:
         return self
 
     def __exit__(self, *_):
@@ -649,7 +679,7 @@ def _box(shape, axes, spacing, origin):
     return [(low, low + step * (sizes.get(axis, 1) - 1)) for axis, low, step in zip("xyzw", lows, spacing)]
 
 
-def png_state(png):
+def png_state(png: bytes) -> dict[str, Any]:
     """Returns the state in a frame's iTXt chunk. Sent as a `set`, it restores the picture. Raises ValueError if the
     bytes are not a frame with a state."""
     at = len(PNG) if png.startswith(PNG) else len(png)

@@ -1,0 +1,1066 @@
+"""Types for the messages of protocol/README.md: dicts whose members type checkers and editors know.
+Generated from the schemas in protocol/schema/ by tests/lint --fix.
+"""
+
+from collections.abc import Sequence
+from typing import Literal, Optional, TypedDict, Union
+
+
+class _Address(TypedDict):
+    type: Literal["address"]
+    # Without the question mark, percent-encoded, such as polytope=24-cell&rotate=xw:0.3. The parameters are those of
+    # frame.png; width, height and token are ignored.
+    query: str
+
+
+class Address(_Address, total=False):
+    """To the server: shows the view that the query of an address describes, as one undo step. From the server: the
+    query that describes the view of the session, as the answer to a get."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+# The kind of element. The points of a point cloud are vertices.
+ElementKind = Literal["vertex", "edge", "face", "cell"]
+
+
+class AtHighlight(TypedDict):
+    """The element at the point that is nearest to the viewer, as set takes it; null if there is none."""
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+    # The element, counted from 0 among those of its kind.
+    number: int
+
+
+# Where the element is shown.
+_AtIn = TypedDict("_AtIn", {"in": Literal["slice", "projection", "coordinates", "matrix"]}, total=False)
+
+
+class _At(TypedDict):
+    type: Literal["at"]
+    # The number of changes of the session's state so far.
+    revision: int
+    # The element at the point that is nearest to the viewer, as set takes it; null if there is none.
+    highlight: Optional[AtHighlight]
+
+
+class At(_At, _AtIn, total=False):
+    """The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is no
+    element."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+    # In a slice: the index n of the hyperplane.
+    slice: int
+    # In a slice: w of the hyperplane, in the coordinates of the object's file.
+    w: float
+    # In a panel of the matrix: the point that it shows there, as set takes it.
+    point: list[float]
+    # The smallest w of the element's vertices.
+    least_w: float
+    # The largest w of the element's vertices.
+    most_w: float
+    # Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box.
+    place: list[float]
+    # The number of the element's vertices.
+    vertices: int
+    # Of a cell: the index of its kind in state.polytope.kinds.
+    kind: int
+    # Of a cell: the name of its kind.
+    name: str
+
+
+class _CatalogueEntry(TypedDict):
+    name: str
+    # "regular", "star", "uniform A4", "uniform B4", "uniform F4", "uniform H4", "other", "prism", "antiprism prism" or
+    # "duoprism"; "fields" for a field; "loaded" for an object that was loaded into the session; or "data" for an array
+    # in the server's data folder, which load opens by its path.
+    family: str
+    aliases: list[str]
+    # In linear notation, such as "x4x3o3o"; empty if there is none.
+    diagram: str
+    # Empty if there is none.
+    schlaefli: str
+    # The number of vertices.
+    vertices: int
+    # The number of edges.
+    edges: int
+    # The number of 2-faces.
+    faces: int
+    # The number of cells.
+    cells: int
+
+
+class CatalogueEntry(_CatalogueEntry, total=False):
+    # The order of the full symmetry group, including reflections; absent for loaded polytopes.
+    symmetry_order: int
+
+
+class _Catalogue(TypedDict):
+    type: Literal["catalogue"]
+    polytopes: list[CatalogueEntry]
+
+
+class Catalogue(_Catalogue, total=False):
+    """The polytopes known by name, in the order of the keys n and N. Also available at /api/v1/catalogue."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+class _CriticalSection(TypedDict):
+    # w of the hyperplane.
+    w: float
+    # What happens while w increases.
+    change: Literal["vertices", "appears", "vanishes", "merge", "split", "handle", "cavity"]
+
+
+class CriticalSection(_CriticalSection, total=False):
+    # Of a polytope, a surface or a point cloud: the number of vertices in the hyperplane.
+    vertices: int
+    # Of a field: the index in levels of the level whose body changes.
+    level: int
+    # Of a field: the number of connected components of the body below and above w.
+    components: list[int]
+    # Of a field: the number of cavities in the body below and above w.
+    cavities: list[int]
+    # Of a field: the Euler characteristic of the surface of the body below and above w.
+    euler: list[int]
+
+
+class _Critical(TypedDict):
+    type: Literal["critical"]
+    # The number of changes of the session's state when the request was received.
+    revision: int
+    # The smallest w of the object, or of the box of a field.
+    least_w: float
+    # The largest w of the object, or of the box of a field.
+    most_w: float
+    # The width in w to which each change has been narrowed down.
+    tolerance: float
+    # Of a field: changes of one level that are closer than this in w count as one; 0 for other objects.
+    resolution: float
+    # In the order of w.
+    sections: list[CriticalSection]
+
+
+class Critical(_Critical, total=False):
+    """The answer to get with what: "critical"."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+class _Done(TypedDict):
+    type: Literal["done"]
+    # The number of changes of the session's state so far.
+    revision: int
+
+
+class Done(_Done, total=False):
+    """Answers a request that has an id and took effect, if no other message answers it."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+    # The corrections made to a loaded file; or what an exported file lacks, such as slices that are empty. Absent if
+    # there were none.
+    warnings: list[str]
+
+
+class _ErrorMessage(TypedDict):
+    type: Literal["error"]
+    # errors.json gives the meaning of each code.
+    code: Literal["bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
+                  "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "bad_field", "unsupported_format",
+                  "no_body", "nothing_to_undo", "hello_first", "not_found", "bad_token", "too_many", "too_large",
+                  "canceled", "internal"]
+    # A sentence for the user: what was wrong, where, and what is allowed.
+    message: str
+
+
+class ErrorMessage(_ErrorMessage, total=False):
+    """A request was refused. The session is unchanged."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+class KeymapGroupsItem(TypedDict):
+    name: str
+    title: str
+
+
+Plane = Literal["xy", "xz", "xw", "yz", "yw", "zw"]
+
+
+class _KeyBinding(TypedDict):
+    # Two characters are a sequence of two keys; each is sent in its own message. Three or more are the name of one key,
+    # as in KeyboardEvent.key.
+    key: str
+    name: str
+    action: str
+    group: str
+    text: str
+    label: str
+
+
+class KeyBinding(_KeyBinding, total=False):
+    # If present, the key is recognized by this physical key, whichever character it types.
+    code: str
+    # Whether Ctrl must be held.
+    ctrl: bool
+    # Shift with this key applies the inverse rotation. If absent, the key with Shift is another entry or has no action.
+    shift: Literal["inverse"]
+    planes: list[Plane]
+    # The quantity that the key decreases. Another key of the group increases it; the page shows the two as one control
+    # with this name.
+    decreases: str
+    # The quantity that the key increases.
+    increases: str
+    # Whether the action is repeated while the button is held down.
+    repeats: bool
+    # The setting that is not off when the key has a visible effect; otherwise its button is disabled.
+    needs: Literal["projection"]
+    # The client handles this key itself; the server refuses it.
+    client: bool
+
+
+class _Keymap(TypedDict):
+    type: Literal["keymap"]
+    groups: list[KeymapGroupsItem]
+    keys: list[KeyBinding]
+
+
+class Keymap(_Keymap, total=False):
+    """The keys, in the order of the help sheet. Also available at /api/v1/keymap."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+class _Measured(TypedDict):
+    type: Literal["measured"]
+    # The number of changes of the session's state so far.
+    revision: int
+    # The mean of the element's vertices; the place of a vertex.
+    center: list[float]
+
+
+class Measured(_Measured, total=False):
+    """Answers a `measure`. Sizes and coordinates are those of the file, for a field those of the box: neither the
+    orientation nor the frame of reference changes them. A region that a star encloses n times counts n times, as in the
+    CSV file."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+    # Of an edge.
+    length: float
+    # Of a 2-face.
+    area: float
+    # Of a cell.
+    volume: float
+    # Of a cell: the index of its kind in `polytope.kinds` of the `state`.
+    kind: int
+
+
+class _Pong(TypedDict):
+    type: Literal["pong"]
+    # The threads that slice and draw pictures.
+    workers: int
+    # The pictures of all clients that wait for one of these threads.
+    waiting: int
+    # The running time of all pictures that have ended, in seconds, added over all threads.
+    busy: float
+    # The time of a clock that never goes back, in seconds from an arbitrary start.
+    time: float
+
+
+class Pong(_Pong, total=False):
+    """Answers a `ping`. Between two pongs, the threads were busy for the fraction Δ`busy` / (`workers` · Δ`time`) of
+    the time."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+class StatePolytopeKindsItem(TypedDict):
+    name: str
+    # The number of cells of this kind.
+    cells: int
+    # The color of this kind when the faces are colored by kind.
+    color: int
+
+
+class _StatePolytope(TypedDict):
+    # The kinds of cells, the rarest first; a kind is numbered by its index here.
+    kinds: list[StatePolytopeKindsItem]
+    name: str
+    # The number of vertices.
+    vertices: int
+    # The number of edges.
+    edges: int
+    # The number of 2-faces.
+    faces: int
+    # The number of cells.
+    cells: int
+
+
+class StatePolytope(_StatePolytope, total=False):
+    """The object that is shown."""
+    # The point of the file's coordinates about which the object turns, in the frame of reference. Absent if it is the
+    # origin.
+    center: list[float]
+
+
+class _StateSlices(TypedDict):
+    # The number of slices; if set alone, the span (count − 1) · spacing stays the same.
+    count: int
+    # δ, the distance between neighboring hyperplanes, in the polytope's units.
+    spacing: float
+    # f, the index n of the focus slice, which lies in the hyperplane w = offset + n · spacing.
+    focus: int
+    # w of the hyperplane n = 0, measured from the center.
+    offset: float
+
+
+class StateSlices(_StateSlices, total=False):
+    # w of the focus slice, in the coordinates of the object's file: sets `focus` and `offset` such that the offset is
+    # at most half of the spacing.
+    w: float
+
+
+class _StateShown(TypedDict):
+    # Whether faces are drawn.
+    faces: bool
+    # Whether bars are drawn at edges.
+    bars: bool
+    # Whether balls are drawn at vertices.
+    balls: bool
+    # Whether the parallel coordinates are drawn.
+    coordinates: bool
+
+
+class StateShown(_StateShown, total=False):
+    """The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices."""
+    # Whether the w of each slice is written under it.
+    labels: bool
+    # Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+    cells: bool
+    # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it.
+    back: bool
+    # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
+    sections: bool
+
+
+class StateCamera(TypedDict):
+    """How the viewer has moved the camera from its initial position. Not part of the undo history."""
+    # The rotation to the right about the vertical axis, in radians.
+    azimuth: float
+    # The rotation upward, in radians.
+    elevation: float
+    # The magnification; 1 initially.
+    zoom: float
+
+
+class _ColoringValues(TypedDict):
+    # The range of the values on the box, without rare values far from the others. If 0 is in its middle four fifths,
+    # the scale is symmetric to 0.
+    range: list[float]
+    # The colors of nine values, from one end of the scale to the other at equal distances.
+    colors: list[int]
+
+
+class ColoringValues(_ColoringValues, total=False):
+    """Present if there is a second function, or if the color or the caps show values."""
+    # Present if the second function is a formula.
+    formula: str
+    # Present if the second function is an array.
+    variable: str
+
+
+Interval = list[float]
+
+# The domain. The object's origin is its center.
+Box = list[Interval]
+
+
+class _FieldDefinition(TypedDict):
+    # The domain. The object's origin is its center.
+    box: Box
+
+
+class FieldDefinition(_FieldDefinition, total=False):
+    """If it has a `formula`, the field called `polytope` is loaded first, as by `load`, unless the session has it;
+    otherwise ignored."""
+    # The function with the values of its constants. Absent for an array.
+    formula: str
+    # Absent for a formula.
+    shape: list[int]
+    # Absent for a formula.
+    range: list[float]
+    # Present, and true, if the array is too large to read all of it.
+    estimated: bool
+    # Present if there is a second function, or if the color or the caps show values.
+    values: ColoringValues
+
+
+class StateSection(TypedDict):
+    """The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the
+    rhombic dodecahedron."""
+    # w of the focus slice.
+    w: float
+    # What the focus slice is, such as "icosahedron"; empty if it has no name.
+    name: str
+    # The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has
+    # no name.
+    vertices: str
+
+
+# What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar
+# sections; or all slices at the same size, in a straight row in order of w from the left (strip), in a straight column
+# with the largest w at the top (column), or in as many rows as make them largest, in order of w from left to right and
+# from top to bottom (grid).
+View = Literal["oval", "single", "matrix", "strip", "column", "grid"]
+
+# What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
+Coloring = Literal["cell", "kind", "w", "plain", "light", "growth", "value"]
+
+# The background of pictures; the other colors are chosen for it. See Backgrounds.
+Background = Literal["auto", "dark", "light", "white", "transparent"]
+
+# For fields only: the caps of the surfaces, where the boundary of the box cuts through the body: in the color of the
+# surface, colored by value, or not drawn. Exported bodies have caps in any case.
+Caps = Literal["plain", "value", "open"]
+
+# For fields only: whether the bodies are where the function is below a level, or above it. A change of the object sets
+# it to `below` for a formula and `above` for an array.
+Inside = Literal["below", "above"]
+
+
+class _FogControlPoint(TypedDict):
+    value: float
+    opacity: float
+
+
+class FogControlPoint(_FogControlPoint, total=False):
+    color: int
+
+
+# The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or parallel
+# to the w axis.
+Projection = Literal["off", "perspective", "orthogonal"]
+
+
+class StateHighlight(TypedDict):
+    """The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is
+    none. A change of the polytope sets it to null."""
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+    # The element, counted from 0 among those of its kind.
+    number: int
+
+
+class TurnObject(TypedDict):
+    """The last rotation, for `.` and the space bar; null changes nothing."""
+    # Each plane at most once. R_ab turns the +a axis toward the +b axis. In several planes the polytope turns at the
+    # same time: two perpendicular planes (xy and zw, xz and yw, xw and yz) give a double rotation, planes with a common
+    # axis a rotation in oblique planes.
+    planes: list[Plane]
+    # In radians; one angle for each plane.
+    angles: list[float]
+
+
+# The last rotation, for `.` and the space bar; null changes nothing.
+Turn = Optional[TurnObject]
+
+
+class _State(TypedDict):
+    type: Literal["state"]
+    # The number of changes of the session's state so far.
+    revision: int
+    # The object that is shown.
+    polytope: StatePolytope
+    slices: StateSlices
+    # The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w
+    # is that of the focus slice.
+    point: list[float]
+    # Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
+    moving: bool
+    # Which parts are drawn.
+    shown: StateShown
+    # How the viewer has moved the camera from its initial position. Not part of the undo history.
+    camera: StateCamera
+    # The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the
+    # rhombic dodecahedron.
+    section: StateSection
+    # How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.
+    pace: float
+    # The velocity with which the observer moves, in units of x, y and z per unit of the object's own w: whatever moves
+    # with this velocity appears at rest.
+    follow: list[float]
+    # The velocity of the observer to whose rest frame a Lorentz boost leads, where 1 is the speed of light in units of
+    # x, y and z per unit of w, after `pace` has scaled w.
+    boost: list[float]
+    # The matrix M, where v' = M v maps the polytope's own coordinates to the rotated ones: a rotation matrix to within
+    # 1e-6, else `not_a_rotation`.
+    orientation: list[list[float]]
+    # α: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+    alpha: float
+    # β: the second angle of the keys r, t and y.
+    beta: float
+    # The step by which the keys k, j, K and J change α and β.
+    step: float
+    # What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar
+    # sections; or all slices at the same size, in a straight row in order of w from the left (strip), in a straight
+    # column with the largest w at the top (column), or in as many rows as make them largest, in order of w from left to
+    # right and from top to bottom (grid).
+    view: View
+    # Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each
+    # step is a revision.
+    turning: bool
+    # What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
+    color: Coloring
+    # The background of pictures; the other colors are chosen for it. See Backgrounds.
+    background: Background
+    # The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings.
+    # Exported bodies and the matrix of planar sections stay as they are.
+    thickness: float
+    # The factor by which the opacity of translucent faces is multiplied in slices, in the projection and in drawings;
+    # they become at most opaque. Faces in slices of nonconvex polytopes are opaque in any case. The surfaces of fields
+    # and the matrix of planar sections stay as they are.
+    opacity: float
+    # The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or
+    # parallel to the w axis.
+    projection: Projection
+    # The w of the eye of the perspective projection, in circumradii.
+    eye: float
+    # Cells of these kinds are not drawn, nor are bars and balls that belong to no other cell. If only one of `hidden`
+    # and `faded` is set, its kinds are removed from the other; a kind in both is hidden. A change of the polytope
+    # empties both.
+    hidden: list[int]
+    # Cells of these kinds are drawn faintly.
+    faded: list[int]
+    # The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is none.
+    # A change of the polytope sets it to null.
+    highlight: Optional[StateHighlight]
+    # The last rotation, for `.` and the space bar; null changes nothing.
+    last: Turn
+
+
+class State(_State, total=False):
+    """Everything that determines a picture except its size. Sent back as a set, it restores the picture. Each frame
+    contains it in the iTXt chunk "oval4d"."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+    # Present if the surfaces of a field are coarser than usual, because it turns or changes quickly. A picture of the
+    # same revision without it follows once the field rests.
+    draft: Literal[True]
+    # Present for fields only.
+    field: FieldDefinition
+    # For fields only: the caps of the surfaces, where the boundary of the box cuts through the body: in the color of
+    # the surface, colored by value, or not drawn. Exported bodies have caps in any case.
+    caps: Caps
+    # For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
+    levels: list[float]
+    # For fields only: whether the bodies are where the function is below a level, or above it. A change of the object
+    # sets it to `below` for a formula and `above` for an array.
+    inside: Inside
+    # For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the
+    # circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array
+    # (initially) means no fog. A change of the object empties it.
+    fog: list[FogControlPoint]
+
+
+class _Welcome(TypedDict):
+    type: Literal["welcome"]
+    # The name of the session, for the path /ws/{session}.
+    session: str
+    # Gives access to the session; keep it secret.
+    token: str
+    # The protocol version.
+    protocol: int
+    server: str
+    # The limits by name; README.md explains them.
+    limits: dict[str, float]
+
+
+class Welcome(_Welcome, total=False):
+    """Answers hello with the session and the limits of the server."""
+    # The id of the request that this message answers; absent if it had none.
+    id: float
+
+
+Answer = Union[Address, At, Catalogue, Critical, Done, ErrorMessage, Keymap, Measured, Pong, State, Welcome]
+
+
+class _CommandRequest(TypedDict):
+    type: Literal["command"]
+    # With or without the leading ':'.
+    line: str
+
+
+class CommandRequest(_CommandRequest, total=False):
+    """A line such as "polytope 24-cell", "set slices=31" or "rotate xw,yz pi/8 pi/sqrt(3)-pi/8"."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _GetRequest(TypedDict):
+    type: Literal["get"]
+    what: Literal["state", "slices", "frame", "at", "file", "critical", "catalogue", "keymap", "address"]
+
+
+class GetRequest(_GetRequest, total=False):
+    """Answered by the requested message with the same id; a frame or a file is a binary message followed by done."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # In pixels, for slices, frames and at; must be given together with height. If absent, the size in hello applies.
+    width: int
+    # In pixels, for slices, frames and at; must be given together with width. If absent, the size in hello applies.
+    height: int
+    # For slices and frames: the background of this answer. If absent, that of the session applies.
+    background: Background
+    # For at: the distance from the left edge of the picture in pixels.
+    x: float
+    # For at: the distance from the top edge of the picture in pixels.
+    y: float
+    # Required for a file: a name that export_formats.json lists.
+    format: str
+    # For a file: the focus slice, all slices, the highlighted element alone, the critical w, the whole object in four
+    # dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the
+    # matrix of planar sections. export_formats.json lists those that each format can contain; the first is the default.
+    of: Literal["focus", "oval", "highlight", "critical", "object", "coordinates", "projection", "matrix"]
+    # For a file with bodies: filled (default), or balls and bars merged into one body. "frame" is the former name of
+    # "skeleton".
+    body: Literal["solid", "skeleton", "frame"]
+    # In millimeters. For a file with bodies: the diameter of the polytope's circumscribed sphere; 60 if absent. For a
+    # drawing: its width or height, whichever is larger; 170 if absent, at least 10 and at most 5000.
+    size: float
+    # For a file of oval: its slices are those at these w, in the coordinates of the object's file, instead of those of
+    # the session. Different numbers within 10 circumradii of the point about which the object turns, at most as many as
+    # the limit slices in welcome; a text has expressions, as those of command. If it is given, oval is the default of
+    # of. Not together with fit.
+    at: Union[Sequence[float], str]
+    # For a file of oval: the number of its slices, which are spread evenly over the polytope's extent along w, instead
+    # of those of the session. The server's limit is in welcome. If it is given, oval is the default of of. Not together
+    # with at.
+    fit: int
+    # For a file with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a
+    # separate plate.
+    label: Literal["none", "engraved", "separate"]
+
+
+# What follows each change of the state: slices messages, PNG frames, or nothing. "none" if absent.
+Stream = Literal["geometry", "frames", "none"]
+
+# The encoding of slices messages. "json" if absent.
+Encoding = Literal["json", "cbor", "msgpack", "bjdata"]
+
+# What this client sees if the background is auto: a dark or a light one. "dark" if absent.
+Scheme = Literal["dark", "light"]
+
+
+class _HelloRequest(TypedDict):
+    type: Literal["hello"]
+
+
+class HelloRequest(_HelloRequest, total=False):
+    """The first message of a connection. Sent again, it changes the stream, the encoding, the scheme and the size.
+    Answered by welcome, then by state and a picture."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # What follows each change of the state: slices messages, PNG frames, or nothing. "none" if absent.
+    stream: Stream
+    # The encoding of slices messages. "json" if absent.
+    encoding: Encoding
+    # What this client sees if the background is auto: a dark or a light one. "dark" if absent.
+    scheme: Scheme
+    # In pixels; the server's limits are in welcome. If absent, 1280, or as near to it as they allow.
+    width: int
+    # In pixels; the server's limits are in welcome. If absent, 720, or as near to it as they allow.
+    height: int
+    # The token in the session's welcome. Required if the path names a session.
+    token: str
+
+
+class _KeyRequest(TypedDict):
+    type: Literal["key"]
+    # The value of KeyboardEvent.key. For a digit key, the digit on the key, even if Shift types another character. An
+    # upper-case letter means the letter with Shift.
+    key: str
+
+
+class KeyRequest(_KeyRequest, total=False):
+    """A key press. The key table lists the keys and their actions; clients need not know the actions."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # Whether Shift is held. Ignored for keys other than letters and digits.
+    shift: bool
+    # Whether Ctrl is held.
+    ctrl: bool
+
+
+class _LoadRequest(TypedDict):
+    type: Literal["load"]
+    # Must not be a name of the catalogue. An object that was loaded under the same name is replaced.
+    name: str
+
+
+class LoadRequest(_LoadRequest, total=False):
+    """Loads an object and shows it. A set message can select it again by its name."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # "off": 4OFF, of a polytope or, without cells, of a surface. "points": one point x y z w per line; the polytope is
+    # their convex hull. "cloud": the optional word CLOUD, then one point x y z w [radius] per line; each is shown as a
+    # ball. "formula": a function of x, y, z, w, also called t, and r = sqrt(x^2+y^2+z^2), such as x^2+y^2-z^2 < w;
+    # named constants follow it, as in x*y-a; a=0.5.
+    format: str
+    # The file's text, in Base64 if it is an array, or the formula. Absent with path.
+    data: str
+    # A file or a series of the server's data folder, as the catalogue lists it, instead of data. The format may then be
+    # absent.
+    path: str
+    # Whether this load belongs to the undo step of the previous command, as when a constant of a formula is dragged.
+    # Between two fields, levels and inside then stay the same, and if both have the same circumradius, slices and
+    # point. False if it is absent.
+    continues: bool
+    # The domain of a formula or an array. If it is absent, that of a formula is from -2 to 2 along each axis, and that
+    # of an array is what the file states.
+    box: Box
+    # The axes of the array's dimensions, in the order of its indices in Python: different letters of x, y, z and w; t
+    # means w. What the file states if it is absent, else "tzyx", or its end if there are fewer dimensions.
+    axes: str
+    # The variable of a NetCDF file, or the path of an HDF5 dataset. The one with the most dimensions if it is absent.
+    variable: str
+    # The formula of a second function, whose values color the surfaces of a formula or an array. It may use the names
+    # that the first formula defines.
+    values: str
+    # The variable of the same file that is the second function of an array, with the same numbers of samples.
+    values_variable: str
+    # The point of the file's coordinates about which a polytope, a surface or points turn and around which their slices
+    # lie: "object", their center; "origin"; or x, y, z, w. If it is absent, the center of an object that is far from
+    # the origin, else the origin.
+    center: Union[str, Sequence[float]]
+    # Whether the moments in the file are added to the array that is loaded under this name, at the end of w, instead of
+    # replacing it. False if it is absent.
+    append: bool
+
+
+class _MeasureRequest(TypedDict):
+    type: Literal["measure"]
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+    # The element, counted from 0 among those of its kind.
+    number: int
+
+
+class MeasureRequest(_MeasureRequest, total=False):
+    """Asks for a `measured`, which has the center and the length, area or volume of an element. It changes nothing.
+    Errors: `out_of_range`, also if the object has no such element."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _PingRequest(TypedDict):
+    type: Literal["ping"]
+
+
+class PingRequest(_PingRequest, total=False):
+    """Asks for a `pong`, which tells how busy the server is. It changes nothing."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _RandomRequest(TypedDict):
+    type: Literal["random"]
+
+
+class RandomRequest(_RandomRequest, total=False):
+    """The new orientation is random, and all rotations are equally probable (Haar measure), so the slices are sections
+    of random direction. One undo step; it ends a motion toward an element. The same `seed` gives the same orientation
+    on every server, whatever the orientation was."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # Determines the orientation. If absent, the server draws a seed.
+    seed: int
+
+
+class _RedoRequest(TypedDict):
+    type: Literal["redo"]
+
+
+class RedoRequest(_RedoRequest, total=False):
+    """Redoes one step that was undone. Fails with nothing_to_undo if there is none."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _ResetRequest(TypedDict):
+    type: Literal["reset"]
+
+
+class ResetRequest(_ResetRequest, total=False):
+    """Restores the initial orientation and focus, and stops continuous turning. All other settings stay the same."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _RotateRequest(TypedDict):
+    type: Literal["rotate"]
+    # Each plane at most once. R_ab turns the +a axis toward the +b axis. In several planes the polytope turns at the
+    # same time: two perpendicular planes (xy and zw, xz and yw, xw and yz) give a double rotation, planes with a common
+    # axis a rotation in oblique planes.
+    planes: Sequence[Plane]
+    # In radians; one angle for each plane.
+    angles: Sequence[float]
+
+
+class RotateRequest(_RotateRequest, total=False):
+    """Turns through all angles at the same time. The rotation is extrinsic: it multiplies the orientation from the
+    left."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # Whether the rotation belongs to the undo step of the previous command, as in a gesture; the default is false.
+    continues: bool
+
+
+class _CellKind(TypedDict):
+    name: str
+    # The number of cells of this kind.
+    cells: int
+
+
+class CellKind(_CellKind, total=False):
+    # The color of this kind when the faces are colored by kind.
+    color: int
+
+
+class _SettingsPolytope(TypedDict):
+    name: str
+
+
+class SettingsPolytope(_SettingsPolytope, total=False):
+    """The polytope. Another one sets focus and offset to 0, and the spacing keeps its ratio to the circumradius."""
+    # The number of vertices.
+    vertices: int
+    # The number of edges.
+    edges: int
+    # The number of 2-faces.
+    faces: int
+    # The number of cells.
+    cells: int
+    # Ignored. Allowed so that a state can be sent back as a set.
+    kinds: Sequence[CellKind]
+    # Ignored.
+    center: Sequence[float]
+
+
+class SettingsSlices(TypedDict, total=False):
+    # The number of slices; if set alone, the span (count − 1) · spacing stays the same.
+    count: int
+    # δ, the distance between neighboring hyperplanes, in the polytope's units.
+    spacing: float
+    # f, the index n of the focus slice, which lies in the hyperplane w = offset + n · spacing.
+    focus: int
+    # w of the hyperplane n = 0, measured from the center.
+    offset: float
+    # w of the focus slice, in the coordinates of the object's file: sets `focus` and `offset` such that the offset is
+    # at most half of the spacing.
+    w: float
+
+
+class ShownParts(TypedDict, total=False):
+    """The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices."""
+    # Whether faces are drawn.
+    faces: bool
+    # Whether bars are drawn at edges.
+    bars: bool
+    # Whether balls are drawn at vertices.
+    balls: bool
+    # Whether the parallel coordinates are drawn.
+    coordinates: bool
+    # Whether the w of each slice is written under it.
+    labels: bool
+    # Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+    cells: bool
+    # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it.
+    back: bool
+    # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
+    sections: bool
+
+
+class SettingsCamera(TypedDict, total=False):
+    """How the viewer has moved the camera from its initial position. Not part of the undo history."""
+    # The rotation to the right about the vertical axis, in radians.
+    azimuth: float
+    # The rotation upward, in radians.
+    elevation: float
+    # The magnification; 1 initially.
+    zoom: float
+
+
+class SettingsHighlight(TypedDict):
+    """The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is
+    none. A change of the polytope sets it to null."""
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+    # The element, counted from 0 among those of its kind.
+    number: int
+
+
+class Settings(TypedDict, total=False):
+    """The settings that set() of the client changes. Absent settings keep their values."""
+    # The polytope. Another one sets focus and offset to 0, and the spacing keeps its ratio to the circumradius.
+    polytope: Union[Union[str, SettingsPolytope], StatePolytope]
+    # How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.
+    pace: float
+    # The velocity with which the observer moves, in units of x, y and z per unit of the object's own w: whatever moves
+    # with this velocity appears at rest.
+    follow: Sequence[float]
+    # The velocity of the observer to whose rest frame a Lorentz boost leads, where 1 is the speed of light in units of
+    # x, y and z per unit of w, after `pace` has scaled w.
+    boost: Sequence[float]
+    # The matrix M, where v' = M v maps the polytope's own coordinates to the rotated ones: a rotation matrix to within
+    # 1e-6, else `not_a_rotation`.
+    orientation: Sequence[Sequence[float]]
+    # α: the angle of the keys 2 … 7, and the first angle of the keys r, t and y.
+    alpha: float
+    # β: the second angle of the keys r, t and y.
+    beta: float
+    # The step by which the keys k, j, K and J change α and β.
+    step: float
+    slices: Union[SettingsSlices, StateSlices]
+    # The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w
+    # moves the focus slice as `slices.w` does, unless `slices` has `focus`, `offset` or `w`.
+    point: Sequence[float]
+    # What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar
+    # sections; or all slices at the same size, in a straight row in order of w from the left (strip), in a straight
+    # column with the largest w at the top (column), or in as many rows as make them largest, in order of w from left to
+    # right and from top to bottom (grid).
+    view: View
+    # Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each
+    # step is a revision.
+    turning: bool
+    # Which parts are drawn.
+    shown: Union[ShownParts, StateShown]
+    # How the viewer has moved the camera from its initial position. Not part of the undo history.
+    camera: Union[SettingsCamera, StateCamera]
+    # What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
+    color: Coloring
+    # The background of pictures; the other colors are chosen for it. See Backgrounds.
+    background: Background
+    # The factor by which the radii of all balls and bars are multiplied in slices, in the projection and in drawings.
+    # Exported bodies and the matrix of planar sections stay as they are.
+    thickness: float
+    # The factor by which the opacity of translucent faces is multiplied in slices, in the projection and in drawings;
+    # they become at most opaque. Faces in slices of nonconvex polytopes are opaque in any case. The surfaces of fields
+    # and the matrix of planar sections stay as they are.
+    opacity: float
+    # For fields only: the caps of the surfaces, where the boundary of the box cuts through the body: in the color of
+    # the surface, colored by value, or not drawn. Exported bodies have caps in any case.
+    caps: Caps
+    # For fields only: the values at which surfaces are shown. A change of the object sets it to the object's own level.
+    levels: Sequence[float]
+    # For fields only: whether the bodies are where the function is below a level, or above it. A change of the object
+    # sets it to `below` for a formula and `above` for an array.
+    inside: Inside
+    # For fields only: the transfer function of the fog that fills the slices: the opacity of a layer as thick as the
+    # circumradius, and the color, of each value; linear between the points, and constant beyond. An empty array
+    # (initially) means no fog. A change of the object empties it.
+    fog: Sequence[FogControlPoint]
+    # If it has a `formula`, the field called `polytope` is loaded first, as by `load`, unless the session has it;
+    # otherwise ignored.
+    field: FieldDefinition
+    # The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or
+    # parallel to the w axis.
+    projection: Projection
+    # The w of the eye of the perspective projection, in circumradii.
+    eye: float
+    # Cells of these kinds are not drawn, nor are bars and balls that belong to no other cell. If only one of `hidden`
+    # and `faded` is set, its kinds are removed from the other; a kind in both is hidden. A change of the polytope
+    # empties both.
+    hidden: Sequence[int]
+    # Cells of these kinds are drawn faintly.
+    faded: Sequence[int]
+    # The element that is drawn in another color, in slices, projection and parallel coordinates; null if there is none.
+    # A change of the polytope sets it to null.
+    highlight: Optional[SettingsHighlight]
+    # The last rotation, for `.` and the space bar; null changes nothing.
+    last: Turn
+    # Whether the change belongs to the undo step of the previous command, as the parts of one gesture do.
+    continues: bool
+
+
+class SetRequestSection(TypedDict, total=False):
+    """Ignored. Allowed so that a state can be sent back as a set."""
+    # w of the focus slice.
+    w: float
+    # What the focus slice is, such as "icosahedron"; empty if it has no name.
+    name: str
+    # The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has
+    # no name.
+    vertices: str
+
+
+class _SetRequest(TypedDict):
+    type: Literal["set"]
+
+
+class SetRequest(_SetRequest, Settings, total=False):
+    """Sets every member that is present; the others keep their values. Changing the type of a state makes it a valid
+    set."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # Ignored. Allowed so that a state can be sent back as a set.
+    revision: int
+    # Ignored. Allowed so that a state can be sent back as a set.
+    draft: bool
+    # Ignored. Allowed so that a state can be sent back as a set.
+    moving: bool
+    # Ignored. Allowed so that a state can be sent back as a set.
+    section: SetRequestSection
+
+
+class _ShownRequest(TypedDict):
+    type: Literal["shown"]
+    # The revision of the picture. All earlier pictures are acknowledged, too.
+    revision: int
+
+
+class ShownRequest(_ShownRequest, total=False):
+    """Acknowledges a picture of the stream. At any time, at most two pictures are sent but not acknowledged."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+class _TowardRequest(TypedDict):
+    type: Literal["toward"]
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+
+
+class TowardRequest(_TowardRequest, total=False):
+    """The polytope moves there by the shortest rotation, at a quarter turn per second, as one undo step. Each step of
+    the motion is a revision. The element ends in one hyperplane w = const."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+    # The element, counted from 0. If absent, the element of this kind that is closest to +w, or the next one if that is
+    # already there.
+    number: int
+    # Whether to jump there instead of moving; the default is false.
+    immediately: bool
+
+
+class _UndoRequest(TypedDict):
+    type: Literal["undo"]
+
+
+class UndoRequest(_UndoRequest, total=False):
+    """Undoes one step of the history. Fails with nothing_to_undo if there is none."""
+    # Chosen by the client; the answer or error has the same id.
+    id: float
+
+
+Request = Union[Address, CommandRequest, GetRequest, HelloRequest, KeyRequest, LoadRequest, MeasureRequest, PingRequest,
+                RandomRequest, RedoRequest, ResetRequest, RotateRequest, SetRequest, ShownRequest, TowardRequest,
+                UndoRequest]
+
+# A request that may change the session. The server answers it with `done`.
+Command = Union[Address, CommandRequest, KeyRequest, LoadRequest, RandomRequest, RedoRequest, ResetRequest,
+                RotateRequest, SetRequest, TowardRequest, UndoRequest]
+
+# The types of those messages that `done` answers.
+AnsweredByDone = Literal["address", "command", "key", "load", "random", "redo", "reset", "rotate", "set", "shown",
+                         "toward", "undo"]
