@@ -100,6 +100,14 @@ TEST(RequestTarget, ReadsPlusAsBlankUnlessItAdds) {
     }
 }
 
+TEST(RequestTarget, KeepsCharactersThatBrowsersDoNotEncode) {
+    const auto target = parseRequestTarget(R"(/a^|b[]?formula=x^2|y-{z}`[w]\&{a}=b)");
+    ASSERT_TRUE(target);
+    EXPECT_EQ(target->path, "/a^|b[]");
+    const session::QueryParameters expected{{"formula", R"(x^2|y-{z}`[w]\)"}, {"{a}", "b"}};
+    EXPECT_EQ(target->query, expected);
+}
+
 TEST(RequestTarget, LeavesOutWhatOtherSitesAppend) {
     const auto target = parseRequestTarget(
         "/?fbclid=1&polytope=5-cell&utm_source=a&utm_medium=b&gclid=c&fb=2&gad_source=1&gad_campaignid=2&srsltid=d&"
