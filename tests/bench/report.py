@@ -21,12 +21,13 @@ from pathlib import Path
 import drawing
 import peers
 
-PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "drawing", "load")
+PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "export", "drawing", "load")
 BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
 WHOLE = ("8-cell", "24-cell", "120-cell", "600-cell")
+STARS = ("small stellated 120-cell", "great stellated 120-cell", "great grand stellated 120-cell")
 TURNS = 5         # for frames
 QUICK_TURNS = 11  # for operations of less than a millisecond
 
@@ -340,6 +341,30 @@ def field_growth(settings):
     print("\nTargets: ratios ≤ 5, memory ≤ 1.25.")
 
 
+def exported(what, polytope, turns):
+    """Runs bench_export; returns its measurements."""
+    done = subprocess.run([BIN / "bench_export", what, polytope, str(turns)], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def exports():
+    """Prints the times of exported files, and of filled faces beside GLU's tessellator."""
+    print("\n## Export: files of the 120-cell\n\nFrom a state to the bytes of the file. Medians of five turns; in each "
+          "turn, all files are made one after the other.")
+    table(["", "ms", "bytes"], [[f"{file['format']}, {file['about']}", statistics.median(file["ms"]), file["bytes"]]
+                                for file in exported("files", "120-cell", TURNS)])
+    print("\n## Filling of the faces of 21 slices of a star\n\nThe ratio says how many times faster "
+          "oval4d is than GLU's tessellator, which returns triangles, fans and strips; oval4d's convex pieces are "
+          "counted as fans.")
+    rows = []
+    for polytope in STARS:
+        run = exported("faces", polytope, QUICK_TURNS)
+        rows.append([polytope, run["faces"], run["sides"], *Turns.compare(run["ms"]["ours"], run["ms"]["glu"]),
+                     run["triangles"]["ours"], run["triangles"]["glu"], run["area_difference"], run["glu_failures"]])
+    table(["", "faces", "sides", "oval4d, ms", "GLU, ms", "ratio", "triangles, oval4d", "triangles, GLU",
+           "relative difference of areas", "errors of GLU"], rows)
+
+
 def two_cores():
     """Prints the pictures per second for each way to use several cores."""
     print("\n## Drawing: state to PNG, as fast as possible\n\nThreads are llvmpipe's own.")
@@ -376,7 +401,8 @@ def main():
     loaded = load() if {"targets", "load"} & set(wanted) else None
     for name in wanted:
         {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
-         "polytopes": polytopes, "whole": whole, "fields": fields, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
+         "polytopes": polytopes, "whole": whole, "fields": fields, "export": exports, "drawing": two_cores,
+         "load": lambda: under_load(loaded)}[name]()
 
 
 if __name__ == "__main__":
