@@ -1,0 +1,118 @@
+#pragma once
+// The contours of the levels of a field in planes: what the panels of a HyperSlice matrix show of a field (see
+// planar_sections.hpp).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/field.hpp"
+#include "geometry/rotation.hpp"
+#include "slicing/planar_sections.hpp"
+#include "slicing/surface_detail.hpp"
+#include "slicing/surfaces/field_section.hpp"
+
+namespace oval4d::slicing {
+
+/// The contours of the levels of a field in a plane that is parallel to two coordinate axes, as polygonal lines. A
+/// closed line ends at the point at which it begins.
+struct PlanarContours {
+    std::vector<glm::dvec2> points;       ///< their coordinates along the two axes, in the units of the object
+    std::vector<std::uint32_t> begin{0};  ///< the index of the first point of each line; then the number of points
+    std::vector<std::uint32_t> level;     ///< per line: the index of its level in FieldSettings::levels
+
+    std::size_t lineCount() const { return level.size(); }
+    /// Returns the points of a line, of which there are at least two.
+    std::span<const glm::dvec2> line(std::size_t i) const {
+        return std::span(points).subspan(begin[i], begin[i + 1] - begin[i]);
+    }
+    void clear() {
+        points.clear();
+        begin.assign(1, 0);
+        level.clear();
+    }
+};
+
+/// The contours in the planes of kPlaneAxes.
+using MatrixContours = std::array<PlanarContours, kPlaneAxes.size()>;
+
+/// The least and the greatest number of lattice squares along the side of a panel.
+inline constexpr double kMinContourSquares = 8, kMaxContourSquares = 160;
+
+/// The maximum number of points of the contours in one plane. If there were more, the lattice would be made coarser,
+/// but not coarser than a quarter of kMaxContourSquares.
+inline constexpr std::size_t kMaxContourPoints = 20'000;
+
+/// Returns the maximum time to evaluate a field at the lattice points of all six planes together, in nanoseconds, as
+/// ScalarFunction::cost() estimates it: a tenth of the time for surfaces. If the lattices had too many points, they
+/// would be made coarser, but not coarser than kMinContourSquares.
+constexpr double maxContourTime(Quality quality) { return 0.1 * surfaceLimits(quality).time; }
+
+/// Returns the lattice step of the contours of `field`, in the units of the object, for panels whose sides have the
+/// length `side` in these units and `pixels` pixels. Squares are as wide as the cubes of surfaces in pictures (see
+/// pixelsPerCube()); for files, whose size in pixels is not known, the lattice is as fine as allowed.
+double contourStep(const fields::Field& field, double side, double pixels, Quality quality);
+
+/// Finds contours by marching squares. Reuses its memory. Only one thread at a time may use a tracer.
+class PlanarContourTracer {
+  public:
+    /// Finds the contours of `levels` of `field`, rotated by `orientation`, in the six planes through `point`, whose
+    /// coordinates are those after the rotation. The function is evaluated only in the domain: at the points of a
+    /// square lattice with the step `step`, and where the sides of its squares meet the boundary of the domain. Between
+    /// these points, it is interpolated linearly. No line passes a square at a corner of which the function has no
+    /// value. In drafts, contours may lack details of the function that are smaller than the step. Overwrites `out`.
+    void trace(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point,
+               std::span<const double> levels, double step, Quality quality, MatrixContours& out);
+
+  private:
+    // A half-plane, which contains the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
+    struct HalfPlane {
+        glm::dvec2 normal;
+        double offset;
+
+        // Returns the distance of a point from the boundary: positive inside, negative outside.
+        double depthOf(const glm::dvec2& p) const;
+    };
+    struct Segment {
+        std::array<glm::dvec2, 2> ends;
+    };
+    // One end of a segment: end 2 s + k is the end k of segment s.
+    struct SegmentEnd {
+        glm::dvec2 at;
+        std::uint32_t end;
+    };
+
+    void placePlane(const fields::Field& field, const glm::dmat4& toFunction, const std::array<int, 2>& axes,
+                    const glm::dvec4& point);
+    bool findSides(const fields::Field& field, const glm::dmat4& toFunction);
+    void cutBySides();
+    bool contains(const glm::dvec2& p) const;
+    void layOutLattice(double step);
+    void addCell(const std::array<glm::dvec2, 4>& corners, const std::array<std::uint32_t, 4>& indices);
+    void addSegments(std::span<const std::uint32_t> corners, double level);
+    void joinSegments(std::uint32_t level, PlanarContours& out);
+
+    FieldSection section_;          // the plane: z is 0 in it
+    std::vector<HalfPlane> sides_;  // their intersection is the part of the plane in the domain
+    std::vector<glm::dvec2> polygon_, cutPolygon_;
+    std::vector<glm::dvec3> points_;            // at which the function is evaluated; z is 0
+    std::vector<float> values_;                 // of the function, per point
+    std::vector<std::uint32_t> latticePoints_;  // per lattice point: its index in points_, or kNone outside the domain
+    // The squares of the lattice, cut by the domain. Their corners are indices of points.
+    std::vector<std::uint32_t> cellBegin_, cellCorners_;
+    std::vector<glm::dvec2> crossings_;     // of one level with the sides of one cell, in their order around it
+    std::vector<Segment> segments_;         // of the contours of one level
+    std::vector<SegmentEnd> ends_;          // of all segments, sorted by their places
+    std::vector<std::uint32_t> nodeOf_;     // per end: the index of the node at its place
+    std::vector<std::uint32_t> nodeBegin_;  // per node: its first end in ends_; then the number of ends
+    std::vector<char> isJoined_;            // per segment: whether it belongs to a line
+};
+
+}  // namespace oval4d::slicing
