@@ -238,6 +238,14 @@ export interface ObjectProjection {
     parts: (Elements & ProjectionLook)[];
 }
 
+/** A line along which a field has the value of a level. A closed line ends at its first point. */
+export interface Contour {
+    /** The index of the level in the `levels` of the state; its color is in scene.surfaces. */
+    level: number;
+    /** The points' coordinates along the two axes of the section, in the object's units. */
+    points: [number, number][];
+}
+
 /** The section of the object by a plane that is parallel to two coordinate axes. */
 export interface PlanarSection {
     /** 0 to 3 for x, y, z, w; the smaller number is first. */
@@ -263,6 +271,8 @@ export interface PlanarSection {
     seen?: { points: number[]; edges: number[] };
     /** The radius of each point, as a multiple of SectionMatrix.ball, and its opacity; absent if all are 1. */
     balls?: { scale: number[]; opacity: number[] };
+    /** The contours of a field; absent for other objects, and if surfaces are not shown. */
+    contours?: Contour[];
 }
 
 /**

@@ -243,7 +243,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (isSquare) viewport.width = viewport.height;
     if (isExportedInPortrait(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
-    composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
+    composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
     if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
     // also shows the focus point, as this view does.

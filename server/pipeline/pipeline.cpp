@@ -40,7 +40,7 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
     workspace_.composer.limitFaceFilling(limits_.fillSteps);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
-                                    workspace_.scene);
+                                    workspace_.scene, quality);
     });
     times_.write =
         measureSeconds([&] { workspace_.slicesWriter.write(workspace_.scene, revision, id, encoding, out, quality); });
@@ -50,9 +50,10 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
                                     std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
                                     glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    workspace_.composer.limitFaceFilling(0);  // pickElement() does not use the triangles that fill faces
+    // pickElement() does not use the triangles that fill faces, nor the contours.
+    workspace_.composer.limitFaceFilling(0);
     workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
-                                workspace_.scene);
+                                workspace_.scene, slicing::Quality::draft);
     return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
                            scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, revision, id);
 }

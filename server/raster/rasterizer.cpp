@@ -25,8 +25,8 @@ void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport
         m.slicer.slice(state.object, state.orientation, planes, state.look.field, m.detail, m.slices);
     });
     times.compose = measureSeconds([&] {
-        m.composer.compose(state.object, state.orientation, m.slices, state.slices.focus, state.look, viewport,
-                           m.scene);
+        m.composer.compose(state.object, state.orientation, m.slices, state.slices.focus, state.look, viewport, m.scene,
+                           quality);
     });
     times.draw = measureSeconds([&] { renderer_->draw(m.scene, pixels); });
 }

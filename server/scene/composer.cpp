@@ -79,7 +79,7 @@ void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyper
 }
 
 void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
-                       const Look& look, Viewport viewport, Scene& out) {
+                       const Look& look, Viewport viewport, Scene& out, slicing::Quality quality) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     setObjectLookAndViewport(object, look, viewport, out);
     const bool objectChanged = std::exchange(objectChanged_, false);
@@ -104,7 +104,10 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
-    if (out.matrix.shown) cutSectionMatrix(object, orientation, focus, out);
+    if (out.matrix.shown) {
+        cutSectionMatrix(object, orientation, focus, out);
+        traceContours(object, orientation, quality, out);
+    }
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
@@ -239,6 +242,27 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
                                                   : out.highlight.hasEdge(source));
         }
     }
+}
+
+// Finds the contours in the planes of the matrix, unless the scene has them from the last call. It often does, because
+// the camera and the colors do not move them.
+void Composer::traceContours(const Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
+                             Scene& out) {
+    SectionMatrix& matrix = out.sectionMatrix;
+    if (out.surfaces.empty()) {
+        contourInput_.reset();
+        for (slicing::PlanarContours& contours : matrix.contours) contours.clear();
+        return;
+    }
+    const fields::Field& field = *slicing::fieldIn(object);
+    const double side = 2 * MatrixLayout::kReach * out.circumradius, pixels = out.matrix.panel * out.viewport.height;
+    ContourInput input{
+        object_, orientation, matrix.point, out.look.field.levels, slicing::contourStep(field, side, pixels, quality),
+        quality};
+    if (contourInput_ == input) return;
+    contourInput_.reset();
+    contourTracer_.trace(field, orientation, matrix.point, input.levels, input.step, quality, matrix.contours);
+    contourInput_ = std::move(input);
 }
 
 void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {

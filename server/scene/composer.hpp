@@ -6,12 +6,16 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <glm/vec4.hpp>
 
 #include "geometry/rotation.hpp"
 #include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
 #include "slicing/coordinate_histograms.hpp"
 #include "slicing/object.hpp"
+#include "slicing/planar_contours.hpp"
 #include "slicing/planar_sections.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/section_name.hpp"
@@ -29,10 +33,11 @@ class Composer {
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
-    /// index n of the focus slice (see SlicePlacement::index). Overwrites `out` and reuses its memory. `out` keeps a
-    /// pointer to `slices`; `slices` must outlive `out`.
+    /// index n of the focus slice (see SlicePlacement::index). `quality` is that of the contours in the matrix of a
+    /// field. Overwrites `out` and reuses its memory. `out` keeps a pointer to `slices`; `slices` must outlive `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
-                 int focus, const Look& look, Viewport viewport, Scene& out);
+                 int focus, const Look& look, Viewport viewport, Scene& out,
+                 slicing::Quality quality = slicing::Quality::full);
 
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
     /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
@@ -56,9 +61,22 @@ class Composer {
         bool operator==(const LayoutInput&) const = default;
     };
 
+    // All that determines the contours in the matrix.
+    struct ContourInput {
+        std::uint64_t object = 0;  // the serial number
+        geometry::Rotation orientation;
+        glm::dvec4 point{0};
+        std::vector<double> levels;
+        double step = 0;
+        slicing::Quality quality = slicing::Quality::full;
+        bool operator==(const ContourInput&) const = default;
+    };
+
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void cutSectionMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
+    void traceContours(const slicing::Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
+                       Scene& out);
     void nameSection(const slicing::Object& object, int focus, Scene& out);
     void setObjectLookAndViewport(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
     void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
@@ -76,6 +94,8 @@ class Composer {
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
+    slicing::PlanarContourTracer contourTracer_;
+    std::optional<ContourInput> contourInput_;  // of the contours that the scene has; empty if it has none
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
     LayoutInput layoutInput_;           // the input of the next layout; a member to reuse its memory

@@ -15,6 +15,7 @@
 #include "scene/style.hpp"
 #include "scene/surface_look.hpp"
 #include "slicing/fill.hpp"
+#include "slicing/planar_contours.hpp"
 #include "slicing/planar_sections.hpp"
 #include "slicing/section_name.hpp"
 #include "slicing/slice_set.hpp"
@@ -44,6 +45,7 @@ struct ObjectProjection {
 struct SectionMatrix {
     glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units, after the rotation
     slicing::PlanarSections sections;
+    slicing::MatrixContours contours;  ///< of a field whose surfaces are shown (see Scene::surfaces); else empty
     /// How the edges and points of a section are drawn.
     struct SectionStyle {
         std::vector<std::uint32_t> edgeCells;  ///< per edge: the cell that determines its color

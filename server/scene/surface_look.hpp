@@ -1,6 +1,7 @@
 #pragma once
 // How the surfaces of a field are drawn.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -65,6 +66,9 @@ struct SurfaceLook {
     Color color(const LevelLook& level, std::size_t slice) const {
         return sliceColors.empty() ? level.color : sliceColors[slice];
     }
+    /// Returns the color of the contours of a level in the matrix, where w varies in most planes, so that `sliceColors`
+    /// do not apply. `index`: LevelLook::index of one of `levels`.
+    Color contourColor(std::size_t index) const { return std::ranges::find(levels, index, &LevelLook::index)->color; }
     bool colorsPoints() const { return pointColoring != PointColoring::none; }
     bool colorsCapPoints() const { return capColoring != PointColoring::none; }
     /// Returns the color of a point of a level set. Requires colorsPoints().

@@ -78,6 +78,20 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.endObject();
 }
 
+// Writes the contours of the levels of a field in a plane.
+template <typename W>
+void writeContours(W& w, const slicing::PlanarContours& contours) {
+    w.key("contours");
+    w.beginArray();
+    for (std::size_t i = 0; i < contours.lineCount(); ++i) {
+        w.beginObject();
+        w.member("level", contours.level[i]);
+        writePairs(w, "points", contours.line(i));
+        w.endObject();
+    }
+    w.endArray();
+}
+
 // Returns the number of columns of the plot in Scene::plotTones; 0 if there is no plot.
 int columnsOf(const scene::CoordinatesLayout& layout) {
     if (layout.panel > 0) return slicing::CoordinateHistograms::kColumns;
@@ -278,6 +292,7 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
             writeNumbers(w, "opacity", section.ballOpacity);
             w.endObject();
         }
+        if (!scene.surfaces.empty()) writeContours(w, matrix.contours[i]);
         w.endObject();
     }
     w.endArray();

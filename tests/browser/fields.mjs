@@ -36,6 +36,7 @@ const views = [
     { name: "colored by w, with a projection", formula: kTiger, settings: { color: "w", projection: "perspective" } },
     { name: "a slice alone", formula: "x^2 + y^2 - z^2 < w", settings: { view: "single" } },
     { name: "the matrix view", formula: "x^2 + y^2 - z^2 < w", settings: { view: "matrix", color: "growth" } },
+    { name: "contours in the matrix", formula: kTiger, settings: { view: "matrix", levels: [0, 0.1], point: [0.6, 0.7, 0.5, 0.4] } },
     { name: "the box alone", formula: kTiger, settings: { shown: { faces: false } } },
     { name: "fog", formula: kTiger, settings: { fog: kFog, shown: { faces: false } } },
     { name: "fog around a level", formula: kTiger, settings: { fog: kFog } },

@@ -385,3 +385,34 @@ test("matrix: moves in two panels add up while the first one is not answered", a
     await pointAt(script, [0.4, 0.5, -0.1, -0.4], "both moves");
     await close();
 });
+
+for (const mode of ["geometry", "frames"]) {
+    test(`matrix: the contours of a field have the colors of their levels (${mode})`, async () => {
+        const { page, script, errors, size, picture, close } = await openMatrix();
+        await script.request({ type: "load", name: "formula", format: "formula", data: "sqrt(x^2 + y^2 + z^2 + w^2)" });
+        const { revision } = await script.request({
+            ...{ type: "set", view: "matrix", levels: [1, 1.5], point: kPoint, projection: "off" },
+            shown: { bars: false, balls: false },
+        });
+        if (mode === "frames") await drawByServer(page);
+        await presented(page, revision);
+        const { matrix, scene } = await picture();
+        const seen = await shot(page);
+        for (const name of kPanels) {
+            const { section, place } = panelOf(matrix, name, size);
+            assert.deepEqual(section.contours.map(({ level }) => level), [0, 1], name);
+            for (const { level, points } of section.contours) {
+                const color = rgb(scene.surfaces.find((one) => one.level === level).color);
+                const isDrawn = (point) => {
+                    const [x, y] = place(point).map(Math.floor);
+                    const steps = [-1, 0, 1];
+                    return steps.some((dx) => steps.some((dy) => distance(pixelAt(seen, x + dx, y + dy), color) < 64));
+                };
+                const drawn = points.filter(isDrawn).length;
+                assert.ok(drawn > 0.9 * points.length, `${name}: ${drawn} of ${points.length} points`);
+            }
+        }
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}

@@ -5,6 +5,7 @@ import math
 
 import png
 import pytest
+from surfaces import field_client, load_field, random_rotation
 from test_python_client_arrays import assert_approximately_equal
 from wire import ENCODINGS, Client, Refused
 
@@ -133,3 +134,80 @@ def test_a_frame_shows_the_matrix(server):
     oval, matrix, moved = (server.get(base + more).body for more in ("", "&view=matrix", "&view=matrix&point=0.3,0,0,0"))
     panels = [png.pixels(picture)[1] for picture in (oval, matrix, moved)]
     assert panels[0] != panels[1] != panels[2]
+
+
+SPHERE = "sqrt(x^2 + y^2 + z^2 + w^2)"
+
+
+async def test_the_contours_of_a_sphere_are_circles(server):
+    point = [0.1, 0.2, 0.3, -0.1]
+    async with field_client(server, SPHERE, stream="none") as client:
+        for seed in None, 5, 6:
+            if seed is not None:
+                await client.request("set", orientation=random_rotation(seed))
+            await client.request("set", view="matrix", levels=[1, 1.5], point=point)
+            slices = await client.request("get", what="slices", width=1280, height=720)
+            assert {look["level"] for look in slices["scene"]["surfaces"]} == {0, 1}
+            for section in slices["matrix"]["sections"]:
+                beside = sum(point[axis] ** 2 for axis in range(4) if axis not in section["axes"])
+                assert [line["level"] for line in section["contours"]] == [0, 1]
+                for line, level in zip(section["contours"], [1, 1.5]):
+                    radius = math.sqrt(level**2 - beside)
+                    assert line["points"][0] == line["points"][-1], "a closed line"
+                    assert all(math.hypot(*p) == pytest.approx(radius, abs=0.02) for p in line["points"])
+                assert section["boundary"], "the outline of the box"
+        await client.request("set", shown={"faces": False})
+        hidden = await client.request("get", what="slices")
+        assert not any("contours" in section for section in hidden["matrix"]["sections"])
+        await client.request("set", polytope="24-cell", shown={"faces": True})
+        polytope = await client.request("get", what="slices")
+        assert not any("contours" in section for section in polytope["matrix"]["sections"])
+
+
+async def test_contours_end_at_a_hole(server):
+    async with field_client(server, "x + s - s; s=sqrt(x^2 + y^2 + z^2 + w^2 - 0.25)", stream="none") as client:
+        await client.request("set", view="matrix", levels=[0.013])
+        sections = (await client.request("get", what="slices", width=1280, height=720))["matrix"]["sections"]
+        for section in sections:
+            if 0 in section["axes"]:
+                assert len(section["contours"]) == 2
+                assert all(math.hypot(*p) > 0.49 for line in section["contours"] for p in line["points"])
+            else:
+                assert section["contours"] == []
+
+
+async def test_all_encodings_have_the_same_contours(server):
+    sections = {}
+    for encoding in ENCODINGS:
+        async with Client(server, stream="none", encoding=encoding) as client:
+            await load_field(client, "x*y + z*w + sqrt(x + 1.2)")
+            await client.request("set", view="matrix", levels=[0.7, 1.4, 2], point=[0.1, 0.05, 0, 0.2])
+            await client.request("rotate", planes=["xw", "yz"], angles=[0.3, 0.7])
+            sections[encoding] = (await client.request("get", what="slices"))["matrix"]["sections"]
+        assert_approximately_equal(sections[encoding], sections["json"])
+    assert sum(len(section["contours"]) for section in sections["json"]) >= 3
+
+
+async def test_a_frame_shows_the_contours(server):
+    width, height = 1280, 720
+    async with field_client(server, SPHERE, stream="none") as client:
+        await client.request("set", view="matrix", levels=[1, 1.5], point=[0.1, 0.2, 0.3, -0.1],
+                             shown={"bars": False, "balls": False})
+        slices = await client.request("get", what="slices", width=width, height=height)
+        size, data = png.pixels(await client.request_frame(width=width, height=height))
+        assert size == (width, height)
+        matrix, colors = slices["matrix"], {look["level"]: look["color"] for look in slices["scene"]["surfaces"]}
+        near = total = 0
+        for section, transposed in itertools.product(matrix["sections"], (False, True)):
+            column, row = reversed(section["axes"]) if transposed else section["axes"]
+            for line in section["contours"]:
+                expected = [colors[line["level"]] >> shift & 255 for shift in (16, 8, 0)]
+                for point in line["points"]:
+                    across, up = reversed(point) if transposed else point
+                    scale = matrix["panel"] / 2 / matrix["reach"]
+                    x = (matrix["left"] + column * matrix["step"] + matrix["panel"] / 2 + scale * across) * height
+                    y = (1 - matrix["bottom"] - (3 - row) * matrix["step"] - matrix["panel"] / 2 - scale * up) * height
+                    around = [3 * (width * (int(y) + dy) + int(x) + dx) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+                    near += any(max(abs(data[at + k] - expected[k]) for k in range(3)) < 64 for at in around)
+                    total += 1
+        assert total > 500 and near > 0.95 * total

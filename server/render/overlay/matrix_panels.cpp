@@ -44,6 +44,7 @@ class SectionPainter {
         for (const glm::dvec2& p : from.points) points_.push_back(pixelOf(p));
         if (scene_.look.parts.faces) paintFill(from);
         paintFocusLines(row, column);
+        paintContours(section);
         if (scene_.look.parts.bars) paintEdges(section);
         if (scene_.look.parts.balls || !from.ballScale.empty()) paintPoints(section);
     }
@@ -88,10 +89,22 @@ class SectionPainter {
         if (!scene_.needsDepthBuffer) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
     }
 
+    float lineWidth() const { return static_cast<float>(std::max(1.0, scene_.matrix.lineWidth * height_)); }
+
+    void paintContours(std::size_t section) const {
+        const slicing::PlanarContours& contours = scene_.sectionMatrix.contours[section];
+        for (std::size_t i = 0; i < contours.lineCount(); ++i) {
+            const auto line = contours.line(i);
+            const Color color = scene_.surfaces.contourColor(contours.level[i]);
+            for (std::size_t p = 1; p < line.size(); ++p)
+                overlay_.line(pixelOf(line[p - 1]), pixelOf(line[p]), lineWidth(), color);
+        }
+    }
+
     void paintEdges(std::size_t section) const {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
         const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
-        const auto width = static_cast<float>(std::max(1.0, scene_.matrix.lineWidth * height_));
+        const float width = lineWidth();
         for (std::size_t e = 0; e < from.edges.size(); ++e) {
             const double opacity = slicing::opacityOf(styles.edges[e]);
             if (opacity == 0) continue;

@@ -97,6 +97,7 @@ function drawPanel(panel: MatrixPanel, context: PanelContext): void {
     const points = panel.section.points.map((point) => panel.pixelOf(point));
     if (shown.faces) drawFill(panel, points, context);
     drawFocusLines(panel, box, context);
+    drawContours(panel, context);
     if (shown.bars) drawEdges(panel, points, context);
     if (shown.balls || panel.section.balls) drawPoints(panel, points, context);
 }
@@ -137,6 +138,21 @@ function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, view
         pen.fillStyle = cssColor(scene.colors.axes[row]!);
         pen.fillRect(x - width / 2, box.top, width, box.height);
     }
+}
+
+function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: PanelContext): void {
+    pen.globalAlpha = 1;
+    pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
+    pen.lineCap = pen.lineJoin = "round";
+    for (const { level, points } of panel.section.contours ?? []) {
+        const look = scene.surfaces?.find((one) => one.level === level);
+        pen.strokeStyle = cssColor(look?.color ?? scene.colors.bar);
+        pen.beginPath();
+        for (const point of points) pen.lineTo(...panel.pixelOf(point));
+        pen.stroke();
+    }
+    pen.lineCap = "butt";
+    pen.lineJoin = "miter";
 }
 
 function drawEdges(
