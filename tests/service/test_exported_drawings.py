@@ -127,6 +127,34 @@ def test_a_drawing_of_the_matrix_has_the_sections(server, tmp_path):
             assert len(list(group.iter(SVG + "circle"))) == 4
 
 
+def test_a_drawing_of_the_matrix_of_a_field_has_the_contours_in_the_colors_of_the_levels(server, tmp_path):
+    query, point, levels = "formula=sqrt(x^2%2By^2%2Bz^2%2Bw^2)&of=matrix", [0.1, 0.2, 0.3, -0.1], [1, 1.5]
+    shown = f"{query}&levels=1,1.5&point=0.1,0.2,0.3,-0.1&background=dark"
+    root = svg_of(server, tmp_path, shown)
+    colors = set()
+    panels = [group for group in root.iter(SVG + "g") if group.get("id") not in ("names", "numbers")]
+    assert len(panels) == 12
+    for group in panels:
+        frame = [line for line in group.iter(SVG + "line")][:4]
+        across, down = [[float(line.get(name)) for line in frame] for name in ("x1", "y1")]
+        center = (min(across) + max(across)) / 2, (min(down) + max(down)) / 2
+        unit = (max(across) - min(across)) / 2 / (1.08 * 4)  # the box from -2 to 2 has the circumradius 4
+        beside = sum(value**2 for axis, value in zip("xyzw", point) if axis not in group.get("id"))
+        lines = list(group.iter(SVG + "polyline"))
+        assert len(lines) == len(levels) and all(line.get("fill") == "none" for line in lines)
+        colors.add(tuple(line.get("stroke") for line in lines))
+        for line, level in zip(lines, levels):
+            points = [[float(number) for number in pair.split(",")] for pair in line.get("points").split()]
+            assert points[0] == points[-1] and len(points) > 30
+            for x, y in points:
+                radius = ((x - center[0]) ** 2 + (y - center[1]) ** 2) ** 0.5 / unit
+                assert radius == pytest.approx((level**2 - beside) ** 0.5, abs=0.01)
+    (pair,) = colors
+    assert len(set(pair)) == 2 and all(contrast_to_white(color) > 3 for color in pair)
+    assert not list(svg_of(server, tmp_path, f"{shown}&faces=off").iter(SVG + "polyline"))
+    assert len(fetch_file(server, "pdf", shown)) > len(fetch_file(server, "pdf", f"{shown}&faces=off")) + 1000
+
+
 @pytest.mark.parametrize("of, slices", [("oval", 7), ("focus", 1)])
 def test_a_drawing_of_slices_has_their_elements_and_holds_on_white(server, tmp_path, of, slices):
     query = f"polytope=24-cell&{ROTATION}&slices=7&of={of}&background=dark"  # paper is white in any case
@@ -208,7 +236,7 @@ def test_a_drawing_of_the_slices_of_a_star_has_its_faces_and_one_of_a_field_is_r
     ("polytope=5-cell", ["P0", "P4"]), ("polytope=24-cell", ["P0", *"xyzw"]), ("polytope=24-cell&of=oval", list("xyz")),
     ("polytope=24-cell&of=focus", list("xyz")), ("polytope=120-cell", list("xyzw")), ("polytope=24-cell&of=matrix", list("xyzw")),
     ("polytope=24-cell&of=projection&cells=on&hidden=none", []), ("polytope={5/2,5,3}&of=matrix", list("xyzw")),
-    ("polytope={5/2,5,3}&of=projection", []),
+    ("polytope={5/2,5,3}&of=projection", []), ("formula=x*y%2Bz*w&levels=0.5,1,-1&of=matrix", list("xyzw")),
 ])
 def test_a_pdf_document_has_the_drawing_on_one_page(server, tmp_path, query, words):
     """MuPDF, an independent reader, opens the document without a complaint and sees what the SVG image shows."""

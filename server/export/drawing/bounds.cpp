@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 
@@ -26,17 +27,13 @@ class ShapeCutter {
         }
         return line;
     }
+    std::optional<DrawnShape> operator()(Polyline line) const {
+        cutPoints(line.points, false);
+        if (line.points.size() < 2) return std::nullopt;
+        return line;
+    }
     std::optional<DrawnShape> operator()(FilledPolygon polygon) const {
-        for (int bound = 0; bound < 4; ++bound) {
-            std::vector<glm::dvec2> kept;
-            for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-                const glm::dvec2 &here = polygon.corners[i], &next = polygon.corners[(i + 1) % polygon.corners.size()];
-                const double a = insideBound(here, bound), b = insideBound(next, bound);
-                if (a >= 0) kept.push_back(here);
-                if ((a < 0) != (b < 0)) kept.push_back(crossingOfBound(here, next, a, b));
-            }
-            polygon.corners = std::move(kept);
-        }
+        cutPoints(polygon.corners, true);
         if (polygon.corners.empty()) return std::nullopt;
         return polygon;
     }
@@ -58,6 +55,23 @@ class ShapeCutter {
     std::optional<DrawnShape> operator()(const DensityImage& density) const { return density; }
 
   private:
+    // Cuts a polygonal line at all bounds. If `closed`, the line also leads from the last point to the first.
+    void cutPoints(std::vector<glm::dvec2>& points, bool closed) const {
+        for (int bound = 0; bound < 4; ++bound) {
+            std::vector<glm::dvec2> kept;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const glm::dvec2& here = points[i];
+                const double a = insideBound(here, bound);
+                if (a >= 0) kept.push_back(here);
+                if (!closed && i + 1 == points.size()) break;
+                const glm::dvec2& next = points[(i + 1) % points.size()];
+                const double b = insideBound(next, bound);
+                if ((a < 0) != (b < 0)) kept.push_back(crossingOfBound(here, next, a, b));
+            }
+            points = std::move(kept);
+        }
+    }
+
     // Returns the distance of the position `at` from a bound: positive inside the bound, negative outside. The bounds 0
     // … 3 are x = farthest, x = −farthest, y = farthest and y = −farthest.
     double insideBound(const glm::dvec2& at, int bound) const {

@@ -30,6 +30,12 @@ struct Line {
     double opacity = 1;   ///< 0 … 1
     std::string id = {};  ///< the id of the line in an SVG file; may be empty
 };
+/// A polygonal line of at least two points, with round ends and corners.
+struct Polyline {
+    std::vector<glm::dvec2> points;
+    double width = 1;
+    scene::Color color = 0;
+};
 /// The interior of a polygon.
 struct FilledPolygon {
     std::vector<glm::dvec2> corners;
@@ -80,7 +86,7 @@ struct DensityImage {
         return mixed;
     }
 };
-using DrawnShape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;
+using DrawnShape = std::variant<Line, Polyline, FilledPolygon, Disk, TextLine, DensityImage>;
 
 /// A named group of shapes. Later shapes cover earlier ones.
 struct ShapeGroup {

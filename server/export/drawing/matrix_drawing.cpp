@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 namespace oval4d::exports {
 
@@ -63,6 +64,12 @@ class SectionDrawer {
         }
         drawFocusLines(center, row, column, group);
         const double width = std::min(1.6, 250 * scene_.matrix.pointRadius + 0.5);
+        const slicing::PlanarContours& contours = scene_.sectionMatrix.contours[section];
+        for (std::size_t i = 0; i < contours.lineCount(); ++i) {
+            Polyline line{{}, width, scene_.surfaces.contourColor(contours.level[i])};
+            for (const glm::dvec2& p : contours.line(i)) line.points.push_back(place(p));
+            group.shapes.emplace_back(std::move(line));
+        }
         for (std::size_t e = 0; e < from.edges.size(); ++e) {
             const double opacity = slicing::opacityOf(styles.edges[e]);
             if (opacity == 0) continue;

@@ -46,11 +46,18 @@ class PageWriter {
 
     void operator()(const Line& line) {
         setOpacity(line.opacity);
-        HPDF_Page_SetRGBStroke(page_, channel(line.color, 16), channel(line.color, 8), channel(line.color, 0));
-        HPDF_Page_SetLineWidth(page_, static_cast<float>(line.width));
-        HPDF_Page_SetLineCap(page_, line.roundEnds ? HPDF_ROUND_END : HPDF_BUTT_END);
+        setStroke(line.color, line.width, line.roundEnds);
         HPDF_Page_MoveTo(page_, x(line.from), y(line.from));
         HPDF_Page_LineTo(page_, x(line.to), y(line.to));
+        HPDF_Page_Stroke(page_);
+    }
+    void operator()(const Polyline& line) {
+        setOpacity(1);
+        setStroke(line.color, line.width, true);
+        HPDF_Page_SetLineJoin(page_, HPDF_ROUND_JOIN);
+        HPDF_Page_MoveTo(page_, x(line.points[0]), y(line.points[0]));
+        for (std::size_t i = 1; i < line.points.size(); ++i)
+            HPDF_Page_LineTo(page_, x(line.points[i]), y(line.points[i]));
         HPDF_Page_Stroke(page_);
     }
     void operator()(const FilledPolygon& polygon) {
@@ -102,6 +109,12 @@ class PageWriter {
   private:
     static float x(const glm::dvec2& at) { return static_cast<float>(at.x); }
     float y(const glm::dvec2& at) const { return static_cast<float>(height_ - at.y); }
+
+    void setStroke(scene::Color color, double width, bool roundEnds) {
+        HPDF_Page_SetRGBStroke(page_, channel(color, 16), channel(color, 8), channel(color, 0));
+        HPDF_Page_SetLineWidth(page_, static_cast<float>(width));
+        HPDF_Page_SetLineCap(page_, roundEnds ? HPDF_ROUND_END : HPDF_BUTT_END);
+    }
 
     void setFill(scene::Color color, double opacity) {
         setOpacity(opacity);

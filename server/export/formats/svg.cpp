@@ -2,8 +2,12 @@
 
 #include <array>
 #include <cstdio>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "export/formats/text.hpp"
 
@@ -21,6 +25,16 @@ std::string attribute(std::string_view name, const std::string& value) {
     return ' ' + std::string(name) + "=\"" + value + '"';
 }
 std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
+
+/// Returns points as the attribute `points` lists them.
+std::string listOf(const std::vector<glm::dvec2>& points) {
+    std::string list;
+    for (const glm::dvec2& point : points) {
+        if (!list.empty()) list += ' ';
+        list += number(point.x) + ',' + number(point.y);
+    }
+    return list;
+}
 
 std::string opacityAttribute(std::string_view name, double opacity) {
     return opacity < 1 ? attribute(name, opacity) : std::string();
@@ -71,14 +85,15 @@ struct ElementWriter {
                opacityAttribute("stroke-opacity", line.opacity) + attribute("x1", line.from.x) +
                attribute("y1", line.from.y) + attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
     }
+    std::string operator()(const Polyline& line) const {
+        return "<polyline fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"" +
+               attribute("stroke", scene::cssColor(line.color)) + attribute("stroke-width", line.width) +
+               attribute("points", listOf(line.points)) + "/>\n";
+    }
     std::string operator()(const FilledPolygon& polygon) const {
-        std::string corners;
-        for (const glm::dvec2& corner : polygon.corners) {
-            if (!corners.empty()) corners += ' ';
-            corners += number(corner.x) + ',' + number(corner.y);
-        }
         return "<polygon" + attribute("fill", scene::cssColor(polygon.color)) +
-               opacityAttribute("fill-opacity", polygon.opacity) + attribute("points", corners) + "/>\n";
+               opacityAttribute("fill-opacity", polygon.opacity) + attribute("points", listOf(polygon.corners)) +
+               "/>\n";
     }
     std::string operator()(const Disk& disk) const {
         return "<circle" + attribute("fill", scene::cssColor(disk.color)) +

@@ -72,12 +72,20 @@ class CommandWriter {
                (line.roundEnds ? ",line cap=round" : "") + opacityOption("draw", line.opacity) + "] " +
                position(line.from) + " -- " + position(line.to) + ";\n";
     }
+    void operator()(const Polyline& line) {
+        out +=
+            "\\draw[" + use(line.color) + ",line width=" + millimeters(line.width) + ",line cap=round,line join=round]";
+        for (std::size_t i = 0; i < line.points.size(); ++i) {
+            if (i > 0) out += " --";
+            append(line.points[i], i);
+        }
+        out += ";\n";
+    }
     void operator()(const FilledPolygon& polygon) {
-        constexpr std::size_t kCornersPerLine = 6;
         out += "\\fill[" + use(polygon.color) + opacityOption("fill", polygon.opacity) + ']';
         for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-            out += i > 0 && i % kCornersPerLine == 0 ? '\n' : ' ';
-            out += position(polygon.corners[i]) + " --";
+            append(polygon.corners[i], i);
+            out += " --";
         }
         out += " cycle;\n";
     }
@@ -121,6 +129,13 @@ class CommandWriter {
     std::string out;  ///< the commands
 
   private:
+    // Adds point i of a path. A few points share a line of the file.
+    void append(const glm::dvec2& point, std::size_t i) {
+        constexpr std::size_t kPointsPerLine = 6;
+        out += i > 0 && i % kPointsPerLine == 0 ? '\n' : ' ';
+        out += position(point);
+    }
+
     std::string millimeters(double length) const { return decimals(length * unit_, 3) + "mm"; }
 
     static std::string opacityOption(std::string_view of, double opacity) {

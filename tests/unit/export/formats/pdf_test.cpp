@@ -21,12 +21,17 @@ std::string triangleTo(const glm::dvec2& end) {
     return documentOf(exports::FilledPolygon{{{0, 0}, {0, 100}, end}, 0x123456});
 }
 
+std::string bentLineTo(const glm::dvec2& end) {
+    return documentOf(exports::Polyline{{{0, 0}, {0, 100}, end}, 1, 0x123456});
+}
+
 TEST(Pdf, keepsTheDirectionsOfLinesFarBeyondThePage) {
     // libharu would write the first two ends as the same position.
     EXPECT_NE(lineTo({1e6, 1e6}), lineTo({1e6, 5e5}));
     EXPECT_EQ(lineTo({2e6, 1e6}), lineTo({1e6, 5e5}));
     EXPECT_EQ(lineTo({-2e6, 1e6}), lineTo({-1e6, 5e5}));
     EXPECT_NE(triangleTo({1e6, 1e6}), triangleTo({1e6, 5e5}));
+    EXPECT_NE(bentLineTo({1e6, 1e6}), bentLineTo({1e6, 5e5}));
     EXPECT_NE(documentOf(exports::Disk{{1e6, 0}, 1e6 - 100, 0}), documentOf(exports::Disk{{1e6, 0}, 1e6 - 200, 0}));
 }
 

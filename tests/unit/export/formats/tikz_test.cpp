@@ -26,6 +26,8 @@ TEST(Tikz, WritesShapesWithTheirColorsAndOpacities) {
     EXPECT_TRUE(line.starts_with("% shapesof a test\n% A figure of 170 mm by 85 mm"));
     EXPECT_TRUE(has(line, "\\definecolor{oval12AB34}{HTML}{12AB34}"));
     EXPECT_TRUE(has(line, "\\draw[oval12AB34,line width=0.354mm,draw opacity=0.5] (1,2) -- (3.5,4);"));
+    EXPECT_TRUE(has(tikzOf(exports::Polyline{{{0, 0}, {1, 0}, {2, 1}}, 1, 0}),
+                    "\\draw[oval000000,line width=0.354mm,line cap=round,line join=round] (0,0) -- (1,0) -- (2,1);"));
     EXPECT_TRUE(has(tikzOf(exports::FilledPolygon{{{0, 0}, {1, 0}, {0, 1}}, 0}),
                     "\\fill[oval000000] (0,0) -- (1,0) -- (0,1) -- cycle;"));
     EXPECT_TRUE(has(tikzOf(exports::Disk{{5, 6}, 2, 0}), "\\fill[oval000000] (5,6) circle[radius=0.708mm];"));
@@ -52,6 +54,7 @@ TEST(Tikz, CutsShapesWhereTexHasNoLengths) {
         const double pointsPerUnit = size / exports::kDrawingWidth * 72.27 / 25.4;
         for (const exports::DrawnShape& shape :
              {exports::DrawnShape(exports::Line{.from = {0, 0}, .to = {1e9, 5e8}}),
+              exports::DrawnShape(exports::Polyline{{{0, 0}, {1e9, 0}, {0, -1e9}, {5, 5}}, 1, 0}),
               exports::DrawnShape(exports::FilledPolygon{{{0, 0}, {1e9, 0}, {0, -1e9}}, 0}),
               exports::DrawnShape(exports::Disk{{1e6, 0}, 1e6 - 100, 0})}) {
             const std::string text = tikzOf(shape, size);
