@@ -35,6 +35,8 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
     try {
         Field field = makeField(std::move(name), *function, box, scale);
         field.array = *function;
+        std::ranges::transform(array.units, field.units.begin(), quantityText);
+        field.quantity = {quantityText(array.quantity.name), quantityText(array.quantity.unit)};
         field.initialLevel = 0.5 * (static_cast<double>(samples.min) + samples.max);
         field.initialInside = Inside::above;
         return field;
@@ -69,7 +71,11 @@ std::optional<Error> setSecondArray(Field& field, const FieldArray& array, std::
     if (!function) return function.error();
     if ((*function)->statistics().min > (*function)->statistics().max)
         return Error{ErrorCode::bad_field, "no sample of the array of the values has a value"};
-    setSecondFunction(field, {*function, {}, *function, std::move(variable)});
+    setSecondFunction(field, {*function,
+                              {},
+                              *function,
+                              std::move(variable),
+                              {quantityText(array.quantity.name), quantityText(array.quantity.unit)}});
     return {};
 }
 

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include "fields/inside.hpp"
+#include "fields/quantity.hpp"
 #include "fields/scalar_function.hpp"
 #include "fields/value_range.hpp"
 #include "geometry/object_info.hpp"
@@ -29,6 +30,7 @@ struct SecondFunction {
     std::string formula = {};                         ///< the text of the formula; empty if the function is an array
     std::shared_ptr<const ArrayFunction> array = {};  ///< `function` if it is an array; else null
     std::string variable = {};                        ///< the name of the array in its file; empty if it has none
+    Quantity quantity = {};                           ///< what the values of the array measure
 };
 
 /// Where the samples of a field come from if they are too large for memory: a file in the server's data folder, and the
@@ -49,12 +51,14 @@ struct Field : geometry::ObjectInfo {
     glm::dmat4 toFunction{1};
     std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; if
                                                         ///< isTransformed, a parallelepiped
-    bool isTransformed = false;                    ///< whether transformedTo() made this field, which then shares the
-                                                   ///< functions of the original
-    double initialLevel = 0;                       ///< the only level that is shown at first
-    Inside initialInside = Inside::below;          ///< which side of the levels is inside at first
-    std::string formula;                           ///< the text of the formula; empty if there is none
-    std::shared_ptr<const ArrayFunction> array;    ///< `function` if it is an array; else null
+    bool isTransformed = false;                  ///< whether transformedTo() made this field, which then shares the
+                                                 ///< functions of the original
+    double initialLevel = 0;                     ///< the only level that is shown at first
+    Inside initialInside = Inside::below;        ///< which side of the levels is inside at first
+    std::string formula;                         ///< the text of the formula; empty if there is none
+    std::shared_ptr<const ArrayFunction> array;  ///< `function` if it is an array; else null
+    AxisUnits units;    ///< of `box` and `center`, if the function is an array (see quantityText())
+    Quantity quantity;  ///< what the values measure, if the function is an array (see quantityText())
     std::shared_ptr<const SecondFunction> second;  ///< null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;

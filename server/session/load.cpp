@@ -215,8 +215,9 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
                                       const SecondFunctionSource& second) {
-    const Result<fields::FieldArray> array = read(options);
+    Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
+    if (options.box) array->units = {};  // those of the file are of the file's box
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
     auto field = fields::fieldFromArray(name, *array);
     if (!field) return field.error();
@@ -360,11 +361,14 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
                                                " samples, the most allowed"};
     grown.box = boxWithTimeSteps(before->array->box(), old[3], grown.shape[3]);
     grown.samples = before->array->storage().followedBy(appended->array->samples());
+    grown.units = before->units;
+    grown.quantity = before->quantity;
     auto made = fields::fieldFromArray(before->name, grown);
     if (!made) return made.error();
     std::optional<Error> fault;
     if (hasArray) {
         grown.samples = second->array->storage().followedBy(values->array->samples());
+        grown.quantity = second->quantity;
         fault = fields::setSecondArray(*made, grown, second->variable);
     } else if (second != nullptr) {
         fault = fields::setSecondFormula(*made, second->formula);

@@ -93,13 +93,18 @@ void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& fi
     if (field.array) {
         archive(field.array->shape());
         writer.write(field.array->storage());
+        for (const std::string& unit : field.units) archive(unit);
+        archive(field.quantity);
     }
     const fields::SecondFunction* const second = field.second.get();
     archive(second == nullptr ? std::string() : second->formula);
     archive(second == nullptr ? std::string() : second->variable);
     const bool hasArray = second != nullptr && second->array != nullptr;
     archive(hasArray);
-    if (hasArray) writer.write(second->array->storage());
+    if (hasArray) {
+        writer.write(second->array->storage());
+        archive(second->quantity);
+    }
 }
 
 // Reads the samples of an array whose shape is already set. Throws std::runtime_error if samples are missing.
@@ -124,6 +129,18 @@ void readSamples(ByteReader& archive, const MappedFiles& files, fields::FieldArr
     array.samples = fields::SampleStorage(std::move(samples));
 }
 
+// Reads the name of a quantity or a unit. Throws std::runtime_error if fields::quantityText() would change it.
+void readQuantityText(ByteReader& archive, std::string& text) {
+    archive(text);
+    if (!fields::isQuantityText(text))
+        throw std::runtime_error("a unit or the name of a quantity is too long or not printable");
+}
+
+void readQuantity(ByteReader& archive, fields::Quantity& quantity) {
+    readQuantityText(archive, quantity.name);
+    readQuantityText(archive, quantity.unit);
+}
+
 // Throws std::runtime_error if the field is invalid.
 fields::Field readField(const std::string& name, ByteReader& archive, const MappedFiles& files) {
     const auto require = [](const std::optional<Error>& error) {
@@ -133,7 +150,11 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
     fields::FieldArray array;
     bool hasArray = false;
     archive(formula), archive(array.box);
-    if (formula.empty()) archive(array.shape), readSamples(archive, files, array);
+    if (formula.empty()) {
+        archive(array.shape), readSamples(archive, files, array);
+        for (std::string& unit : array.units) readQuantityText(archive, unit);
+        readQuantity(archive, array.quantity);
+    }
     archive(second), archive(variable), archive(hasArray);
     auto field = formula.empty() ? fields::fieldFromArray(name, array)
                                  : fields::fieldFromFormula(name, formula, array.box, second);
@@ -142,6 +163,7 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
     if (hasArray) {
         if (!formula.empty()) throw std::runtime_error("a formula with an array");
         readSamples(archive, files, array);
+        readQuantity(archive, array.quantity);
         require(fields::setSecondArray(*field, array, variable));
     }
     return std::move(*field);

@@ -23,6 +23,9 @@ void requireSound(const fields::FieldArray& field) {
     const std::size_t count = fields::sampleCount(field.shape);
     require(field.samples.values().size() == count, "there is a sample for each point");
     require(count <= kMaxSamples, "no array is larger than allowed");
+    for (const std::string& unit : field.units) require(fields::isQuantityText(unit), "units are short and printable");
+    require(fields::isQuantityText(field.quantity.name), "the name of the quantity is short and printable");
+    require(fields::isQuantityText(field.quantity.unit), "the unit of the values is short and printable");
     const auto function = field.function();
     if (!function) fuzz::requireSentence(function.error());
 }

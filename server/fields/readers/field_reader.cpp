@@ -73,6 +73,7 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadO
             "the times that the files state do not increase in the order of the files' names and are ignored; w is the "
             "number of the file, from 0 on");
     }
+    if (!known) series.units[3].clear();  // w is then the number of the file
     series.box.min.w = known ? times.front() : 0;
     series.box.max.w = known ? times.back() : last;
     if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);
@@ -108,6 +109,7 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOpt
     FieldArray series;
     std::optional<SampleBuffer> all;
     std::vector<double> times;
+    bool unitsDiffer = false;
     // Each file of the series but the first is decompressed into the same new file, because its samples are copied to
     // `all` before the next file of the series is read.
     std::shared_ptr<MappedFile> decompressed;
@@ -138,6 +140,12 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOpt
             glm::dvec3(field->box.max) != glm::dvec3(series.box.max)) {
             return Error{ErrorCode::bad_field, where + "its shape or its box differs from that of the first file"};
         }
+        if (field->units[3] != series.units[3]) series.units[3].clear();
+        if (const std::string& unit = field->quantity.unit; unit != series.quantity.unit && !unitsDiffer) {
+            unitsDiffer = true;
+            series.warnings.push_back(where + "the unit of its values is " + text::inQuotes(unit) +
+                                      ", but that of the first file is " + text::inQuotes(series.quantity.unit));
+        }
         times.push_back(field->box.min.w);
         const auto timeStep = all->values().subspan(i * samples.size(), samples.size());
         if (samples.data() != timeStep.data()) std::ranges::copy(samples, timeStep.begin());
@@ -145,6 +153,7 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOpt
         files[i].releasePages();
         all->releasePages();
     }
+    if (unitsDiffer) series.quantity.unit.clear();
     series.shape[3] = files.size();
     series.samples = all->take();
     setSeriesBox(series, times, options);

@@ -220,6 +220,30 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
     return chosen;
 }
 
+// Returns the text of an attribute of a dataset, at most kMaxQuantityText bytes of it; an empty string if the dataset
+// has no such attribute, or if the attribute is not one text.
+std::string textOfAttribute(hid_t dataset, const char* attribute) {
+    constexpr std::size_t kMost = 65536;  // the largest text that is read
+    if (H5Aexists(dataset, attribute) <= 0) return {};
+    const Handle found(H5Aopen(dataset, attribute, H5P_DEFAULT), H5Aclose);
+    if (!found) return {};
+    const Handle type(H5Aget_type(*found), H5Tclose);
+    const Handle space(H5Aget_space(*found), H5Sclose);
+    if (!type || !space || H5Tget_class(*type) != H5T_STRING || H5Sget_simple_extent_npoints(*space) != 1) return {};
+    if (H5Tis_variable_str(*type) > 0) {
+        char* read = nullptr;
+        if (H5Aread(*found, *type, static_cast<void*>(&read)) < 0 || read == nullptr) return {};
+        std::string text = quantityText(read);
+        H5free_memory(read);
+        return text;
+    }
+    std::string text(std::min(H5Tget_size(*type), kMost + 1), '\0');
+    if (text.empty() || text.size() > kMost || H5Aread(*found, *type, text.data()) < 0) return {};
+    text.resize(std::min(text.find('\0'), text.size()));
+    text.resize(text.find_last_not_of(' ') + 1);  // Fortran pads texts with blanks
+    return quantityText(text);
+}
+
 Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::vector<std::string>& datasets,
                                const ReadOptions& options) {
     FieldArray field;
@@ -251,7 +275,8 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     field.boxIsKnown = options.box.has_value();
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     field.box = options.box.value_or(defaultBox(field.shape, time));
-    field.quantity = text::printable(name.substr(name.rfind('/') + 1), 60);
+    field.quantity = {textOfAttribute(*dataset, "long_name"), textOfAttribute(*dataset, "units")};
+    if (field.quantity.name.empty()) field.quantity.name = quantityText(name.substr(name.rfind('/') + 1));
     if (const auto bytes = storedBytes(file, *dataset, mapping->count() * sizeOf(format->type))) {
         auto inPlace = mapping->samples(file, *bytes, *format, options);
         if (!inPlace) return inPlace.error();

@@ -25,7 +25,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxNetcdfText = 64;  // longer texts are cut to this number of bytes
+constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes that are kept of a message of the library
 
 // A file that the library has opened; the destructor closes it.
 class OpenFile {
@@ -88,6 +88,7 @@ std::string dimensionName(int group, int dimension) {
     return nc_inq_dimname(group, dimension, name.data()) == NC_NOERR ? name.data() : "";
 }
 
+// Returns the text of an attribute, at most kMaxQuantityText bytes of it.
 std::string textOf(const Variable& variable, const char* attribute) {
     nc_type type = NC_NAT;
     std::size_t length = 0;
@@ -95,13 +96,13 @@ std::string textOf(const Variable& variable, const char* attribute) {
     if (type == NC_STRING) {
         std::vector<char*> strings(length);
         if (nc_get_att_string(variable.group, variable.id, attribute, strings.data()) != NC_NOERR) return {};
-        std::string text = strings[0] != nullptr ? text::printable(strings[0], kMaxNetcdfText - 4) : "";
+        std::string text = strings[0] != nullptr ? quantityText(strings[0]) : "";
         nc_free_string(length, strings.data());
         return text;
     }
     std::string text(length, '\0');
     if (type != NC_CHAR || nc_get_att_text(variable.group, variable.id, attribute, text.data()) != NC_NOERR) return {};
-    return text::printable(text.substr(0, text.find('\0')), kMaxNetcdfText - 4);
+    return quantityText(text.substr(0, text.find('\0')));
 }
 
 std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
@@ -292,9 +293,9 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
         Dimension& each = dimensions[i];
         each.axis = (*axes)[i];
         if (each.size == 0) return badField("the array is empty");
-        field.units[each.axis] = stated[i].units;
         const auto ends = coordinates[i] ? endsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
         field.boxIsKnown = field.boxIsKnown || ends;
+        if (ends) field.units.at(each.axis) = stated[i].units;
         const CoordinateEnds found = ends.value_or(CoordinateEnds{0, static_cast<double>(each.size - 1)});
         each.reversed = found.last < found.first;
         const auto axis = static_cast<glm::length_t>(each.axis);
@@ -356,10 +357,11 @@ Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& optio
     auto samples = readSlabs(file, options, *variable, *mapping);
     if (!samples) return samples.error();
     field.samples = *samples;
-    field.quantity = textOf(*variable, "long_name");
-    if (field.quantity.empty()) field.quantity = textOf(*variable, "standard_name");
-    if (field.quantity.empty()) field.quantity = text::printable(variable->name, kMaxNetcdfText - 4);
-    field.quantityUnits = textOf(*variable, "units");
+    std::string& quantity = field.quantity.name;
+    quantity = textOf(*variable, "long_name");
+    if (quantity.empty()) quantity = textOf(*variable, "standard_name");
+    if (quantity.empty()) quantity = quantityText(variable->name);
+    field.quantity.unit = textOf(*variable, "units");
     return field;
 }
 

@@ -14,7 +14,6 @@
 
 #include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/gzip.hpp"
-#include "text/message_text.hpp"
 
 namespace oval4d::fields {
 
@@ -38,7 +37,7 @@ class HeaderReader {
     }
     std::string textAt(std::size_t offset, std::size_t length) const {
         const std::string_view text(reinterpret_cast<const char*>(&bytes_[offset]), length);
-        return text::printable(text.substr(0, text.find('\0')), 64);
+        return quantityText(text.substr(0, text.find('\0')));
     }
 
   private:
@@ -210,27 +209,35 @@ std::optional<std::array<std::size_t, 3>> parallelAxes(const IndexToSpaceMatrix&
     return axes;
 }
 
-void setUnits(const NiftiHeader& header, FieldArray& field) {
+// Returns the units that the header states: those of the three dimensions of space, and that of the fourth.
+AxisUnits statedUnits(const NiftiHeader& header) {
     static constexpr std::array<std::string_view, 4> kLengths{"", "m", "mm", "µm"};
     static constexpr std::array<std::string_view, 7> kTimes{"", "s", "ms", "µs", "Hz", "ppm", "rad/s"};
     const auto length = static_cast<std::size_t>(header.units & 7),
                time = static_cast<std::size_t>(header.units >> 3 & 7);
-    for (std::size_t i = 0; i < 3 && length < kLengths.size(); ++i) field.units[i] = kLengths.at(length);
-    if (time < kTimes.size()) field.units[3] = kTimes.at(time);
+    AxisUnits units;
+    for (std::size_t i = 0; i < 3 && length < kLengths.size(); ++i) units.at(i) = kLengths.at(length);
+    if (time < kTimes.size()) units[3] = kTimes.at(time);
+    return units;
 }
 
 // Sets the box and the units of `field`, and the axes and directions of `dimensions`, which must be in the order from
 // the fastest to the slowest.
 std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions& options,
                                    std::vector<Dimension>& dimensions, FieldArray& field) {
-    setUnits(header, field);
+    const AxisUnits units = statedUnits(header);
+    field.units = units;
     const auto matrix = orientation(header);
     auto parallel = matrix ? parallelAxes(*matrix) : std::nullopt;
     if (!options.axes.empty()) {
         auto axes = parseAxes(options.axes, dimensions.size());
         if (!axes) return axes.error();
         std::reverse(axes->begin(), axes->end());
-        for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].axis = (*axes)[i];
+        field.units = {};
+        for (std::size_t i = 0; i < dimensions.size(); ++i) {
+            dimensions[i].axis = (*axes)[i];
+            field.units.at(dimensions[i].axis) = units.at(i);
+        }
         parallel.reset();
     } else {
         for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].axis = i < 3 && parallel ? (*parallel)[i] : i;
@@ -342,7 +349,7 @@ Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& option
     auto samples = mapping->samples(*data, data->bytes, *format, options);
     if (!samples) return samples.error();
     field.samples = std::move(*samples);
-    field.quantity = header->quantity;
+    field.quantity.name = header->quantity;
     return field;
 }
 

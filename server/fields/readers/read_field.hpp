@@ -1,7 +1,6 @@
 #pragma once
 // The options and the result of the functions that read fields from files.
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "errors/error.hpp"
 #include "fields/array/array_function.hpp"
 #include "fields/array/shape.hpp"
+#include "fields/quantity.hpp"
 #include "fields/scalar_function.hpp"
 
 namespace oval4d::fields {
@@ -46,9 +46,8 @@ struct FieldArray {
     Box box;
     bool boxIsKnown = false;  ///< whether the file or the options state the box; else it is defaultBox()
     SampleStorage samples{std::vector<float>()};
-    std::array<std::string, 4> units;   ///< of x, y, z and w; empty if unknown. UTF-8, at most 64 bytes
-    std::string quantity;               ///< what the samples measure; empty if unknown. UTF-8, at most 64 bytes
-    std::string quantityUnits;          ///< the unit of the samples; empty if unknown. UTF-8, at most 64 bytes
+    AxisUnits units;                    ///< of `box`
+    Quantity quantity;                  ///< what the samples measure
     std::vector<std::string> warnings;  ///< sentences for the user
 
     /// Returns the interpolant of the samples. Error: `bad_field` if the box is not valid (see Lattice).

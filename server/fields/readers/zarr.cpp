@@ -18,7 +18,6 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
-constexpr std::size_t kMaxZarrText = 60;                      // longer texts are cut to this number of bytes
 
 FolderTextReader textsOf(const FolderFileReader& folder) {
     return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
@@ -156,7 +155,7 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     if (!found || !*found) return {};
     ZarrArrayMetadata array = **found;
     if (array.shape != std::vector{size} || size == 0 || size > kMaxSamplesPerAxis) return {};
-    units = text::printable(array.text("units"), kMaxZarrText);
+    units = quantityText(array.text("units"));
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};
     array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
@@ -217,7 +216,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
         if (imageStatesCoordinates) {
             const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];
             each.name = name;
-            unit = text::printable(statedUnit, kMaxZarrText);
+            unit = quantityText(statedUnit);
             range = {origin, origin + spacing * last, true};
         } else if (!array.dimensionNames.empty()) {
             each.name = array.dimensionNames[i];
@@ -242,7 +241,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
         const auto axis = static_cast<glm::length_t>((*axes)[i]);
         field.box.min[axis] = std::min(first, last);
         field.box.max[axis] = std::max(first, last);
-        field.units.at((*axes)[i]) = units[i];
+        if (known) field.units.at((*axes)[i]) = units[i];
         field.boxIsKnown = field.boxIsKnown || known;
     }
     return dimensions;
@@ -296,9 +295,10 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& o
         });
     if (!read) return read.error();
     field.samples = buffer->take();
-    field.quantity = text::printable(array.text("long_name"), kMaxZarrText);
-    if (field.quantity.empty()) field.quantity = text::printable(path.substr(path.rfind('/') + 1), kMaxZarrText);
-    field.quantityUnits = text::printable(array.text("units"), kMaxZarrText);
+    field.quantity = {quantityText(array.text("long_name")), quantityText(array.text("units"))};
+    // The levels of an image are numbered.
+    if (field.quantity.name.empty() && !zarr.coordinatesOf(path))
+        field.quantity.name = quantityText(path.substr(path.rfind('/') + 1));
     return field;
 }
 

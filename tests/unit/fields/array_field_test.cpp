@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -57,6 +58,30 @@ TEST(ArrayField, AnAxisWithOneSampleMayBeFarFromZero) {
             EXPECT_GT(most - least, 1000 * (std::nextafter(most, 2 * most) - most));  // floats resolve the box
         }
     }
+}
+
+TEST(ArrayField, UnitsAreKeptInFramesOfReferenceAndShortened) {
+    FieldArray array = countingArray({3, 2, 2, 2}, {glm::dvec4(0), glm::dvec4(1)});
+    array.units = {"m", "m", "m", "s"};
+    array.quantity = {"temperature", "K"};
+    auto field = fieldFromArray("run", array);
+    ASSERT_TRUE(field) << field.error().message;
+    FieldArray second = array;
+    second.quantity = {"pressure", "Pa"};
+    ASSERT_FALSE(setSecondArray(*field, second, "p"));
+    const Field image = transformedTo(*field, {.pace = 2, .boost = {0.5, 0, 0}}, geometry::nextSerial());
+    for (const Field& each : {*field, image}) {
+        EXPECT_EQ(each.units, array.units);
+        EXPECT_EQ(each.quantity, array.quantity);
+        EXPECT_EQ(each.second->quantity, second.quantity);
+    }
+    array.units[0] = std::string(100'000, 'm');
+    array.quantity = {"\xff", std::string(100'000, 'K')};
+    const auto hostile = fieldFromArray("run", array);
+    ASSERT_TRUE(hostile) << hostile.error().message;
+    EXPECT_LE(hostile->units[0].size(), kMaxQuantityText);
+    EXPECT_EQ(hostile->quantity.name, "?");
+    EXPECT_LE(hostile->quantity.unit.size(), kMaxQuantityText);
 }
 
 }  // namespace

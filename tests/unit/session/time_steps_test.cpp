@@ -55,6 +55,17 @@ TEST(Load, TimeStepsAreAddedAtTheEndOfW) {
     EXPECT_EQ(large.error().code, ErrorCode::too_large);
 }
 
+TEST(Load, UnitsStayWhenTheFieldGrows) {
+    fields::Field field = *slicing::fieldIn(arrayOf({2, 2, 2, 4}));
+    field.units = {"m", "m", "m", "s"};
+    field.quantity = {"temperature", "K"};
+    const auto grown =
+        appendTimeSteps(slicing::Object(std::make_shared<const fields::Field>(field)), arrayOf({2, 2, 2, 1}), {});
+    ASSERT_TRUE(grown) << grown.error().message;
+    EXPECT_EQ(slicing::fieldIn(*grown)->units, field.units);
+    EXPECT_EQ(slicing::fieldIn(*grown)->quantity, field.quantity);
+}
+
 TEST(Load, TheHistoryGrowsWithTheField) {
     const FileReader reader = [](const LoadObject& load, const Limits& /*limits*/) -> Result<ObjectWithWarnings> {
         return ObjectWithWarnings{arrayOf({2, 2, 2, load.append ? std::size_t{1} : 4}), {}};

@@ -264,5 +264,37 @@ TEST(ObjectBytes, FieldsKeepTheirSecondFunction) {
     EXPECT_GT(memoryOf(std::make_shared<const fields::Field>(twoArrays)), memoryOf(arrayOf(shape, 1)));
 }
 
+TEST(ObjectBytes, FieldsKeepTheirUnits) {
+    fields::FieldArray array;
+    array.shape = {2, 2, 2, 2};
+    array.box = {glm::dvec4(-1), glm::dvec4(1)};
+    array.samples = fields::SampleStorage(std::vector<float>(16, 1));
+    array.units = {"km", "m", "", "hours since 2020-01-01"};
+    array.quantity = {"temperature", "K"};
+    fields::Field field = *fields::fieldFromArray("run", array);
+    array.quantity = {"pressure", "Pa"};
+    ASSERT_FALSE(fields::setSecondArray(field, array, "p"));
+    std::string bytes, parts;
+    MappedFiles files;
+    encodeObject(std::make_shared<const fields::Field>(field), bytes, files);
+    serialization::ByteWriter writer(parts);
+    writeObjectContent(std::make_shared<const fields::Field>(field), writer, files);
+    serialization::ByteReader reader(parts);
+    for (const Object& copy : {decodeObject(bytes), readObjectContent(reader, "copy", 100)}) {
+        const fields::Field& back = *fieldIn(copy);
+        EXPECT_EQ(back.units, field.units);
+        EXPECT_EQ(back.quantity, field.quantity);
+        EXPECT_EQ(back.second->quantity, field.second->quantity);
+    }
+    for (const std::string unit : {"km", "hours since 2020-01-01", "temperature", "Pa"}) {
+        std::string damaged = parts;
+        const std::size_t at = damaged.find(unit);
+        ASSERT_NE(at, std::string::npos) << unit;
+        damaged[at] = '\xff';
+        serialization::ByteReader again(damaged);
+        EXPECT_THROW(readObjectContent(again, "copy", 100), std::runtime_error) << unit;
+    }
+}
+
 }  // namespace
 }  // namespace oval4d::slicing

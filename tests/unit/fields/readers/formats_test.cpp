@@ -226,8 +226,8 @@ TEST(Netcdf, FollowsTheConventions) {
     EXPECT_EQ(field.box, (Box{{10, 40, 0, 0}, {40, 50, 0, 12}}));
     EXPECT_TRUE(field.boxIsKnown);
     EXPECT_EQ(field.units, (std::array<std::string, 4>{"degrees_east", "", "", "hours since 2020-01-01"}));
-    EXPECT_EQ(field.quantity, "sea surface temperature");
-    EXPECT_EQ(field.quantityUnits, "K");
+    EXPECT_EQ(field.quantity.name, "sea surface temperature");
+    EXPECT_EQ(field.quantity.unit, "K");
     EXPECT_TRUE(field.warnings.empty()) << field.warnings.front();
     for (std::size_t x = 0; x < 4; ++x) {
         for (std::size_t t = 0; t < 3; ++t) {
@@ -402,7 +402,7 @@ TEST(Netcdf, LimitsAreRoundedToTheTypeOfTheNumbers) {
 TEST(Hdf5, FindsDatasetsByTheirPath) {
     const auto samples = numbers();
     const auto bytes = hdf5(samples);
-    EXPECT_EQ(readOrFail(bytes, {.variable = "/run/f"}).quantity, "f");
+    EXPECT_EQ(readOrFail(bytes, {.variable = "/run/f"}).quantity.name, "f");
     EXPECT_EQ(readOrFail(bytes, {.variable = "run/f", .maxSamples = 120}).shape, kShape);
     for (const std::string path : {"run", "f", "/", "run/f/", "/run/g", "../a"}) {
         const auto field = readHdf5(FileContents::copyOf(bytes), {.variable = path});
@@ -410,6 +410,46 @@ TEST(Hdf5, FindsDatasetsByTheirPath) {
         EXPECT_EQ(field.error().code, ErrorCode::not_found);
     }
     EXPECT_EQ(readHdf5(FileContents::copyOf(bytes), {.maxSamples = 119}).error().code, ErrorCode::too_large);
+}
+
+// Adds an attribute with this text to the dataset run/f of a file made by hdf5(): of the length of the text, or of
+// variable length, as h5py writes it.
+std::string withAttribute(const std::string& bytes, const char* name, const std::string& text, bool isVariable) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.h5";
+    writeFile(path, bytes);
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(file, "run/f", H5P_DEFAULT);
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, isVariable ? H5T_VARIABLE : text.size());
+    if (isVariable) H5Tset_cset(type, H5T_CSET_UTF8);
+    const hid_t attribute = H5Acreate2(dataset, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const char* const start = text.c_str();
+    const void* const value = isVariable ? static_cast<const void*>(&start) : start;
+    EXPECT_GE(H5Awrite(attribute, type, value), 0);
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    H5Fclose(file);
+    return readFile(path);
+}
+
+TEST(Hdf5, ReadsTheUnitAndTheNameOfTheQuantity) {
+    const std::string plain = hdf5(numbers());
+    EXPECT_EQ(readOrFail(plain).quantity, (Quantity{"f", ""}));
+    for (const bool isVariable : {false, true}) {
+        const std::string bytes = withAttribute(plain, "units", "m s⁻¹", isVariable);
+        EXPECT_EQ(readOrFail(bytes).quantity, (Quantity{"f", "m s⁻¹"})) << isVariable;
+        EXPECT_EQ(readOrFail(withAttribute(bytes, "long_name", "speed", !isVariable)).quantity,
+                  (Quantity{"speed", "m s⁻¹"}));
+        EXPECT_EQ(readOrFail(withAttribute(plain, "units", "K\xff", isVariable)).quantity.unit, "K?");
+        const std::string cut =
+            readOrFail(withAttribute(plain, "units", std::string(60'000, 'K'), isVariable)).quantity.unit;
+        EXPECT_LE(cut.size(), kMaxQuantityText);
+        EXPECT_TRUE(cut.starts_with("KKK") && cut.ends_with("…")) << cut;
+    }
+    EXPECT_EQ(readOrFail(withAttribute(plain, "units", "K   ", false)).quantity.unit, "K") << "padded";
 }
 
 TEST(Hdf5, FollowsSoftLinksWithinTheFile) {
@@ -478,6 +518,8 @@ TEST(Nifti, ReadsTheGeometry) {
     EXPECT_EQ(plain.box, (Box{{-4, -4.5, -4, 1.5}, {4, 4.5, 4, 2}}));
     EXPECT_EQ(plain.units, (std::array<std::string, 4>{"mm", "mm", "mm", "s"}));
     EXPECT_EQ(readOrFail(nifti("a.nii.gz", samples, place)).box, plain.box);
+    EXPECT_EQ(readOrFail(nifti("a.nii", samples, place), {.axes = "xyzw"}).units, (AxisUnits{"s", "mm", "mm", "mm"}))
+        << "the fourth dimension, the first index in Python, is x";
 
     // i goes along −y, j along x, k along z.
     const auto turn = [&](nifti_image& image) {
@@ -589,8 +631,8 @@ TEST(FieldSeries, DecompressesLargeFilesIntoFewNewFiles) {
     EXPECT_LE(made, 4) << "the server makes no more for an array";
 }
 
-// A variable f(time, x) of one moment. `mode`: see netcdf().
-std::string netcdfOfMoment(double time, int mode = 0) {
+// A variable f(time, x) of one moment, with this unit. `mode`: see netcdf().
+std::string netcdfOfMoment(double time, int mode = 0, const std::string& unit = "K") {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
     int file = 0, coordinate = 0, variable = 0;
@@ -600,6 +642,8 @@ std::string netcdfOfMoment(double time, int mode = 0) {
     check(nc_def_dim(file, "x", 2, &dimensions[1]));
     check(nc_def_var(file, "time", NC_DOUBLE, 1, dimensions.data(), &coordinate));
     check(nc_def_var(file, "f", NC_FLOAT, 2, dimensions.data(), &variable));
+    check(nc_put_att_text(file, coordinate, "units", 1, "s"));
+    check(nc_put_att_text(file, variable, "units", unit.size(), unit.data()));
     check(nc_enddef(file));
     const std::array<float, 2> samples{1, 2};
     check(nc_put_var_double(file, coordinate, &time));
@@ -639,6 +683,28 @@ TEST(FieldSeries, WarnsOfUnevenTimes) {
         EXPECT_EQ(series->warnings.size(), warnings);
     }
     EXPECT_NE(seriesOf({3, 4, 7})->warnings.front().find("not evenly spaced"), std::string::npos);
+}
+
+TEST(FieldSeries, KeepsTheUnitsThatAllFilesHave) {
+    EXPECT_EQ(seriesOf({3, 5})->units, (AxisUnits{"", "", "", "s"}));
+    EXPECT_EQ(seriesOf({3, 5})->quantity, (Quantity{"f", "K"}));
+    EXPECT_EQ(seriesOf({5, 3})->units[3], "") << "w is the number of the file";
+    std::vector<FileContents> files;
+    for (const auto& [time, unit] : {std::pair{3., "K"}, {5., "degC"}, {7., "degC"}})
+        files.push_back(FileContents::copyOf(netcdfOfMoment(time, 0, unit)));
+    const auto mixed = readSeries(files, {});
+    ASSERT_TRUE(mixed) << mixed.error().message;
+    EXPECT_EQ(mixed->quantity, (Quantity{"f", ""}));
+    ASSERT_EQ(mixed->warnings.size(), 1U);
+    EXPECT_EQ(mixed->warnings.front(),
+              "file 2 of the series: the unit of its values is 'degC', but that of the first file is 'K'");
+}
+
+TEST(Netcdf, LongAndDamagedUnitsAreCut) {
+    EXPECT_EQ(readOrFail(netcdfOfMoment(3, 0, "\xff\xfe K")).quantity.unit, "?? K");
+    const std::string cut = readOrFail(netcdfOfMoment(3, 0, std::string(100'000, 'm'))).quantity.unit;
+    EXPECT_LE(cut.size(), kMaxQuantityText);
+    EXPECT_TRUE(cut.ends_with("…")) << cut;
 }
 
 TEST(FieldSeries, WarnsOfTimesThatDoNotIncrease) {

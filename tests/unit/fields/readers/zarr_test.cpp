@@ -69,6 +69,25 @@ TEST(Zarr, AMissingVariableIsNotFound) {
     EXPECT_EQ(field.error().code, ErrorCode::not_found);
 }
 
+TEST(Zarr, ReadsTheUnitsOfTheValuesAndOfTheCoordinates) {
+    const auto filesWith = [](const std::string& coordinates) {
+        return Files{{".zgroup", R"({"zarr_format":2})"},
+                     {"f/.zarray", zarray("[2]", "[2]")},
+                     {"f/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"],"long_name":"speed","units":"m s-1"})"},
+                     {"f/0", chunkOf({1, 2})},
+                     {"x/.zarray", zarray("[2]", "[2]")},
+                     {"x/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"],"units":"km"})"},
+                     {"x/0", coordinates}};
+    };
+    const auto field = readFiles(filesWith(chunkOf({0, 5})), "f");
+    ASSERT_TRUE(field) << field.error().message;
+    EXPECT_EQ(field->quantity, (Quantity{"speed", "m s-1"}));
+    EXPECT_EQ(field->units, (AxisUnits{"km", "", "", ""}));
+    const auto constant = readFiles(filesWith(chunkOf({5, 5})), "f");
+    ASSERT_TRUE(constant) << constant.error().message;
+    EXPECT_EQ(constant->units[0], "") << "the box counts samples, because the coordinates do not increase";
+}
+
 TEST(Zarr, EscapedQuotesDoNotEndStrings) {
     const std::string name = R"("long_name":"a 6\" \\\"layer\" \\")";
     std::string metadata = zarray("[4]", "[2]", R"("NaN")");
@@ -76,13 +95,13 @@ TEST(Zarr, EscapedQuotesDoNotEndStrings) {
     const auto field = readFiles(
         {{".zarray", metadata}, {".zattrs", "{" + name + R"(,"missing_value":NaN})"}, {"0", chunkOf({1, 2})}});
     ASSERT_TRUE(field) << field.error().message;
-    EXPECT_EQ(field->quantity, R"(a 6" \"layer" \)");
+    EXPECT_EQ(field->quantity.name, R"(a 6" \"layer" \)");
     EXPECT_EQ(field->samples.values()[1], 2);
     EXPECT_TRUE(std::isnan(field->samples.values()[2]));
 }
 
 TEST(Zarr, TransformationsOfTheImageFollowThoseOfTheLevel) {
-    const std::string image = R"({"multiscales":[{"axes":[{"name":"y"},{"name":"x"}],
+    const std::string image = R"({"multiscales":[{"axes":[{"name":"y"},{"name":"x","unit":"micrometer"}],
         "datasets":[{"path":"0","coordinateTransformations":[
             {"type":"scale","scale":[2,3]},{"type":"translation","translation":[1,5]}]}],
         "coordinateTransformations":[
@@ -91,6 +110,8 @@ TEST(Zarr, TransformationsOfTheImageFollowThoseOfTheLevel) {
         readFiles({{".zgroup", R"({"zarr_format":2})"}, {".zattrs", image}, {"0/.zarray", zarray("[2,3]", "[2,3]")}});
     ASSERT_TRUE(field) << field.error().message;
     EXPECT_EQ(field->box, (Box{{2.75, 14, 0, 0}, {5.75, 34, 0, 0}}));
+    EXPECT_EQ(field->units, (AxisUnits{"micrometer", "", "", ""}));
+    EXPECT_FALSE(field->quantity.isKnown()) << "the array is called 0";
 }
 
 TEST(Zarr, ReadsTheFillValueOfXarrayInBase64) {

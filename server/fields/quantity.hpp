@@ -1,0 +1,36 @@
+#pragma once
+// What the numbers of a field mean: what its values measure, and the units of its coordinates.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace oval4d::fields {
+
+/// What the values of a function measure, such as {"temperature", "K"}. A text is empty if it is unknown.
+struct Quantity {
+    std::string name, unit;
+    bool operator==(const Quantity&) const = default;
+    bool isKnown() const { return !name.empty() || !unit.empty(); }
+};
+
+/// The units of x, y, z and w; a text is empty if it is unknown.
+using AxisUnits = std::array<std::string, 4>;
+
+/// The maximum length in bytes of the names of quantities and of units.
+inline constexpr std::size_t kMaxQuantityText = 64;
+
+/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. "?" replaces
+/// what text::printable() replaces; if the text is too long, "…" replaces its end. Returns an empty string for a text
+/// of blanks only.
+std::string quantityText(std::string_view text);
+
+/// Returns whether quantityText() leaves `text` as it is.
+bool isQuantityText(std::string_view text);
+
+/// Returns "temperature, K" for {"temperature", "K"}, the only known text if one of them is unknown, and an empty
+/// string if both are.
+std::string labelOf(const Quantity& quantity);
+
+}  // namespace oval4d::fields
