@@ -82,12 +82,35 @@ json encoded(const fields::SecondFunction& second) {
     return json({second.variable, binary(second.array->samples())});
 }
 
-void readSecond(const json& second, const json& shape, fields::Field& field) {
+// Encodes a quantity as [name, unit].
+json encoded(const fields::Quantity& quantity) { return json::array({quantity.name, quantity.unit}); }
+
+std::string readQuantityText(const json& value) {
+    auto text = value.get<std::string>();
+    if (!fields::isQuantityText(text))
+        throwUnreadable("a unit or the name of a quantity is too long or is not printable UTF-8");
+    return text;
+}
+
+fields::Quantity quantityIn(const json& value) {
+    refuseUnknownMembers(value, 2);
+    return {readQuantityText(value.at(0)), readQuantityText(value.at(1))};
+}
+
+// Returns whether the unit of an axis, or what the values of an array measure, is known.
+bool hasQuantities(const fields::Field& field) {
+    return field.quantity.isKnown() || (field.second && field.second->quantity.isKnown()) ||
+           std::ranges::any_of(field.units, [](const std::string& unit) { return !unit.empty(); });
+}
+
+// Reads the second function. If it is an array, its values measure `quantity`.
+void readSecond(const json& second, const json& shape, fields::Quantity quantity, fields::Field& field) {
     std::optional<Error> error;
     if (second.is_string()) {
         error = fields::setSecondFormula(field, second.get<std::string>());
     } else if (field.array) {
-        const fields::FieldArray array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
+        fields::FieldArray array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
+        array.quantity = std::move(quantity);
         // The name of a variable may be longer than that of an object.
         auto variable = second.at(0).get<std::string>();
         if (!text::isUtf8(variable)) throwUnreadable("the name of a variable is not UTF-8");
@@ -188,20 +211,30 @@ struct RecordCodec<slicing::CloudPtr> {
 
 template <>
 struct RecordCodec<slicing::FieldPtr> {
-    static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7;
-    static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond};
+    static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7, kLengthWithQuantities = 9;
+    static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond, kLengthWithQuantities};
 
     // [version, name, file in the data folder] or [version, name, formula or samples, box, shape]. The shape of a
     // formula is an empty array. If there is a second function, two members follow: this function, and the text
-    // "field", without which the record would have the length of a polytope's record.
+    // "field", without which the record would have the length of a polytope's record. If a unit or a quantity is known,
+    // which only arrays have, these two members are there in any case, the first of them null if there is no second
+    // function. Then follow [units of x, y, z and w], with the quantity of the values as a fifth element, and the
+    // quantity of the second function; see encoded(const fields::Quantity&).
     static json encode(const fields::Field& field) {
         if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
         const fields::Box& box = field.array ? field.array->box() : field.box;
         json record({kRecordVersion, field.name, field.array ? binary(field.array->samples()) : json(field.formula),
                      encoded(std::vector{box.min, box.max}), field.array ? json(field.array->shape()) : json::array()});
-        if (field.second) {
-            record.push_back(encoded(*field.second));
+        const bool measures = hasQuantities(field);
+        if (field.second || measures) {
+            record.push_back(field.second ? encoded(*field.second) : json());
             record.push_back("field");
+        }
+        if (measures) {
+            json units(field.units);
+            units.push_back(encoded(field.quantity));
+            record.push_back(std::move(units));
+            record.push_back(encoded(field.second ? field.second->quantity : fields::Quantity()));
         }
         return record;
     }
@@ -213,12 +246,25 @@ struct RecordCodec<slicing::FieldPtr> {
         if (value.size() == kFileLength) return openFile(name, source, open);
         const fields::Box box = boxIn(value.at(3));
         const json& shape = value.at(4);
-        const bool hasSecond = value.size() == kLengthWithSecond, isFormula = source.is_string();
+        const bool measures = value.size() == kLengthWithQuantities, isFormula = source.is_string();
+        const bool hasSecond = value.size() == kLengthWithSecond || (measures && !value.at(5).is_null());
+        if (isFormula && measures) throwUnreadable("a formula has units");
+        fields::FieldArray array;
+        fields::Quantity ofSecond;
+        if (!isFormula) array = arrayIn(source.get_binary(), box, shape);
+        if (measures) {
+            const json& units = value.at(7);
+            refuseUnknownMembers(units, array.units.size() + 1);
+            for (std::size_t axis = 0; axis < array.units.size(); ++axis)
+                array.units.at(axis) = readQuantityText(units.at(axis));
+            array.quantity = quantityIn(units.at(array.units.size()));
+            ofSecond = quantityIn(value.at(8));
+        }
         auto field = isFormula ? fields::fieldFromFormula(name, source.get<std::string>(), box,
                                                           hasSecond ? value.at(5).get<std::string>() : std::string())
-                               : fields::fieldFromArray(name, arrayIn(source.get_binary(), box, shape));
+                               : fields::fieldFromArray(name, array);
         if (!field) throwUnreadable("a field is not valid: " + field.error().message);
-        if (hasSecond && !isFormula) readSecond(value.at(5), shape, *field);
+        if (hasSecond && !isFormula) readSecond(value.at(5), shape, std::move(ofSecond), *field);
         return std::make_shared<const fields::Field>(std::move(*field));
     }
 };

@@ -449,6 +449,83 @@ TEST(Codec, FieldsKeepTheirSecondFunction) {
         std::runtime_error);
 }
 
+// A field of an array with units, and with a second array if it `hasSecond`.
+fields::Field fieldWithUnits(bool hasSecond) {
+    fields::FieldArray array;
+    array.shape = {2, 1, 1, 1};
+    array.box = {glm::dvec4(-1), glm::dvec4(1)};
+    array.samples = fields::SampleStorage(std::vector<float>{1, 2});
+    array.units = {"m", "", "km", "s"};
+    array.quantity = {"temperature", "K"};
+    fields::Field field = *fields::fieldFromArray("run", array);
+    array.quantity = {"pressure", "Pa"};
+    if (hasSecond) {
+        EXPECT_FALSE(fields::setSecondArray(field, array, "p"));
+    }
+    return field;
+}
+
+TEST(Codec, FieldsKeepTheirUnits) {
+    for (const bool hasSecond : {false, true}) {
+        const fields::Field field = fieldWithUnits(hasSecond);
+        const std::string record = encodeObjectRecord(std::make_shared<const fields::Field>(field));
+        EXPECT_EQ(record[0], '\x89') << "nine members, unlike the records of all other kinds";
+        EXPECT_FALSE(refersToFile(record));
+        const slicing::Object back = decodeObjectRecord(record);
+        EXPECT_EQ(encodeObjectRecord(back), record);
+        const fields::Field& copy = *slicing::fieldIn(back);
+        EXPECT_EQ(copy.units, field.units);
+        EXPECT_EQ(copy.quantity, field.quantity);
+        ASSERT_EQ(copy.second != nullptr, hasSecond);
+        if (hasSecond) {
+            EXPECT_EQ(copy.second->quantity, field.second->quantity);
+        }
+    }
+}
+
+TEST(Codec, FieldsWithoutUnitsAreStoredAsBefore) {
+    fields::Field field = fieldWithUnits(true);
+    field.units = {};
+    field.quantity = {};
+    fields::SecondFunction second = *field.second;
+    second.quantity = {};
+    field.second = std::make_shared<const fields::SecondFunction>(second);
+    EXPECT_EQ(encodeObjectRecord(std::make_shared<const fields::Field>(field))[0], '\x87');
+    field.second.reset();
+    EXPECT_EQ(encodeObjectRecord(std::make_shared<const fields::Field>(field))[0], '\x85');
+}
+
+TEST(Codec, RefusesInvalidUnits) {
+    using nlohmann::json;
+    const json valid = json::from_cbor(encodeObjectRecord(std::make_shared<const fields::Field>(fieldWithUnits(true))));
+    const auto refusal = [&](const json::json_pointer& at, const json& member) {
+        json record = valid;
+        record[at] = member;
+        try {
+            decodeObjectRecord(encodeCbor(record));
+        } catch (const UnreadableRecord& fault) {
+            return std::string(fault.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal(json::json_pointer("/7/0"), "cm"), "");
+    for (const char* text : {"/7/0", "/7/3", "/7/4/0", "/7/4/1", "/8/0", "/8/1"}) {
+        const json::json_pointer at(text);
+        for (const std::string& wrong : {std::string(65, 'm'), std::string("K\n")})
+            EXPECT_NE(refusal(at, wrong).find("too long or is not printable"), std::string::npos) << text;
+        EXPECT_NE(refusal(at, 1), "") << text;
+    }
+    EXPECT_NE(refusal(json::json_pointer("/7/5"), "m").find("later version"), std::string::npos);
+    EXPECT_NE(refusal(json::json_pointer("/8/2"), "m").find("later version"), std::string::npos);
+    EXPECT_NE(refusal(json::json_pointer("/7"), json::array()), "");
+    EXPECT_NE(refusal(json::json_pointer("/2"), "x").find("a formula has units"), std::string::npos);
+    std::string record = encodeCbor(valid);
+    const std::size_t at = record.find("km");
+    ASSERT_NE(at, std::string::npos);
+    record[at] = '\xff';
+    EXPECT_THROW(decodeObjectRecord(record), UnreadableRecord) << "not UTF-8";
+}
+
 // --- What the server accepts can be read
 
 // Returns the session after it was stored and read again.
