@@ -611,8 +611,32 @@ export interface FieldDefinition {
      * Present, and true, if the array is too large to read all of it.
      */
     estimated?: boolean;
+    units?: AxisUnits;
+    quantity?: Quantity;
     values?: ColoringValues;
     box: Box;
+}
+/**
+ * The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent. At most 64 bytes each.
+ */
+export interface AxisUnits {
+    x?: string;
+    y?: string;
+    z?: string;
+    w?: string;
+}
+/**
+ * As the file of an array states it; what is not known is absent. At most 64 bytes each.
+ */
+export interface Quantity {
+    /**
+     * Such as "temperature".
+     */
+    name?: string;
+    /**
+     * Such as "K".
+     */
+    unit?: string;
 }
 /**
  * Present if there is a second function, or if the color or the caps show values.
@@ -626,6 +650,10 @@ export interface ColoringValues {
      * Present if the second function is an array.
      */
     variable?: string;
+    /**
+     * Of the second function, if it is an array.
+     */
+    quantity?: Quantity;
     /**
      * The range of the values on the box, without rare values far from the others. If 0 is in its middle four fifths, the scale is symmetric to 0.
      */

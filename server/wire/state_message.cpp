@@ -1,5 +1,10 @@
 #include "wire/state_message.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
 #include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "scene/color.hpp"
@@ -59,6 +64,28 @@ void writeLastTurn(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.endObject();
 }
 
+// Writes the members `name` and `unit` of a quantity as far as they are known; nothing if none is.
+void writeQuantity(JsonWriter& w, const fields::Quantity& quantity) {
+    if (!quantity.isKnown()) return;
+    w.key("quantity");
+    w.beginObject();
+    if (!quantity.name.empty()) w.member("name", std::string_view(quantity.name));
+    if (!quantity.unit.empty()) w.member("unit", std::string_view(quantity.unit));
+    w.endObject();
+}
+
+// Writes the member `units` with the units that are known; nothing if none is.
+void writeUnits(JsonWriter& w, const fields::AxisUnits& units) {
+    if (std::ranges::all_of(units, &std::string::empty)) return;
+    w.key("units");
+    w.beginObject();
+    for (std::size_t axis = 0; axis < units.size(); ++axis) {
+        if (!units.at(axis).empty())
+            w.member(std::string_view("xyzw").substr(axis, 1), std::string_view(units.at(axis)));
+    }
+    w.endObject();
+}
+
 // Writes the member `values`: the second function, if there is one, and the color scale of values.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
     constexpr int kColors = 9;
@@ -67,6 +94,7 @@ void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme
     w.beginObject();
     if (field.second && field.second->array) {
         w.member("variable", std::string_view(field.second->variable));
+        writeQuantity(w, field.second->quantity);
     } else if (field.second) {
         w.member("formula", std::string_view(field.second->formula));
     }
@@ -99,6 +127,8 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
         w.value(double{field.array->statistics().max});
         w.endArray();
         if (!field.array->rangeIsExact()) w.member("estimated", true);
+        writeUnits(w, field.units);
+        writeQuantity(w, field.quantity);
     } else {
         w.member("formula", std::string_view(field.formula));
     }

@@ -131,6 +131,7 @@ async def test_names_of_dimensions_and_attributes(shared, version):
             assert field["shape"] == [10, 8, 6, 4]
             assert field["box"] == [[0, 4.5], [0, 7], [1, 6], [1000, 1180]]
             assert field["range"] == [float(packed.min()) * 0.5 + 2, float(packed.max()) * 0.5 + 2]
+            assert field["quantity"] == {"name": "p", "unit": "Pa"} and "units" not in field
         refused = await refusal(shared, name, variable="q")
         assert refused.code == "not_found"
 

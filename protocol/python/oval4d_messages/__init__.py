@@ -254,6 +254,9 @@ class Measured(_Measured, total=False):
     volume: float
     # Of a cell: the index of its kind in `polytope.kinds` of the `state`.
     kind: int
+    # Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are
+    # known.
+    unit: str
 
 
 class _Pong(TypedDict):
@@ -354,6 +357,23 @@ class StateCamera(TypedDict):
     zoom: float
 
 
+class AxisUnits(TypedDict, total=False):
+    """The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent.
+    At most 64 bytes each."""
+    x: str
+    y: str
+    z: str
+    w: str
+
+
+class Quantity(TypedDict, total=False):
+    """As the file of an array states it; what is not known is absent. At most 64 bytes each."""
+    # Such as "temperature".
+    name: str
+    # Such as "K".
+    unit: str
+
+
 class _ColoringValues(TypedDict):
     # The range of the values on the box, without rare values far from the others. If 0 is in its middle four fifths,
     # the scale is symmetric to 0.
@@ -368,6 +388,8 @@ class ColoringValues(_ColoringValues, total=False):
     formula: str
     # Present if the second function is an array.
     variable: str
+    # Of the second function, if it is an array.
+    quantity: Quantity
 
 
 Interval = list[float]
@@ -392,6 +414,11 @@ class FieldDefinition(_FieldDefinition, total=False):
     range: list[float]
     # Present, and true, if the array is too large to read all of it.
     estimated: bool
+    # The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent.
+    # At most 64 bytes each.
+    units: AxisUnits
+    # As the file of an array states it; what is not known is absent. At most 64 bytes each.
+    quantity: Quantity
     # Present if there is a second function, or if the color or the caps show values.
     values: ColoringValues
 

@@ -1,4 +1,5 @@
 #include <array>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
@@ -6,12 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "fields/array_field.hpp"
 #include "image/png.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "protocol_data/embedded_files.hpp"
 #include "session/example_fields.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
+#include "session/settings.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
@@ -164,6 +167,43 @@ TEST(StateMessage, RestoresAFormulaInANewSession) {
     EXPECT_EQ(fresh.current.look.field, session.current.look.field);
     EXPECT_EQ(fresh.current.slices, session.current.slices);
     EXPECT_EQ(fresh.current.referenceFrame, session.current.referenceFrame);
+}
+
+// A field of an array that states its units, and a second array.
+fields::Field fieldWithUnits() {
+    fields::FieldArray array;
+    array.shape = {2, 1, 1, 1};
+    array.box = {glm::dvec4(-1), glm::dvec4(1)};
+    array.samples = fields::SampleStorage(std::vector<float>{1, 2});
+    array.units = {"m", "", "", "s \"UTC\""};
+    array.quantity = {"temperature", "K"};
+    fields::Field field = *fields::fieldFromArray("run", array);
+    array.quantity = {"", "Pa"};
+    EXPECT_FALSE(fields::setSecondArray(field, array, "p"));
+    return field;
+}
+
+TEST(StateMessage, HasTheUnitsOfFields) {
+    Session session;
+    session::ObjectLoader loader({}, support::cache());
+    fields::Field field = fieldWithUnits();
+    const auto fieldIn = [&](const fields::Field& shown) {
+        EXPECT_TRUE(session::replaceObject(session.current, std::make_shared<const fields::Field>(shown), loader));
+        return fitting(wire::stateMessage(session.current, {}, 1)).at("field");
+    };
+    const json units = json::parse(R"({"x":"m","w":"s \"UTC\""})");
+    session.current.referenceFrame.pace = 2;
+    const json message = fieldIn(field);
+    EXPECT_EQ(message.at("units"), units) << "of the box, in each frame of reference";
+    EXPECT_EQ(message.at("quantity"), json::parse(R"({"name":"temperature","unit":"K"})"));
+    EXPECT_EQ(message.at("values").at("quantity"), json::parse(R"({"unit":"Pa"})"));
+    ASSERT_TRUE(setCommandFromState(wire::stateMessage(session.current, {}, 1)));
+    field.units = {};
+    field.quantity = {};
+    field.second.reset();
+    const json plain = fieldIn(field);
+    EXPECT_FALSE(plain.contains("units"));
+    EXPECT_FALSE(plain.contains("quantity"));
 }
 
 TEST(StateMessage, IsFoundInFiles) {
